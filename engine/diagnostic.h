@@ -1,0 +1,89 @@
+// engine/diagnostic.h: the text of a pattern file, places in it, and what is wrong at them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A place as editors count: lines and columns (code points) from 1.
+struct Place {
+    int line = 1;
+    int column = 1;
+    bool operator==(const Place&) const = default;
+};
+
+/// A named text that diagnostics point into: a file, standard input, or an option of the command line.
+/// Immutable; shared by every Span cut from it.
+struct Source {
+    std::string name;      ///< as the user gave it: a path, "-", "--set"
+    std::string text;      ///< the bytes as they were read
+    std::string cleaned;   ///< the same length: comments, continuations and carriage returns blanked
+
+    Source(std::string name, std::string text);
+    /// Cost: linear in the offset.
+    Place place(std::size_t at) const;
+};
+using SourcePointer = std::shared_ptr<const Source>;
+
+/// A piece of a source. Keeps the source alive.
+struct Span {
+    SourcePointer source;
+    std::size_t at = 0;       ///< byte offset into the source
+    std::size_t length = 0;   ///< bytes
+
+    std::string_view view() const;                                 ///< the cleaned text
+    Span part(std::size_t begin, std::size_t count = std::string_view::npos) const;  ///< relative, clipped
+    Span trimmed() const;                                          ///< without blanks at both ends
+    bool empty() const { return length == 0; }
+};
+
+/// One thing wrong (or, as a warning, doubtful) at one place.
+struct Diagnostic {
+    std::string file;
+    Place where;
+    std::string message;
+    std::string excerpt;      ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
+    bool warning = false;
+
+    /// `file:line:column: message`, the excerpt and the caret below it.
+    std::string text() const;
+};
+
+/// Collects the mistakes of a file; all are reported at once. Past 100 errors only the number is kept.
+class Diagnostics {
+public:
+    void error(const Span& where, std::string message) { add(where, std::move(message), false); }
+    void warning(const Span& where, std::string message) { add(where, std::move(message), true); }
+    const std::vector<Diagnostic>& list() const { return list_; }
+    bool has_errors() const { return errors_ > 0; }
+    /// Throws PatternError with everything collected, sorted by place, if there is an error.
+    void throw_if_errors() const;
+
+private:
+    void add(const Span& where, std::string message, bool warning);
+    std::vector<Diagnostic> list_;
+    std::size_t errors_ = 0;
+};
+
+/// A pattern that cannot be used: every diagnostic of it. what() is their text.
+class PatternError : public std::runtime_error {
+public:
+    explicit PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors);
+    const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+private:
+    std::vector<Diagnostic> diagnostics_;
+};
+
+/// The one of `known` nearest to `word` by edit distance, or empty if none is near enough to be meant.
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known);
+
+/// The whole of `text` as a finite decimal number in any locale, or false.
+bool read_number(std::string_view text, double& value);
+
+}  // namespace sikku

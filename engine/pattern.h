@@ -1,0 +1,84 @@
+// engine/pattern.h: a pattern file as plain data with places; nothing is interpreted yet.
+#pragma once
+
+#include "engine/diagnostic.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// `name: value`. `name` is folded: lower case, single blanks.
+struct Key {
+    std::string name;
+    Span name_at;
+    Span value;
+};
+
+/// `define NAME = EXPRESSION`.
+struct Define {
+    Span name;
+    Span value;
+};
+
+/// One production, cut at its separators; what is absent is nullopt.
+struct ProductionText {
+    Span whole;
+    std::optional<Span> left;
+    Span predecessor;
+    std::optional<Span> right;
+    std::optional<Span> condition;
+    Span successor;
+    std::optional<Span> weight;
+};
+
+/// `table NAME:` and the productions up to the next.
+struct TableText {
+    Span name;
+    std::vector<ProductionText> productions;
+};
+
+/// `variant NAME: a = 1, derivation length = 3`: what differs from the file.
+struct Variant {
+    Span name;
+    std::vector<Key> settings;
+};
+
+/// A setting from outside the file that overrides it: `--set key=value`.
+struct Setting {
+    std::string key;
+    std::string value;
+};
+
+/// What a pattern file states. Keys hold the final values, overrides applied, in the order of the file.
+struct Pattern {
+    SourcePointer source;
+    std::vector<Key> keys;
+    std::vector<Define> defines;
+    std::vector<ProductionText> common;       ///< productions before the first table
+    std::vector<TableText> tables;
+    std::vector<ProductionText> interpret;    ///< the homomorphism
+    std::vector<Variant> variants;
+
+    /// The key of that folded name, or null.
+    const Key* find(std::string_view name) const;
+    /// The value of a free-text key (`title`, `source`, `description`), or empty.
+    std::string text(std::string_view name) const;
+};
+
+/// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
+/// Refuses over 64 MB, bytes that are no UTF-8, control characters. Cost: linear.
+Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
+
+/// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
+/// A setting whose name is a define of the file replaces it, else it is a key.
+void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
+                     Diagnostics& diagnostics);
+
+/// Reports every key that is in none of the lists, with the nearest known one.
+void check_keys(const Pattern& pattern, const std::vector<std::string_view>& interpreter_keys,
+                Diagnostics& diagnostics);
+
+}  // namespace sikku
