@@ -1,0 +1,23 @@
+// art/colour.h: colours as CSS writes them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// 8 bits a channel, sRGB, straight (not premultiplied) alpha.
+struct Colour {
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    bool operator==(const Colour&) const = default;
+};
+
+/// `#rgb`, `#rgba`, `#rrggbb`, `#rrggbbaa`, the 148 names of CSS Color 4 in any case, or `transparent`.
+std::optional<Colour> parse_colour(std::string_view text);
+
+/// `#rrggbb`; alpha is not part of it.
+std::string hex(Colour colour);
+
+}  // namespace sikku

@@ -1,0 +1,42 @@
+// art/image_file.h: raster files through OpenImageIO, which is loaded only when the first one is made.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace sikku {
+
+struct ImageSpec {
+    std::string format;         ///< `png`, `tif`, `jpg` or `exr`
+    int width = 0, height = 0;
+    int channels = 3;           ///< 1, 3 or 4
+    double dpi = 300.0;
+    int threads = 1;
+    std::string title;          ///< Title where the format has one
+    std::string description;    ///< ImageDescription
+    std::string software;       ///< Software
+};
+
+/// One raster file being written; rows from top to bottom, 8 bits a channel. Failures are std::runtime_error.
+class ImageWriter {
+public:
+    virtual ~ImageWriter() = default;
+    virtual void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) = 0;
+    virtual void close() = 0;
+};
+
+/// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
+std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);
+
+/// Description and software text of a raster file, or nullopt if it cannot be read as an image.
+struct ImageText {
+    std::string description;
+    std::string software;
+};
+std::optional<ImageText> read_image_text(const std::filesystem::path& path);
+
+}  // namespace sikku

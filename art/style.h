@@ -1,0 +1,48 @@
+// art/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette.
+#pragma once
+
+#include "art/colour.h"
+#include "engine/path.h"
+#include "engine/pattern.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+enum class Line { straight, spline };
+
+/// A pen's width, in millimetres or as a fraction of the turtle's step.
+struct StrokeWidth {
+    double value = 0.4;
+    bool in_steps = false;
+};
+
+struct Style {
+    Line line = Line::straight;
+    StrokeWidth stroke;
+    std::optional<Colour> stroke_colour;      ///< of colour index 0; absent: the palette's first
+    bool stroked = true;                      ///< false for `stroke: none`
+    std::optional<Colour> ground;             ///< absent: transparent
+    std::optional<Colour> fill;               ///< of polygons and discs with colour index 0; absent: the palette's
+    std::vector<Colour> palette;              ///< never empty after read_style
+
+    /// The colour index as a number in [0, palette.size()).
+    int index(const Pen& pen) const;
+    Colour line_colour(const Pen& pen) const;
+    Colour fill_colour(const Pen& pen) const;
+    /// Width of a pen's line in millimetres when a step is `step` millimetres long.
+    double line_width(const Pen& pen, double step) const;
+};
+
+/// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each
+/// optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
+/// `palette` (a list of colours, separated by blanks or commas).
+std::vector<std::string_view> style_keys();
+
+/// Reads and checks them; what is absent keeps its default: straight, 0.4 mm, black on white, and a palette of
+/// eight colours that are told apart by everyone. px in lengths is by `dpi`.
+Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics);
+
+}  // namespace sikku
