@@ -20,9 +20,9 @@ struct Place {
 /// A named text that diagnostics point into: a file, standard input, or an option of the command line.
 /// Immutable; shared by every Span cut from it.
 struct Source {
-    std::string name;      ///< as the user gave it: a path, "-", "--set"
-    std::string text;      ///< the bytes as they were read
-    std::string cleaned;   ///< the same length: comments, continuations and carriage returns blanked
+    std::string name;     ///< as the user gave it: a path, "-", "--set"
+    std::string text;     ///< the bytes as they were read
+    std::string cleaned;  ///< the same length: comments, continuations and carriage returns blanked
 
     Source(std::string name, std::string text);
     /// Cost: linear in the offset.
@@ -33,12 +33,12 @@ using SourcePointer = std::shared_ptr<const Source>;
 /// A piece of a source. Keeps the source alive.
 struct Span {
     SourcePointer source;
-    std::size_t at = 0;       ///< byte offset into the source
-    std::size_t length = 0;   ///< bytes
+    std::size_t at = 0;      ///< byte offset into the source
+    std::size_t length = 0;  ///< bytes
 
-    std::string_view view() const;                                 ///< the cleaned text
+    std::string_view view() const;                                                   ///< the cleaned text
     Span part(std::size_t begin, std::size_t count = std::string_view::npos) const;  ///< relative, clipped
-    Span trimmed() const;                                          ///< without blanks at both ends
+    Span trimmed() const;                                                            ///< without blanks at both ends
     bool empty() const { return length == 0; }
 };
 
@@ -47,7 +47,7 @@ struct Diagnostic {
     std::string file;
     Place where;
     std::string message;
-    std::string excerpt;      ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
+    std::string excerpt;  ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
     bool warning = false;
 
     /// `file:line:column: message`, the excerpt and the caret below it.

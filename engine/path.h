@@ -9,9 +9,9 @@ namespace sikku {
 /// How the line looks from here on. The colour is an index into the style's palette; it may be negative or
 /// past the palette's end, and is then taken modulo its size.
 struct Pen {
-    double width = 1.0;        ///< a factor of the style's stroke width, or, if `width_set`, a width in its unit
-    bool width_set = false;    ///< set by `#(w)` or `!(w)`
-    int colour = 0;            ///< stepped by `'` `;` `,`
+    double width = 1.0;      ///< a factor of the style's stroke width, or, if `width_set`, a width in its unit
+    bool width_set = false;  ///< set by `#(w)` or `!(w)`
+    int colour = 0;          ///< stepped by `'` `;` `,`
 
     bool operator==(const Pen&) const = default;
 };

@@ -46,8 +46,9 @@ struct Variant {
     std::vector<Key> settings;
 };
 
-/// A setting from outside the file that overrides it: `--set key=value`.
+/// A setting from outside the file that overrides it.
 struct Setting {
+    std::string origin;  ///< where it was said, for messages: `--set`, `-n`
     std::string key;
     std::string value;
 };
@@ -57,9 +58,9 @@ struct Pattern {
     SourcePointer source;
     std::vector<Key> keys;
     std::vector<Define> defines;
-    std::vector<ProductionText> common;       ///< productions before the first table
+    std::vector<ProductionText> common;  ///< productions before the first table
     std::vector<TableText> tables;
-    std::vector<ProductionText> interpret;    ///< the homomorphism
+    std::vector<ProductionText> interpret;  ///< the homomorphism
     std::vector<Variant> variants;
 
     /// The key of that folded name, or null.

@@ -1,0 +1,209 @@
+#include "engine/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_errors = 50;
+
+bool is_continuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
+}
+bool is_blank(char byte) {
+    return byte == ' ' || byte == '\t';
+}
+
+/// Comments, continued line ends, carriage returns before a line end and a byte order mark become blanks, so that
+/// offsets stay those of the file.
+std::string clean(const std::string& text) {
+    std::string cleaned = text;
+    const auto blank = [&](std::size_t begin, std::size_t end) {
+        std::fill(cleaned.begin() + static_cast<std::ptrdiff_t>(begin),
+                  cleaned.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    };
+    std::size_t at = 0;
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        blank(0, 3);
+        at = 3;
+    }
+    bool only_blanks = true;  // of the logical line so far
+    while (at < text.size()) {
+        const char byte = text[at];
+        if (byte == '\n') {
+            std::size_t last = at;
+            if (last > 0 && text[last - 1] == '\r') blank(--last, at);
+            if (last >= 2 && cleaned[last - 1] == '\\' && is_blank(cleaned[last - 2])) {
+                blank(last - 1, at + 1);
+            } else {
+                only_blanks = true;
+            }
+            ++at;
+        } else if (byte == '/' && text.compare(at, 2, "//") == 0 && only_blanks) {
+            std::size_t end = text.find('\n', at);
+            if (end == std::string::npos) end = text.size();
+            blank(at, end);
+            at = end;
+        } else if (byte == '/' && text.compare(at, 2, "/*") == 0) {
+            const std::size_t close = text.find("*/", at + 2);
+            const std::size_t end = close == std::string::npos ? text.size() : close + 2;
+            // An unterminated comment is left as it is, so that the parser meets and reports it.
+            if (close == std::string::npos) break;
+            blank(at, end);
+            at = end;
+        } else {
+            if (!is_blank(byte)) only_blanks = false;
+            ++at;
+        }
+    }
+    if (cleaned.ends_with('\r')) cleaned.back() = ' ';
+    return cleaned;
+}
+
+/// At most 80 columns of the line around `at`, tabs and what is no printable text shown as a blank or '?', and
+/// the caret's column within it.
+std::string excerpt(const std::string& text, std::size_t at) {
+    at = std::min(at, text.size());
+    std::size_t begin = at;
+    int before = 0;
+    while (begin > 0 && text[begin - 1] != '\n' && before < 50) {
+        --begin;
+        if (!is_continuation(text[begin])) ++before;
+    }
+    while (begin < at && is_continuation(text[begin])) ++begin;
+    std::string line;
+    std::string caret;
+    int columns = 0;
+    for (std::size_t i = begin; i < text.size() && text[i] != '\n' && columns < 80;) {
+        std::size_t end = i + 1;
+        while (end < text.size() && is_continuation(text[end])) ++end;
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t needed = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
+        if (text[i] == '\r') {
+            i = end;
+            continue;
+        }
+        if (lead == '\t') {
+            line += ' ';
+        } else if (lead < 0x20 || lead == 0x7F || needed != end - i) {
+            line += '?';
+        } else {
+            line.append(text, i, end - i);
+        }
+        if (i < at) caret += ' ';
+        ++columns;
+        i = end;
+    }
+    return line + '\n' + caret + '^';
+}
+
+std::string text_of(const std::vector<Diagnostic>& list, std::size_t errors) {
+    std::string text;
+    for (const Diagnostic& diagnostic : list) {
+        if (!text.empty()) text += '\n';
+        text += diagnostic.text();
+    }
+    if (errors > most_errors) text += fmt::format("\n{} more errors are not shown", errors - most_errors);
+    return text;
+}
+
+}  // namespace
+
+Source::Source(std::string given_name, std::string given_text)
+    : name(std::move(given_name)), text(std::move(given_text)), cleaned(clean(text)) {}
+
+Place Source::place(std::size_t at) const {
+    at = std::min(at, text.size());
+    const auto begin = text.begin();
+    const auto here = begin + static_cast<std::ptrdiff_t>(at);
+    const std::size_t newline = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+    std::size_t line_begin = newline == std::string::npos ? 0 : newline + 1;
+    if (line_begin == 0 && text.starts_with("\xEF\xBB\xBF") && at >= 3) line_begin = 3;
+    const auto columns = std::count_if(begin + static_cast<std::ptrdiff_t>(line_begin), here,
+                                       [](char byte) { return !is_continuation(byte); });
+    return {static_cast<int>(std::count(begin, here, '\n')) + 1, static_cast<int>(columns) + 1};
+}
+
+std::string_view Span::view() const {
+    return source ? std::string_view(source->cleaned).substr(at, length) : std::string_view();
+}
+
+Span Span::part(std::size_t begin, std::size_t count) const {
+    begin = std::min(begin, length);
+    return {source, at + begin, std::min(count, length - begin)};
+}
+
+Span Span::trimmed() const {
+    const std::string_view text = view();
+    std::size_t begin = 0;
+    std::size_t end = text.size();
+    while (begin < end && is_blank(text[begin])) ++begin;
+    while (end > begin && is_blank(text[end - 1])) --end;
+    return part(begin, end - begin);
+}
+
+std::string Diagnostic::text() const {
+    return fmt::format("{}:{}:{}: {}{}\n{}", file, where.line, where.column, warning ? "warning: " : "", message,
+                       excerpt);
+}
+
+void Diagnostics::add(const Span& where, std::string message, bool warning) {
+    if (!warning && ++errors_ > most_errors) return;
+    if (warning && list_.size() >= 2 * most_errors) return;
+    if (!where.source) {
+        list_.push_back({"", {}, std::move(message), "", warning});
+        return;
+    }
+    list_.push_back({where.source->name, where.source->place(where.at), std::move(message),
+                     excerpt(where.source->text, where.at), warning});
+}
+
+void Diagnostics::throw_if_errors() const {
+    if (!has_errors()) return;
+    std::vector<Diagnostic> sorted = list_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Diagnostic& a, const Diagnostic& b) {
+        return a.file == b.file &&
+               (a.where.line != b.where.line ? a.where.line < b.where.line : a.where.column < b.where.column);
+    });
+    throw PatternError(std::move(sorted), errors_);
+}
+
+PatternError::PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors)
+    : std::runtime_error(text_of(diagnostics, errors)), diagnostics_(std::move(diagnostics)) {}
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
+    if (word.size() > 64) return {};
+    std::string_view best;
+    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string_view candidate : known) {
+        std::vector<std::size_t> row(candidate.size() + 1);
+        for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+        for (std::size_t i = 1; i <= word.size(); ++i) {
+            std::size_t diagonal = row[0];
+            row[0] = i;
+            for (std::size_t j = 1; j < row.size(); ++j) {
+                const std::size_t substituted = diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1);
+                diagonal = row[j];
+                row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+            }
+        }
+        if (row.back() < best_distance) {
+            best_distance = row.back();
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+bool read_number(std::string_view text, double& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && !text.empty() && std::isfinite(value);
+}
+
+}  // namespace sikku

@@ -1,0 +1,425 @@
+#include "engine/pattern.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr std::size_t most_nesting = std::size_t{1} << 20;
+
+constexpr std::array<std::string_view, 17> engine_keys = {
+    "axiom",      "derivation length", "angle factor", "angle increment", "turn",     "heading", "forward", "move",
+    "ignore",     "consider",          "symbols",      "scale factor",    "schedule", "seed",    "title",   "source",
+    "description"};
+
+bool is_engine_key(std::string_view name) {
+    return std::find(engine_keys.begin(), engine_keys.end(), name) != engine_keys.end();
+}
+
+std::string folded(std::string_view name) {
+    std::string result;
+    for (const char byte : name) {
+        if (byte == ' ' || byte == '\t') {
+            if (!result.empty() && result.back() != ' ') result += ' ';
+        } else {
+            result += byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte - 'A' + 'a') : byte;
+        }
+    }
+    while (result.ends_with(' ')) result.pop_back();
+    return result;
+}
+
+/// The first byte that is no valid UTF-8 or a control character that no text has, or npos.
+std::size_t first_bad_byte(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        if (lead < 0x80) {
+            if (lead == 0) return i;
+            ++i;
+            continue;
+        }
+        const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+        if (lead < 0xC2 || lead > 0xF4 || i + length > text.size()) return i;
+        for (std::size_t k = 1; k < length; ++k) {
+            if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
+        }
+        const auto second = static_cast<unsigned char>(text[i + 1]);
+        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
+            (lead == 0xF4 && second > 0x8F)) {
+            return i;
+        }
+        i += length;
+    }
+    return std::string_view::npos;
+}
+
+/// Finds `wanted` outside parentheses at or after `from`, or npos.
+std::size_t find_outside(std::string_view text, std::string_view wanted, std::size_t from = 0) {
+    int depth = 0;
+    for (std::size_t i = from; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        if (text[i] == ')' && depth > 0) --depth;
+        if (depth == 0 && text.compare(i, wanted.size(), wanted) == 0) return i;
+    }
+    return std::string_view::npos;
+}
+
+std::size_t rfind_outside(std::string_view text, char wanted) {
+    int depth = 0;
+    std::size_t found = std::string_view::npos;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        if (text[i] == ')' && depth > 0) --depth;
+        if (depth == 0 && text[i] == wanted) found = i;
+    }
+    return found;
+}
+
+class Parser {
+public:
+    Parser(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+
+    void run() {
+        const std::string& text = pattern_.source->cleaned;
+        for (std::size_t at = 0; at < text.size();) {
+            std::size_t end = text.find('\n', at);
+            if (end == std::string::npos) end = text.size();
+            line(Span{pattern_.source, at, end - at}.trimmed());
+            at = end + 1;
+        }
+    }
+
+private:
+    enum class Section { common, table, interpret };
+
+    void line(const Span& whole) {
+        if (whole.empty()) return;
+        const std::string_view text = whole.view();
+        const std::size_t colon = text.find(':');
+        const std::string key = colon == std::string_view::npos ? "" : folded(text.substr(0, colon));
+        if (key == "title" || key == "source" || key == "description") return add_key(whole, key, colon);
+        if (!nesting_is_sane(whole)) return;
+        if (const std::size_t comment = text.find("/*"); comment != std::string_view::npos) {
+            return diagnostics_.error(whole.part(comment), "this comment has no end: expected '*/'");
+        }
+        warn_of_late_comment(whole);
+        if (const std::size_t arrow = find_outside(text, "-->"); arrow != std::string_view::npos) {
+            return production(whole, arrow);
+        }
+        if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
+        if (colon == std::string_view::npos) {
+            const std::size_t wrong_arrow = text.find("\xE2\x86\x92");  // →
+            return diagnostics_.error(
+                wrong_arrow != std::string_view::npos ? whole.part(wrong_arrow) : whole,
+                wrong_arrow != std::string_view::npos
+                    ? "'→' is no arrow here: write '-->'"
+                    : "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a production with '-->'");
+        }
+        if (key == "interpret") return interpret(whole, colon);
+        if (starts_with_word(key, "table")) return table(whole, colon);
+        if (starts_with_word(key, "variant")) return variant(whole, colon);
+        if (key.empty()) return diagnostics_.error(whole, "expected the name of a key before ':'");
+        add_key(whole, key, colon);
+    }
+
+    static bool starts_with_word(std::string_view text, std::string_view word) {
+        if (text.size() <= word.size()) return text == word;
+        return folded(text.substr(0, word.size())) == word && (text[word.size()] == ' ' || text[word.size()] == '\t');
+    }
+
+    bool nesting_is_sane(const Span& whole) {
+        std::size_t depth = 0;
+        const std::string_view text = whole.view();
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] == '(' && ++depth > most_nesting) {
+                diagnostics_.error(whole.part(i), "parentheses nest deeper than 1,048,576");
+                return false;
+            }
+            if (text[i] == ')' && depth > 0) --depth;
+        }
+        return true;
+    }
+
+    /// ` // ` before letters in a word is two rolls, but was perhaps meant as a comment.
+    void warn_of_late_comment(const Span& whole) {
+        const std::string_view text = whole.view();
+        for (std::size_t i = text.find(" // "); i != std::string_view::npos; i = text.find(" // ", i + 1)) {
+            const std::size_t next = text.find_first_not_of(" \t", i + 4);
+            if (next == std::string_view::npos) continue;
+            const char letter = text[next];
+            if ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z')) {
+                diagnostics_.warning(whole.part(i + 1),
+                                     "'//' is a comment only at the beginning of a line; here it is two rolls");
+                return;
+            }
+        }
+    }
+
+    void add_key(const Span& whole, const std::string& name, std::size_t colon) {
+        const Key key{name, whole.part(0, colon).trimmed(), whole.part(colon + 1).trimmed()};
+        if (!key_names_.insert(name).second) {
+            return diagnostics_.error(key.name_at, fmt::format("'{}:' is given twice", name));
+        }
+        pattern_.keys.push_back(key);
+    }
+
+    void define(const Span& whole) {
+        const bool hashed = whole.view().starts_with('#');
+        const Span rest = whole.part(hashed ? 7 : 6).trimmed();
+        const std::string_view text = rest.view();
+        std::size_t end = 0;
+        while (end < text.size() && text[end] != ' ' && text[end] != '\t' && text[end] != '=') ++end;
+        const Span name = rest.part(0, end);
+        Span value = rest.part(end).trimmed();
+        if (!value.view().starts_with('=')) {
+            if (!hashed) return diagnostics_.error(value.empty() ? rest : value, "expected '=' after the name");
+        } else {
+            value = value.part(1).trimmed();
+        }
+        if (name.empty()) return diagnostics_.error(whole, "expected a name after 'define'");
+        if (value.empty()) {
+            return diagnostics_.error(name, fmt::format("'{}' is defined without a value", name.view()));
+        }
+        if (!define_names_.insert(std::string(name.view())).second) {
+            return diagnostics_.error(name, fmt::format("'{}' is defined twice", name.view()));
+        }
+        pattern_.defines.push_back({name, value});
+    }
+
+    void table(const Span& whole, std::size_t colon) {
+        const Span name = whole.part(5, colon - 5).trimmed();
+        if (name.empty()) return diagnostics_.error(whole, "expected the table's name: 'table NAME:'");
+        const Span rest = whole.part(colon + 1).trimmed();
+        if (!rest.empty()) {
+            diagnostics_.error(rest, "a table's productions stand on the lines after its name");
+        }
+        if (!table_names_.insert(std::string(name.view())).second) {
+            diagnostics_.error(name, fmt::format("there are two tables '{}'", name.view()));
+        }
+        section_ = Section::table;
+        pattern_.tables.push_back({name, {}});
+    }
+
+    void interpret(const Span& whole, std::size_t colon) {
+        if (interpret_seen_) return diagnostics_.error(whole, "'interpret:' is given twice");
+        interpret_seen_ = true;
+        section_ = Section::interpret;
+        const Span rest = whole.part(colon + 1).trimmed();
+        if (!rest.empty()) diagnostics_.error(rest, "the productions of 'interpret:' stand on the lines after it");
+    }
+
+    void variant(const Span& whole, std::size_t colon) {
+        const Span name = whole.part(7, colon - 7).trimmed();
+        if (name.empty()) return diagnostics_.error(whole, "expected the variant's name: 'variant NAME:'");
+        for (const Variant& other : pattern_.variants) {
+            if (other.name.view() == name.view()) {
+                return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
+            }
+        }
+        Variant result{name, {}};
+        const Span list = whole.part(colon + 1).trimmed();
+        if (list.empty()) return diagnostics_.error(name, "expected 'key = value' after the variant's name");
+        for (const Span& item : split_settings(list)) {
+            const std::size_t equals = item.view().find('=');
+            if (equals == std::string_view::npos || item.part(0, equals).trimmed().empty()) {
+                diagnostics_.error(item.empty() ? name : item, "expected 'key = value'");
+                continue;
+            }
+            const Span key = item.part(0, equals).trimmed();
+            result.settings.push_back({std::string(key.view()), key, item.part(equals + 1).trimmed()});
+        }
+        pattern_.variants.push_back(std::move(result));
+    }
+
+    /// At commas outside parentheses that are followed by `name =`: a comma may also be a symbol of a word.
+    static std::vector<Span> split_settings(const Span& list) {
+        std::vector<Span> items;
+        const std::string_view text = list.view();
+        std::size_t begin = 0;
+        for (std::size_t comma = find_outside(text, ","); comma != std::string_view::npos;
+             comma = find_outside(text, ",", comma + 1)) {
+            const std::size_t next = text.find_first_of(",=", comma + 1);
+            if (next != std::string_view::npos && text[next] == ',') continue;
+            items.push_back(list.part(begin, comma - begin).trimmed());
+            begin = comma + 1;
+        }
+        items.push_back(list.part(begin).trimmed());
+        return items;
+    }
+
+    void production(const Span& whole, std::size_t arrow) {
+        const Span left_side = whole.part(0, arrow).trimmed();
+        const Span right_side = whole.part(arrow + 3).trimmed();
+        const std::string_view left = left_side.view();
+        ProductionText result;
+        result.whole = whole;
+        if (const std::size_t second = find_outside(right_side.view(), "-->"); second != std::string_view::npos) {
+            return diagnostics_.error(right_side.part(second), "a second '-->' in one line: one production each");
+        }
+        std::size_t end = left.size();
+        if (const std::size_t colon = find_outside(left, ":"); colon != std::string_view::npos) {
+            result.condition = left_side.part(colon + 1).trimmed();
+            end = colon;
+        }
+        std::size_t begin = 0;
+        const std::string_view before_condition = left.substr(0, end);
+        if (const std::size_t less = find_outside(before_condition, "<"); less != std::string_view::npos) {
+            result.left = left_side.part(0, less).trimmed();
+            begin = less + 1;
+        }
+        if (const std::size_t greater = find_outside(before_condition, ">", begin);
+            greater != std::string_view::npos) {
+            result.right = left_side.part(greater + 1, end - greater - 1).trimmed();
+            end = greater;
+        }
+        result.predecessor = left_side.part(begin, end - begin).trimmed();
+        result.successor = right_side;
+        if (const std::size_t colon = rfind_outside(right_side.view(), ':'); colon != std::string_view::npos) {
+            result.weight = right_side.part(colon + 1).trimmed();
+            result.successor = right_side.part(0, colon).trimmed();
+        }
+        if (result.predecessor.empty()) {
+            return diagnostics_.error(whole, "expected a predecessor before '-->'");
+        }
+        switch (section_) {
+            case Section::common:
+                pattern_.common.push_back(std::move(result));
+                break;
+            case Section::table:
+                pattern_.tables.back().productions.push_back(std::move(result));
+                break;
+            case Section::interpret:
+                pattern_.interpret.push_back(std::move(result));
+                break;
+        }
+    }
+
+    Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    Section section_ = Section::common;
+    bool interpret_seen_ = false;
+    std::set<std::string, std::less<>> key_names_;
+    std::set<std::string, std::less<>> define_names_;
+    std::set<std::string, std::less<>> table_names_;
+};
+
+void override_one(Pattern& pattern, std::string_view name, const Span& name_at, const Span& value) {
+    for (Define& define : pattern.defines) {
+        if (define.name.view() == name) {
+            define.value = value;
+            return;
+        }
+    }
+    const std::string key = folded(name);
+    // Of two keys that exclude each other the one set later wins.
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 2> exclusive = {
+        std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
+    for (const auto& [one, other] : exclusive) {
+        if (key != one && key != other) continue;
+        std::erase_if(pattern.keys, [&](const Key& present) { return present.name == (key == one ? other : one); });
+    }
+    for (Key& present : pattern.keys) {
+        if (present.name == key) {
+            present.name_at = name_at;
+            present.value = value;
+            return;
+        }
+    }
+    pattern.keys.push_back({key, name_at, value});
+}
+
+}  // namespace
+
+const Key* Pattern::find(std::string_view name) const {
+    for (const Key& key : keys) {
+        if (key.name == name) return &key;
+    }
+    return nullptr;
+}
+
+std::string Pattern::text(std::string_view name) const {
+    const Key* key = find(name);
+    return key ? std::string(key->value.view()) : std::string();
+}
+
+Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics) {
+    Pattern pattern;
+    if (text.size() > most_bytes) {
+        text.resize(most_bytes);
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+        const auto source = std::make_shared<const Source>(std::move(name), std::move(text));
+        diagnostics.error({source, source->text.size(), 0}, "a pattern file is at most 64 MB");
+        pattern.source = source;
+        return pattern;
+    }
+    const std::size_t bad = first_bad_byte(text);
+    pattern.source = std::make_shared<const Source>(std::move(name), std::move(text));
+    if (bad != std::string::npos) {
+        diagnostics.error({pattern.source, bad, 1}, pattern.source->text[bad] == 0
+                                                        ? "a NUL byte: this is no pattern file"
+                                                        : "a byte that is no UTF-8: this is no pattern file");
+        return pattern;
+    }
+    Parser(pattern, diagnostics).run();
+    return pattern;
+}
+
+void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
+                     Diagnostics& diagnostics) {
+    if (!variant.empty()) {
+        const auto chosen = std::find_if(pattern.variants.begin(), pattern.variants.end(),
+                                         [&](const Variant& other) { return other.name.view() == variant; });
+        if (chosen == pattern.variants.end()) {
+            std::vector<std::string_view> known;
+            std::string list;
+            for (const Variant& other : pattern.variants) {
+                known.push_back(other.name.view());
+                list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
+            }
+            const auto source = std::make_shared<const Source>("--variant", std::string(variant));
+            diagnostics.error({source, 0, variant.size()}, known.empty()
+                                                               ? "this pattern has no variants"
+                                                               : fmt::format("no such variant; there are: {}", list));
+        } else {
+            for (const Key& setting : chosen->settings) {
+                override_one(pattern, setting.name, setting.name_at, setting.value);
+            }
+        }
+    }
+    for (const Setting& setting : settings) {
+        const auto source = std::make_shared<const Source>(setting.origin, setting.key + "=" + setting.value);
+        const Span whole{source, 0, source->text.size()};
+        if (first_bad_byte(source->text) != std::string_view::npos || source->text.find('\n') != std::string::npos) {
+            diagnostics.error(whole, "a setting is one line of UTF-8");
+            continue;
+        }
+        const Span name = whole.part(0, setting.key.size()).trimmed();
+        if (name.empty()) {
+            diagnostics.error(whole, "expected key=value");
+            continue;
+        }
+        override_one(pattern, name.view(), name, whole.part(setting.key.size() + 1).trimmed());
+    }
+}
+
+void check_keys(const Pattern& pattern, const std::vector<std::string_view>& interpreter_keys,
+                Diagnostics& diagnostics) {
+    std::vector<std::string_view> known(engine_keys.begin(), engine_keys.end());
+    known.insert(known.end(), {"interpret", "table", "variant", "define"});
+    known.insert(known.end(), interpreter_keys.begin(), interpreter_keys.end());
+    for (const Key& key : pattern.keys) {
+        if (is_engine_key(key.name)) continue;
+        if (std::find(interpreter_keys.begin(), interpreter_keys.end(), key.name) != interpreter_keys.end()) continue;
+        const std::string_view near = nearest(key.name, known);
+        diagnostics.error(
+            key.name_at, near.empty() ? fmt::format("nobody knows the key '{}'", key.name)
+                                      : fmt::format("nobody knows the key '{}'; did you mean '{}'?", key.name, near));
+    }
+}
+
+}  // namespace sikku
