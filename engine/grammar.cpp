@@ -1,0 +1,879 @@
+#include "engine/grammar.h"
+
+#include "engine/expression.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <unordered_map>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
+
+std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
+    if (denominator <= 0 || denominator > largest_term) return std::nullopt;
+    const std::int64_t divisor = std::gcd(numerator, denominator);
+    numerator /= divisor;
+    denominator /= divisor;
+    numerator %= denominator;
+    return TurnFraction{numerator, denominator};
+}
+
+/// A decimal as written (`25.7`, `-3`, `1e2`) as a fraction numerator / denominator, if both stay small.
+std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::string_view text) {
+    std::int64_t numerator = 0;
+    std::int64_t denominator = 1;
+    bool negative = false;
+    std::size_t at = 0;
+    if (at < text.size() && (text[at] == '+' || text[at] == '-')) negative = text[at++] == '-';
+    bool point = false;
+    for (; at < text.size() && text[at] != 'e' && text[at] != 'E'; ++at) {
+        if (text[at] == '.') {
+            point = true;
+            continue;
+        }
+        numerator = numerator * 10 + (text[at] - '0');
+        if (point) denominator *= 10;
+        if (numerator > largest_term || denominator > largest_term) return std::nullopt;
+    }
+    if (at < text.size()) {
+        int exponent = 0;
+        std::string_view digits = text.substr(at + 1);
+        if (digits.starts_with('+')) digits.remove_prefix(1);
+        if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) {
+            return std::nullopt;
+        }
+        for (; exponent > 0; --exponent) {
+            numerator *= 10;
+            if (numerator > largest_term) return std::nullopt;
+        }
+        for (; exponent < 0; ++exponent) {
+            denominator *= 10;
+            if (denominator > largest_term) return std::nullopt;
+        }
+    }
+    return std::pair{negative ? -numerator : numerator, denominator};
+}
+
+Angle angle_of_degrees(double degrees) {
+    std::array<char, 64> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees).ptr;
+    Angle angle{degrees, std::nullopt};
+    if (const auto fraction = decimal_fraction({buffer.data(), end})) {
+        if (fraction->second <= largest_term / 360) angle.exact = reduced(fraction->first, fraction->second * 360);
+    }
+    return angle;
+}
+
+Angle negated(const Angle& angle) {
+    Angle result{-angle.degrees, angle.exact};
+    if (result.exact) result.exact->numerator = -result.exact->numerator;
+    return result;
+}
+
+std::size_t code_point_length(char lead) {
+    const auto byte = static_cast<unsigned char>(lead);
+    return byte < 0x80 ? 1 : byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
+}
+
+}  // namespace
+
+struct Grammar::ScheduleItem {
+    std::uint32_t table = 0;
+    Expression count;
+    Span count_at;
+};
+
+class GrammarCompiler {
+public:
+    GrammarCompiler(const Pattern& pattern, Diagnostics& diagnostics)
+        : pattern_(pattern), diagnostics_(diagnostics) {}
+
+    Grammar run() {
+        read_names();
+        read_defines();
+        if (const Key* key = pattern_.find("derivation length")) {
+            if (const auto steps = whole_number(key->value)) grammar_.steps_ = *steps;
+        }
+        read_angles();
+        read_axiom();
+        read_tables();
+        read_contexts();
+        if (const Key* key = pattern_.find("scale factor")) {
+            double percent = 0;
+            if (!read_number(key->value.view(), percent) || percent <= 0 || percent > 100) {
+                diagnostics_.error(key->value, "'scale factor:' is a percentage, above 0 and at most 100");
+            } else {
+                grammar_.scale_percent_ = percent;
+            }
+        }
+        if (const Key* key = pattern_.find("seed")) whole_number(key->value);
+        read_commands();
+        read_schedule();
+        finish_tables();
+        return std::move(grammar_);
+    }
+
+private:
+    // --- names, defines, numbers ---------------------------------------------------------------------------
+
+    void read_names() {
+        const Key* key = pattern_.find("symbols");
+        if (!key) return;
+        const std::string_view text = key->value.view();
+        for (std::size_t at = 0; at < text.size();) {
+            if (text[at] == ' ' || text[at] == '\t') {
+                ++at;
+                continue;
+            }
+            const std::size_t begin = at;
+            while (at < text.size() && text[at] != ' ' && text[at] != '\t') ++at;
+            const std::string_view name = text.substr(begin, at - begin);
+            const auto letter = [](char byte) {
+                return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+            };
+            const bool good = letter(name.front()) && std::all_of(name.begin(), name.end(), [&](char byte) {
+                                  return letter(byte) || (byte >= '0' && byte <= '9');
+                              });
+            if (!good) {
+                const std::size_t comma = name.find(',');
+                diagnostics_.error(key->value.part(begin + (comma == std::string_view::npos ? 0 : comma)),
+                                   comma == std::string_view::npos
+                                       ? "a name is letters and digits, beginning with a letter"
+                                       : "names are separated by blanks, not by commas");
+                return;
+            }
+            if (!name_set_.insert(std::string(name)).second) {
+                diagnostics_.error(key->value.part(begin), fmt::format("'{}' is listed twice", name));
+            }
+        }
+        for (const std::string& name : name_set_) longest_name_ = std::max(longest_name_, name.size());
+        grammar_.names_.assign(name_set_.begin(), name_set_.end());
+    }
+
+    /// Evaluates every define once, those it mentions first; a cycle is an error at each of its members.
+    void read_defines() {
+        std::unordered_map<std::string_view, std::size_t> index;
+        for (std::size_t i = 0; i < pattern_.defines.size(); ++i) index[pattern_.defines[i].name.view()] = i;
+        enum class State : char { fresh, open, done };
+        std::vector<State> state(pattern_.defines.size(), State::fresh);
+        std::vector<std::size_t> stack;
+        for (std::size_t first = 0; first < pattern_.defines.size(); ++first) {
+            stack.push_back(first);
+            while (!stack.empty()) {
+                const std::size_t i = stack.back();
+                const Define& define = pattern_.defines[i];
+                if (state[i] == State::done) {
+                    stack.pop_back();
+                    continue;
+                }
+                if (state[i] == State::fresh) {
+                    state[i] = State::open;
+                    const std::size_t before = stack.size();
+                    for (const std::string_view name : names_in(define.value.view())) {
+                        const auto found = index.find(name);
+                        if (found == index.end() || state[found->second] == State::done) continue;
+                        if (state[found->second] == State::open) {
+                            diagnostics_.error(define.name,
+                                               fmt::format("'{}' is defined by itself", define.name.view()));
+                            defines_[name] = std::numeric_limits<double>::quiet_NaN();
+                            continue;
+                        }
+                        stack.push_back(found->second);
+                    }
+                    if (stack.size() > before) continue;
+                }
+                evaluate_define(define);
+                state[i] = State::done;
+                stack.pop_back();
+            }
+        }
+    }
+
+    static std::vector<std::string_view> names_in(std::string_view text) {
+        std::vector<std::string_view> names;
+        for (std::size_t at = 0; at < text.size();) {
+            if (!continues_name(text[at]) && text[at] != '.') {
+                ++at;
+                continue;
+            }
+            const std::size_t begin = at;
+            while (at < text.size() && (continues_name(text[at]) || text[at] == '.')) ++at;
+            if (begins_name(text[begin])) names.push_back(text.substr(begin, at - begin));
+        }
+        return names;
+    }
+
+    void evaluate_define(const Define& define) {
+        const std::string_view name = define.name.view();
+        const bool good = begins_name(name.front()) && std::all_of(name.begin(), name.end(), continues_name);
+        if (!good) {
+            return diagnostics_.error(define.name, "a define's name is letters, digits and '_', no digit first");
+        }
+        // A value that cannot be read is reported once, not at every use.
+        defines_[name] = constant(define.value).value_or(0.0);
+    }
+
+    NameLookup defines_lookup() const {
+        return [this](std::string_view name) -> std::optional<NameMeaning> {
+            const auto found = defines_.find(name);
+            if (found == defines_.end()) return std::nullopt;
+            return NameMeaning{false, found->second};
+        };
+    }
+
+    std::optional<double> constant(const Span& text) {
+        const auto expression = Expression::compile(text, defines_lookup(), diagnostics_);
+        if (!expression) return std::nullopt;
+        return expression->evaluate();
+    }
+
+    std::optional<std::int64_t> whole_number(const Span& value) {
+        std::int64_t number = 0;
+        const std::string_view text = value.view();
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc() || end != text.data() + text.size() || text.empty() || number < 0) {
+            diagnostics_.error(value, "expected a whole number, 0 or more, below 2^63");
+            return std::nullopt;
+        }
+        return number;
+    }
+
+    // --- angles --------------------------------------------------------------------------------------------
+
+    std::optional<Angle> read_angle(const Span& value) {
+        const std::string_view text = value.view();
+        double numerator = 0;
+        double denominator = 1;
+        const std::size_t slash = text.find('/');
+        const std::string_view over = text.substr(0, slash);
+        if (!read_number(over, numerator) ||
+            (slash != std::string_view::npos && !read_number(text.substr(slash + 1), denominator)) ||
+            denominator == 0 || !std::isfinite(numerator / denominator)) {
+            diagnostics_.error(value, "expected degrees: a number such as 25.7 or a fraction such as 360/7");
+            return std::nullopt;
+        }
+        Angle angle{numerator / denominator, std::nullopt};
+        const auto top = decimal_fraction(over);
+        const auto bottom = slash == std::string_view::npos
+                                ? std::optional(std::pair{std::int64_t{1}, std::int64_t{1}})
+                                : decimal_fraction(text.substr(slash + 1));
+        if (top && bottom && bottom->first != 0) {
+            // (a/b) / (c/d) degrees = a d / (360 b c) turns
+            std::int64_t above = 0;
+            std::int64_t below = 0;
+            if (!__builtin_mul_overflow(top->first, bottom->second, &above) &&
+                !__builtin_mul_overflow(top->second, bottom->first, &below) &&
+                !__builtin_mul_overflow(below, std::int64_t{360}, &below)) {
+                if (below < 0) {
+                    above = -above;
+                    below = -below;
+                }
+                const std::int64_t divisor = std::gcd(above, below);
+                angle.exact = reduced(above / divisor, below / divisor);
+            }
+        }
+        return angle;
+    }
+
+    void read_angles() {
+        const Key* factor = pattern_.find("angle factor");
+        const Key* increment = pattern_.find("angle increment");
+        increment_ = Angle{90.0, TurnFraction{1, 4}};
+        if (factor && increment) {
+            diagnostics_.error(std::max(factor->name_at.at, increment->name_at.at) == factor->name_at.at
+                                   ? factor->name_at
+                                   : increment->name_at,
+                               "'angle factor:' and 'angle increment:' exclude each other");
+        }
+        if (factor) {
+            const auto k = whole_number(factor->value);
+            if (k && (*k < 1 || *k > largest_term)) {
+                diagnostics_.error(factor->value, "the angle factor is a whole number, 1 or more: 360/k degrees");
+            } else if (k) {
+                increment_ = Angle{360.0 / static_cast<double>(*k), reduced(1, *k)};
+            }
+        } else if (increment) {
+            if (const auto angle = read_angle(increment->value)) increment_ = *angle;
+        }
+        grammar_.heading_ = Angle{90.0, TurnFraction{1, 4}};
+        if (const Key* key = pattern_.find("heading")) {
+            if (const auto angle = read_angle(key->value)) grammar_.heading_ = *angle;
+        }
+        if (const Key* key = pattern_.find("turn")) {
+            const std::string_view side = key->value.view();
+            if (side == "left") {
+                plus_turns_left_ = true;
+            } else if (side != "right") {
+                diagnostics_.error(key->value, "expected 'left' or 'right'");
+            }
+        }
+    }
+
+    // --- words ---------------------------------------------------------------------------------------------
+
+    Symbol intern(std::string letter, bool is_name, std::vector<double> arguments) {
+        std::string key = letter;
+        key += '\0';
+        for (const double value : arguments) key += fmt::format("({}", value == 0 ? 0.0 : value);
+        const auto [found, fresh] = symbol_index_.try_emplace(key, static_cast<Symbol>(grammar_.symbols_.size()));
+        if (fresh) {
+            const auto [letter_at, new_letter] =
+                letter_index_.try_emplace(letter, static_cast<std::uint32_t>(grammar_.letters_.size()));
+            if (new_letter) grammar_.letters_.push_back(letter);
+            grammar_.symbols_.push_back({std::move(letter), std::move(arguments), is_name, letter_at->second, {}});
+        }
+        return found->second;
+    }
+
+    /// What may stand in a word.
+    enum class Place { axiom_or_successor, predecessor, context, list };
+
+    /// Reads a word; nullopt after the first mistake in it.
+    std::optional<Word> word(const Span& span, Place place) {
+        Word result;
+        const std::string_view text = span.view();
+        if (text == "*" || text == "\xCE\xB5") return result;  // ε
+        std::size_t at = 0;
+        while (true) {
+            bool blank_before = false;
+            while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) {
+                ++at;
+                blank_before = true;
+            }
+            if (at >= text.size()) return result;
+            const std::size_t begin = at;
+            bool is_name = false;
+            if (!symbol_at(span, text, at, is_name, blank_before)) return std::nullopt;
+            std::string letter(text.substr(begin, at - begin));
+            std::vector<double> arguments;
+            if (at < text.size() && text[at] == '(') {
+                if (place != Place::axiom_or_successor) {
+                    diagnostics_.error(span.part(at), "formal parameters are not supported yet");
+                    return std::nullopt;
+                }
+                if (!read_arguments(span, text, at, arguments)) return std::nullopt;
+            }
+            if (letter == "%" && place != Place::list) {
+                diagnostics_.error(span.part(begin), "the cut symbol '%' is not supported yet");
+                return std::nullopt;
+            }
+            result.push_back(intern(std::move(letter), is_name, std::move(arguments)));
+        }
+    }
+
+    bool symbol_at(const Span& span, std::string_view text, std::size_t& at, bool& is_name, bool blank_before) {
+        const char byte = text[at];
+        const auto wrong = [&](std::string message) {
+            diagnostics_.error(span.part(at), std::move(message));
+            return false;
+        };
+        for (std::size_t length = std::min(longest_name_, text.size() - at); length > 0; --length) {
+            if (name_set_.contains(text.substr(at, length))) {
+                is_name = true;
+                at += length;
+                return true;
+            }
+        }
+        if (byte == '@') {
+            const std::size_t next = at + 1;
+            if (next >= text.size() || text[next] == ' ' || text[next] == '\t' || text[next] == '(') {
+                return wrong("a lone '@' is no symbol: '@' goes with the character after it");
+            }
+            at = next + code_point_length(text[next]);
+            return true;
+        }
+        if (byte == '(') {
+            return wrong(blank_before ? "parameters follow their symbol at once, without a blank"
+                                      : "'(' without a symbol before it");
+        }
+        if (byte == ')') return wrong("')' without '('");
+        if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is no symbol", byte));
+        if (byte == ':') return wrong("':' is no symbol");
+        if (byte == '*') return wrong("'*' is the empty word and stands alone");
+        if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F) {
+            return wrong(
+                fmt::format("a control character (0x{:02x}) is no symbol", static_cast<unsigned char>(byte)));
+        }
+        const std::size_t length = code_point_length(byte);
+        const std::string_view point = text.substr(at, length);
+        struct Lookalike {
+            std::string_view sign, ascii;
+        };
+        static constexpr std::array<Lookalike, 4> lookalikes = {
+            {{"\xE2\x88\x92", "-"}, {"\xE2\x88\xA7", "^"}, {"\xE2\x80\x99", "'"}, {"\xE2\x86\x92", "-->"}}};
+        for (const Lookalike& pair : lookalikes) {
+            if (point == pair.sign) return wrong(fmt::format("'{}' is no symbol: write '{}'", pair.sign, pair.ascii));
+        }
+        // C1 controls are control characters too.
+        if (length == 2 && byte == '\xC2' && static_cast<unsigned char>(point[1]) < 0xA0) {
+            return wrong("a control character is no symbol");
+        }
+        at += length;
+        return true;
+    }
+
+    bool read_arguments(const Span& span, std::string_view text, std::size_t& at, std::vector<double>& arguments) {
+        const std::size_t open = at;
+        std::size_t depth = 0;
+        std::size_t begin = at + 1;
+        for (; at < text.size(); ++at) {
+            if (text[at] == '(') ++depth;
+            const bool last = text[at] == ')' && --depth == 0;
+            if (!last && !(text[at] == ',' && depth == 1)) continue;
+            const Span argument = span.part(begin, at - begin).trimmed();
+            if (argument.empty()) {
+                diagnostics_.error(span.part(begin), "expected a parameter");
+                return false;
+            }
+            const auto value = constant(argument);
+            if (!value) return false;
+            arguments.push_back(*value);
+            begin = at + 1;
+            if (last) {
+                ++at;
+                return true;
+            }
+        }
+        diagnostics_.error(span.part(open), "this '(' is not closed");
+        return false;
+    }
+
+    void read_axiom() {
+        const Key* key = pattern_.find("axiom");
+        if (!key) {
+            diagnostics_.error({pattern_.source, 0, 0}, "there is no 'axiom:'");
+        } else if (key->value.empty()) {
+            diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
+        } else if (auto axiom = word(key->value, Place::axiom_or_successor)) {
+            grammar_.axiom_ = std::move(*axiom);
+        }
+    }
+
+    // --- productions ---------------------------------------------------------------------------------------
+
+    std::optional<Word> context(const std::optional<Span>& text, bool right) {
+        if (!text) return Word();
+        if (text->empty()) {
+            diagnostics_.error(*text, "expected a context; '*' is the empty one");
+            return std::nullopt;
+        }
+        auto result = word(*text, Place::context);
+        if (!result) return std::nullopt;
+        for (const Symbol symbol : *result) {
+            const std::string& letter = grammar_.symbols_[symbol].letter;
+            if (letter != "[" && letter != "]") continue;
+            diagnostics_.error(
+                text->part(text->view().find(letter)),
+                right ? "brackets in a right context are not supported yet" : "a left context holds no brackets");
+            return std::nullopt;
+        }
+        return result;
+    }
+
+    void add_productions(Table& table, const std::vector<ProductionText>& texts,
+                         std::set<std::tuple<Word, Word, Word>>& seen, bool homomorphism) {
+        for (const ProductionText& text : texts) {
+            if (text.condition) {
+                diagnostics_.error(*text.condition, "conditions are not supported yet");
+                continue;
+            }
+            if (text.weight) {
+                diagnostics_.error(*text.weight, "weights are not supported yet");
+                continue;
+            }
+            if (text.predecessor.view() == "*" || text.predecessor.view() == "\xCE\xB5") {
+                diagnostics_.error(text.predecessor, "the empty word is no predecessor");
+                continue;
+            }
+            auto left = context(text.left, false);
+            auto predecessor = word(text.predecessor, Place::predecessor);
+            auto right = context(text.right, true);
+            auto successor = word(text.successor, Place::axiom_or_successor);
+            if (!left || !predecessor || !right || !successor) continue;
+            if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
+                diagnostics_.error(text.predecessor,
+                                   "an interpretation replaces one symbol, whatever its neighbours are");
+                continue;
+            }
+            if (!seen.insert({*left, *predecessor, *right}).second) {
+                diagnostics_.error(text.predecessor,
+                                   "this production can never apply: one with the same predecessor and contexts "
+                                   "stands before it");
+                continue;
+            }
+            table.productions_.push_back(
+                {std::move(*left), std::move(*predecessor), std::move(*right), std::move(*successor)});
+        }
+    }
+
+    void read_tables() {
+        Table common;
+        std::set<std::tuple<Word, Word, Word>> seen;
+        add_productions(common, pattern_.common, seen, false);
+        if (pattern_.tables.empty()) {
+            grammar_.tables_.push_back(std::move(common));
+        } else {
+            for (const TableText& text : pattern_.tables) {
+                Table table = common;
+                auto seen_here = seen;
+                add_productions(table, text.productions, seen_here, false);
+                grammar_.tables_.push_back(std::move(table));
+            }
+        }
+        if (!pattern_.interpret.empty()) {
+            Table table;
+            std::set<std::tuple<Word, Word, Word>> seen_here;
+            add_productions(table, pattern_.interpret, seen_here, true);
+            grammar_.interpretation_ = std::move(table);
+        }
+    }
+
+    /// A list of symbols, written as a word; a comma in it is most likely a mistake.
+    std::optional<Word> symbol_list(const Key& key) {
+        if (const std::size_t comma = key.value.view().find(','); comma != std::string_view::npos) {
+            diagnostics_.error(key.value.part(comma),
+                               "symbols are listed as a word: blanks, no commas, between them");
+            return std::nullopt;
+        }
+        return word(key.value, Place::list);
+    }
+
+    void read_contexts() {
+        const Key* ignore = pattern_.find("ignore");
+        const Key* consider = pattern_.find("consider");
+        if (ignore && consider) {
+            diagnostics_.error(consider->name_at, "'ignore:' and 'consider:' exclude each other");
+            return;
+        }
+        const Key* key = ignore ? ignore : consider;
+        if (key) {
+            if (const auto list = symbol_list(*key)) {
+                for (const Symbol symbol : *list) listed_.insert(grammar_.symbols_[symbol].letter);
+                lists_considered_ = consider != nullptr;
+                has_list_ = true;
+            }
+        }
+    }
+
+    // --- turtle commands -----------------------------------------------------------------------------------
+
+    void read_commands() {
+        std::set<std::string> forward = {"F"};
+        std::set<std::string> move = {"f"};
+        const auto replace = [&](std::string_view name, std::set<std::string>& letters) {
+            const Key* key = pattern_.find(name);
+            if (!key) return;
+            letters.clear();
+            if (const auto list = symbol_list(*key)) {
+                for (const Symbol symbol : *list) letters.insert(grammar_.symbols_[symbol].letter);
+            }
+        };
+        replace("forward", forward);
+        replace("move", move);
+        for (const std::string& letter : move) {
+            if (!forward.contains(letter)) continue;
+            const Key* key = pattern_.find("move") ? pattern_.find("move") : pattern_.find("forward");
+            diagnostics_.error(key->value, fmt::format("'{}' is listed under both 'forward:' and 'move:'", letter));
+        }
+        grammar_.ignored_.assign(grammar_.symbols_.size(), 0);
+        for (std::size_t i = 0; i < grammar_.symbols_.size(); ++i) {
+            SymbolInfo& symbol = grammar_.symbols_[i];
+            symbol.command = command_of(symbol, forward, move);
+            const bool bracket = symbol.letter == "[" || symbol.letter == "]";
+            const bool listed = listed_.contains(symbol.letter);
+            grammar_.ignored_[i] = has_list_ && (lists_considered_ ? !listed && !bracket : listed) ? 1 : 0;
+        }
+    }
+
+    Command command_of(const SymbolInfo& symbol, const std::set<std::string>& forward,
+                       const std::set<std::string>& move) const {
+        const std::string& letter = symbol.letter;
+        const bool has_value = !symbol.arguments.empty();
+        const double value = has_value ? symbol.arguments.front() : 0.0;
+        const auto with = [](Action action, double number) { return Command{action, number, {}}; };
+        if (forward.contains(letter)) return with(Action::draw, has_value ? value : 1.0);
+        if (move.contains(letter)) return with(Action::move, has_value ? value : 1.0);
+        if (letter.size() == 2 && letter[0] == '@') {
+            if (letter[1] == 'O') return with(Action::disc, has_value ? value : 1.0);
+            if (letter[1] == '.') return with(Action::disc, 0.0);
+            return {};
+        }
+        if (letter.size() != 1) return {};
+        switch (letter[0]) {
+            case '+':
+            case '-': {
+                const Angle angle = has_value ? angle_of_degrees(value) : increment_;
+                const bool left = (letter[0] == '+') == plus_turns_left_;
+                return {Action::turn, 0.0, left ? angle : negated(angle)};
+            }
+            case '|':
+                return {Action::turn, 0.0, Angle{180.0, TurnFraction{1, 2}}};
+            case '[':
+                return with(Action::push, 0);
+            case ']':
+                return with(Action::pop, 0);
+            case '{':
+                return with(Action::polygon_begin, 0);
+            case '}':
+                return with(Action::polygon_end, 0);
+            case '#':
+                return has_value ? with(Action::width_set, value) : with(Action::width_factor, 1.25);
+            case '!':
+                return has_value ? with(Action::width_set, value) : with(Action::width_factor, 0.8);
+            case '\'':
+            case ';':
+                return has_value ? with(Action::colour_set, value) : with(Action::colour_step, 1);
+            case ',':
+                return has_value ? with(Action::colour_set, value) : with(Action::colour_step, -1);
+            default:
+                return {};
+        }
+    }
+
+    // --- schedule ------------------------------------------------------------------------------------------
+
+    void read_schedule() {
+        const Key* key = pattern_.find("schedule");
+        if (!key) {
+            if (pattern_.tables.size() > 1) {
+                diagnostics_.error(pattern_.tables[1].name, "several tables need a 'schedule:'");
+            }
+        } else if (auto items = schedule_items(*key)) {
+            grammar_.schedule_items_ = std::make_shared<const std::vector<Grammar::ScheduleItem>>(std::move(*items));
+        } else {
+            return;
+        }
+        std::string problem;
+        if (!grammar_.make_schedule(&problem)) diagnostics_.error(key ? key->value : Span{}, problem);
+    }
+
+    std::optional<std::vector<Grammar::ScheduleItem>> schedule_items(const Key& key) {
+        std::vector<Grammar::ScheduleItem> items;
+        const Span& value = key.value;
+        const std::string_view text = value.view();
+        const auto skip = [&](std::size_t at) {
+            while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+            return at;
+        };
+        for (std::size_t at = skip(0); at < text.size(); at = skip(at)) {
+            const std::size_t begin = at;
+            while (at < text.size() && text[at] != ' ' && text[at] != '\t' && text[at] != '*' && text[at] != ',')
+                ++at;
+            const std::string_view name = text.substr(begin, at - begin);
+            Grammar::ScheduleItem item;
+            bool known = false;
+            std::vector<std::string_view> names;
+            for (std::size_t i = 0; i < pattern_.tables.size(); ++i) {
+                names.push_back(pattern_.tables[i].name.view());
+                if (names.back() != name) continue;
+                item.table = static_cast<std::uint32_t>(i);
+                known = true;
+            }
+            if (!known) {
+                const std::string_view near = nearest(name, names);
+                diagnostics_.error(value.part(begin),
+                                   name.empty() ? std::string("expected the name of a table")
+                                   : near.empty()
+                                       ? fmt::format("there is no table '{}'", name)
+                                       : fmt::format("there is no table '{}'; did you mean '{}'?", name, near));
+                return std::nullopt;
+            }
+            Span count = Span{std::make_shared<const Source>("1", "1"), 0, 1};
+            if (const std::size_t star = skip(at); star < text.size() && text[star] == '*') {
+                const std::size_t first = skip(star + 1);
+                at = first;
+                std::size_t depth = 0;
+                while (at < text.size()) {
+                    if (text[at] == '(') ++depth;
+                    if (text[at] == ')' && depth > 0 && --depth == 0) {
+                        ++at;
+                        break;
+                    }
+                    if (depth == 0 && (text[at] == ' ' || text[at] == '\t')) break;
+                    ++at;
+                }
+                count = value.part(first, at - first);
+                const std::string_view digits = count.view();
+                const bool plain = !digits.empty() && (digits.front() == '(' ||
+                                                       std::all_of(digits.begin(), digits.end(), continues_name));
+                if (!plain) {
+                    diagnostics_.error(value.part(first),
+                                       "expected a whole number, a name or an expression in parentheses after '*'");
+                    return std::nullopt;
+                }
+            }
+            const NameLookup outer = defines_lookup();
+            const auto compiled = Expression::compile(
+                count,
+                [&](std::string_view wanted) -> std::optional<NameMeaning> {
+                    if (wanted == "n") return NameMeaning{true, 0, 0};
+                    return outer(wanted);
+                },
+                diagnostics_);
+            if (!compiled) return std::nullopt;
+            item.count = *compiled;
+            item.count_at = count;
+            items.push_back(std::move(item));
+        }
+        if (items.empty()) {
+            diagnostics_.error(key.name_at, "the schedule is empty: expected the names of tables");
+            return std::nullopt;
+        }
+        return items;
+    }
+
+    // --- lookup structures ---------------------------------------------------------------------------------
+
+    void finish_tables() {
+        for (Table& table : grammar_.tables_) finish(table);
+        if (grammar_.interpretation_) finish(*grammar_.interpretation_);
+    }
+
+    void finish(Table& table) {
+        const std::size_t symbols = grammar_.symbols_.size();
+        table.context_free_ =
+            std::all_of(table.productions_.begin(), table.productions_.end(), [](const Production& production) {
+                return !production.has_context() && production.predecessor.size() == 1;
+            });
+        if (table.context_free_) {
+            table.first_.assign(symbols, -1);
+            for (std::size_t i = 0; i < table.productions_.size(); ++i) {
+                table.first_[table.productions_[i].predecessor.front()] = static_cast<std::int32_t>(i);
+            }
+            return;
+        }
+        table.candidate_begin_.assign(symbols + 1, 0);
+        for (const Production& production : table.productions_) {
+            ++table.candidate_begin_[production.predecessor.front() + 1];
+        }
+        std::partial_sum(table.candidate_begin_.begin(), table.candidate_begin_.end(),
+                         table.candidate_begin_.begin());
+        table.candidate_list_.resize(table.productions_.size());
+        std::vector<std::uint32_t> next(table.candidate_begin_.begin(), table.candidate_begin_.end() - 1);
+        // Productions with context are tried before those without, else in the order of the file.
+        for (const bool with_context : {true, false}) {
+            for (std::uint32_t i = 0; i < table.productions_.size(); ++i) {
+                const Production& production = table.productions_[i];
+                if (production.has_context() != with_context) continue;
+                table.candidate_list_[next[production.predecessor.front()]++] = i;
+            }
+        }
+    }
+
+    const Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    Grammar grammar_;
+    std::set<std::string, std::less<>> name_set_;
+    std::size_t longest_name_ = 0;
+    std::map<std::string_view, double> defines_;
+    std::unordered_map<std::string, Symbol> symbol_index_;
+    std::unordered_map<std::string, std::uint32_t> letter_index_;
+    Angle increment_;
+    bool plus_turns_left_ = false;
+    std::set<std::string, std::less<>> listed_;
+    bool lists_considered_ = false;
+    bool has_list_ = false;
+};
+
+Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics) {
+    return GrammarCompiler(pattern, diagnostics).run();
+}
+
+std::span<const std::uint32_t> Table::candidates(Symbol symbol) const {
+    if (symbol + 1 >= candidate_begin_.size()) return {};
+    return std::span(candidate_list_)
+        .subspan(candidate_begin_[symbol], candidate_begin_[symbol + 1] - candidate_begin_[symbol]);
+}
+
+bool Grammar::make_schedule(std::string* problem) {
+    schedule_.clear();
+    if (!schedule_items_) {
+        if (steps_ > 0) schedule_.push_back({0, steps_});
+        return true;
+    }
+    const double n = static_cast<double>(steps_);
+    std::vector<ScheduleRun> runs;
+    std::int64_t missing = steps_;  // filled from the end, so that the last tables are always applied
+    double total = 0;
+    for (const ScheduleItem& item : *schedule_items_) {
+        const double count = std::floor(item.count.evaluate(std::span(&n, 1)));
+        if (std::isnan(count)) {
+            if (problem) *problem = "a count of the schedule is not a number";
+            return false;
+        }
+        total += std::max(count, 0.0);
+        const auto steps = static_cast<std::int64_t>(std::clamp(count, 0.0, n));
+        if (steps > 0) runs.push_back({item.table, steps});
+    }
+    for (std::size_t i = runs.size(); i > 0 && missing > 0; --i) {
+        const std::int64_t taken = std::min(missing, runs[i - 1].steps);
+        schedule_.push_back({runs[i - 1].table, taken});
+        missing -= taken;
+    }
+    if (missing > 0) {
+        if (problem) {
+            *problem = fmt::format("the schedule holds {} steps, the derivation length is {}", total, steps_);
+        }
+        return false;
+    }
+    std::reverse(schedule_.begin(), schedule_.end());
+    return true;
+}
+
+std::optional<Grammar> Grammar::with_steps(std::int64_t steps) const {
+    Grammar other = *this;
+    other.steps_ = steps;
+    if (!other.make_schedule(nullptr)) return std::nullopt;
+    return other;
+}
+
+std::int64_t Grammar::whole_word_steps() const {
+    std::int64_t last = 0;
+    std::int64_t before = 0;
+    for (const ScheduleRun& run : schedule_) {
+        before += run.steps;
+        if (!tables_[run.table].context_free()) last = before;
+    }
+    return last;
+}
+
+std::string symbol_text(const SymbolInfo& symbol) {
+    std::string text = symbol.letter;
+    for (std::size_t i = 0; i < symbol.arguments.size(); ++i) {
+        text += fmt::format("{}{}", i == 0 ? '(' : ',', symbol.arguments[i]);
+    }
+    if (!symbol.arguments.empty()) text += ')';
+    return text;
+}
+
+bool needs_blank(const Grammar& grammar, Symbol before, Symbol after) {
+    const SymbolInfo& one = grammar.symbols()[before];
+    const SymbolInfo& other = grammar.symbols()[after];
+    if (one.is_name || other.is_name) return true;
+    if (grammar.names().empty() || !one.arguments.empty()) return false;
+    // Two letters that begin a name could be read as it, together with what follows.
+    const std::string both = one.letter + other.letter;
+    const auto found = std::lower_bound(grammar.names().begin(), grammar.names().end(), both);
+    return found != grammar.names().end() && found->starts_with(both);
+}
+
+std::string to_text(const Grammar& grammar, std::span<const Symbol> word) {
+    std::string text;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        if (i > 0 && needs_blank(grammar, word[i - 1], word[i])) text += ' ';
+        text += symbol_text(grammar.symbols()[word[i]]);
+    }
+    return text;
+}
+
+}  // namespace sikku

@@ -1,0 +1,164 @@
+// engine/grammar.h: a checked L-system, ready to be derived: symbols as numbers, productions in tables, a schedule.
+#pragma once
+
+#include "engine/pattern.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)`
+/// and `F(2.5)` are three symbols.
+using Symbol = std::uint32_t;
+using Word = std::vector<Symbol>;
+
+/// A rational number of whole turns (360 degrees), in lowest terms, denominator > 0.
+struct TurnFraction {
+    std::int64_t numerator = 0;
+    std::int64_t denominator = 1;
+};
+
+/// An angle: exact where the file states one that fits, and always in degrees, anticlockwise.
+struct Angle {
+    double degrees = 0.0;
+    std::optional<TurnFraction> exact;
+};
+
+/// What a turtle does on a symbol.
+enum class Action : std::uint8_t {
+    pass,  ///< nothing
+    draw,  ///< one step of length `value`, drawing
+    move,  ///< one step of length `value`
+    turn,  ///< by `angle`
+    push,
+    pop,
+    polygon_begin,
+    polygon_end,
+    width_factor,  ///< multiply the line's width by `value`
+    width_set,     ///< set it to `value`
+    colour_step,   ///< next or previous colour: add `value`
+    colour_set,
+    disc,  ///< radius `value`; 0 is a dot
+};
+struct Command {
+    Action action = Action::pass;
+    double value = 0.0;
+    Angle angle;
+};
+
+/// A symbol as the file writes it.
+struct SymbolInfo {
+    std::string letter;              ///< without parameters: one code point, `@` and one, or a listed name
+    std::vector<double> arguments;   ///< constant parameters
+    bool is_name = false;            ///< listed under `symbols:`
+    std::uint32_t letter_index = 0;  ///< the same for `F` and `F(2)`; into Grammar::letters()
+    Command command;
+};
+
+/// left < predecessor > right --> successor
+struct Production {
+    Word left;
+    Word predecessor;
+    Word right;
+    Word successor;
+    bool has_context() const { return !left.empty() || !right.empty(); }
+};
+
+/// The productions that one derivation step chooses from.
+class Table {
+public:
+    /// True if every production replaces one symbol whatever its neighbours are.
+    bool context_free() const { return context_free_; }
+    /// Context-free tables: the successor of a symbol, or null if it stays as it is.
+    const Word* successor(Symbol symbol) const {
+        const std::int32_t index = symbol < first_.size() ? first_[symbol] : -1;
+        return index < 0 ? nullptr : &productions_[static_cast<std::size_t>(index)].successor;
+    }
+    /// The productions whose predecessor begins with `symbol`, in the order in which they are tried.
+    std::span<const std::uint32_t> candidates(Symbol symbol) const;
+    const Production& production(std::uint32_t index) const { return productions_[index]; }
+    const std::vector<Production>& productions() const { return productions_; }
+
+private:
+    friend class GrammarCompiler;
+    friend class Grammar;
+    std::vector<Production> productions_;
+    bool context_free_ = true;
+    std::vector<std::int32_t> first_;            // context-free: by symbol, index of the production or -1
+    std::vector<std::uint32_t> candidate_list_;  // else: grouped by first symbol
+    std::vector<std::uint32_t> candidate_begin_;
+};
+
+/// A stretch of equal steps of the schedule.
+struct ScheduleRun {
+    std::uint32_t table = 0;
+    std::int64_t steps = 0;
+};
+
+/// Immutable once compiled. Everything an interpreter needs beside its own keys.
+class Grammar {
+public:
+    const std::vector<SymbolInfo>& symbols() const { return symbols_; }
+    const std::vector<std::string>& letters() const { return letters_; }
+    const Word& axiom() const { return axiom_; }
+    const std::vector<Table>& tables() const { return tables_; }
+    /// The homomorphism, or null.
+    const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
+    /// Derivation length n, as the file, the variant or the caller set it.
+    std::int64_t steps() const { return steps_; }
+    /// Which table applies in which step, from the first to the last; steps sum to steps().
+    const std::vector<ScheduleRun>& schedule() const { return schedule_; }
+
+    const Angle& heading() const { return heading_; }
+    double scale_percent() const { return scale_percent_; }
+    /// Does context matching see that symbol?
+    bool ignored(Symbol symbol) const { return ignored_[symbol] != 0; }
+    /// Names of several characters, sorted.
+    const std::vector<std::string>& names() const { return names_; }
+    bool is_push(Symbol symbol) const { return symbols_[symbol].command.action == Action::push; }
+    bool is_pop(Symbol symbol) const { return symbols_[symbol].command.action == Action::pop; }
+
+    /// The same system with another derivation length; nullopt if its schedule is too short for it.
+    std::optional<Grammar> with_steps(std::int64_t steps) const;
+
+    /// The number of steps from the beginning up to and including the last that needs whole words (contexts,
+    /// predecessors of several symbols); 0 if the system is context-free throughout.
+    std::int64_t whole_word_steps() const;
+
+private:
+    friend class GrammarCompiler;
+    struct ScheduleItem;
+    bool make_schedule(std::string* problem);
+
+    std::vector<SymbolInfo> symbols_;
+    std::vector<std::string> letters_;
+    Word axiom_;
+    std::vector<Table> tables_;
+    std::optional<Table> interpretation_;
+    std::int64_t steps_ = 0;
+    std::vector<ScheduleRun> schedule_;
+    std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
+    Angle heading_;
+    double scale_percent_ = 100.0;
+    std::vector<char> ignored_;
+    std::vector<std::string> names_;
+};
+
+/// Compiles and checks what a pattern states. All mistakes go to `diagnostics`; the grammar returned is of use only
+/// if there were none. Cost: linear in the file.
+Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics);
+
+/// The symbols of `word` as `sikku derive` prints them.
+std::string to_text(const Grammar& grammar, std::span<const Symbol> word);
+
+/// True if a blank is needed between two symbols, so that the text reads back as the same two.
+bool needs_blank(const Grammar& grammar, Symbol before, Symbol after);
+
+/// One symbol as it is printed, parameters in the shortest digits that read back the same.
+std::string symbol_text(const SymbolInfo& symbol);
+
+}  // namespace sikku
