@@ -28,16 +28,11 @@ public:
     }
     std::int64_t count() const { return count_; }
     /// The table that rewrites a symbol at `level` >= 1.
-    const Table& table(std::int64_t level) const {
-        std::size_t i = 0;
-        while (level > stretches_[i].end) ++i;  // few stretches: schedules are short
-        return *stretches_[i].table;
-    }
+    const Table& table(std::int64_t level) const { return *stretches_[stretch(level)].table; }
 
     /// The last level below `level` that another stretch rules; 0 if there is none.
     std::int64_t stretch_begin(std::int64_t level) const {
-        std::size_t i = 0;
-        while (level > stretches_[i].end) ++i;
+        const std::size_t i = stretch(level);
         return i == 0 ? 0 : stretches_[i - 1].end;
     }
 
@@ -46,6 +41,11 @@ private:
         const Table* table;
         std::int64_t end;
     };
+    std::size_t stretch(std::int64_t level) const {
+        const auto found = std::lower_bound(stretches_.begin(), stretches_.end(), level,
+                                            [](const Stretch& one, std::int64_t wanted) { return one.end < wanted; });
+        return static_cast<std::size_t>(found - stretches_.begin());
+    }
     void add(const Table* table, std::int64_t steps) {
         if (steps <= 0) return;
         count_ += steps;
@@ -67,7 +67,7 @@ public:
 
     Blocks(const Grammar& grammar, const Levels& levels, std::size_t memory)
         : symbols_(grammar.symbols().size()), memory_(memory) {
-        const std::vector<char> needed = reachable(grammar, levels);
+        const std::vector<char> needed = grammar.reachable();
         for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
             entries_.push_back(needed[symbol] ? append(std::span(&symbol, 1)) : Entry{});
         }
@@ -88,35 +88,6 @@ public:
     }
 
 private:
-    /// Only what the axiom leads to is worth expanding.
-    static std::vector<char> reachable(const Grammar& grammar, const Levels& levels) {
-        std::vector<char> reached(grammar.symbols().size(), levels.count() == 0 ? 1 : 0);
-        Word pending = grammar.axiom();
-        const auto visit = [&](const Word& word) {
-            for (const Symbol symbol : word) {
-                if (!reached[symbol]) {
-                    reached[symbol] = 1;
-                    pending.push_back(symbol);
-                }
-            }
-        };
-        for (const Symbol symbol : grammar.axiom()) reached[symbol] = 1;
-        while (!pending.empty()) {
-            const Symbol symbol = pending.back();
-            pending.pop_back();
-            const auto follow = [&](const Table& table) {
-                if (table.context_free()) {
-                    if (const Word* successor = table.successor(symbol)) visit(*successor);
-                } else {
-                    for (const std::uint32_t i : table.candidates(symbol)) visit(table.production(i).successor);
-                }
-            };
-            for (const Table& table : grammar.tables()) follow(table);
-            if (grammar.interpretation()) follow(*grammar.interpretation());
-        }
-        return reached;
-    }
-
     Entry append(std::span<const Symbol> word) {
         const Entry entry{static_cast<std::uint32_t>(arena_.size()), static_cast<std::uint32_t>(word.size()),
                           word.size() >= shortest_block ? number_++ : -1};

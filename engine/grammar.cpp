@@ -830,10 +830,52 @@ bool Grammar::make_schedule(std::string* problem) {
     return true;
 }
 
+std::vector<char> Grammar::reachable() const {
+    std::vector<char> reached(symbols_.size(), 0);
+    Word pending;
+    const auto visit = [&](const Word& word) {
+        for (const Symbol symbol : word) {
+            if (!reached[symbol]) {
+                reached[symbol] = 1;
+                pending.push_back(symbol);
+            }
+        }
+    };
+    const auto follow = [&](const Table& table, Symbol symbol) {
+        if (!table.context_free()) {
+            for (const std::uint32_t i : table.candidates(symbol)) visit(table.production(i).successor);
+        } else if (const Word* successor = table.successor(symbol)) {
+            visit(*successor);
+        }
+    };
+    visit(axiom_);
+    while (!pending.empty()) {
+        const Symbol symbol = pending.back();
+        pending.pop_back();
+        for (const Table& table : tables_) follow(table, symbol);
+        if (interpretation_) follow(*interpretation_, symbol);
+    }
+    return reached;
+}
+
 std::optional<Grammar> Grammar::with_steps(std::int64_t steps) const {
     Grammar other = *this;
     other.steps_ = steps;
     if (!other.make_schedule(nullptr)) return std::nullopt;
+    return other;
+}
+
+Grammar Grammar::with_map(const std::vector<Symbol>& map) const {
+    Grammar other = *this;
+    Table table;
+    for (Symbol symbol = 0; symbol < map.size(); ++symbol) {
+        table.first_.push_back(static_cast<std::int32_t>(symbol));
+        table.productions_.push_back({{}, {symbol}, {}, map[symbol] < symbols_.size() ? Word{map[symbol]} : Word{}});
+    }
+    other.tables_ = {std::move(table)};
+    other.schedule_items_ = nullptr;
+    other.steps_ = 1;
+    other.schedule_ = {{0, 1}};
     return other;
 }
 

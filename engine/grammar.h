@@ -122,8 +122,14 @@ public:
     bool is_push(Symbol symbol) const { return symbols_[symbol].command.action == Action::push; }
     bool is_pop(Symbol symbol) const { return symbols_[symbol].command.action == Action::pop; }
 
+    /// For each symbol: can the axiom lead to it, `interpret:` included? (1 or 0)
+    std::vector<char> reachable() const;
+
     /// The same system with another derivation length; nullopt if its schedule is too short for it.
     std::optional<Grammar> with_steps(std::int64_t steps) const;
+
+    /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
+    Grammar with_map(const std::vector<Symbol>& map) const;
 
     /// The number of steps from the beginning up to and including the last that needs whole words (contexts,
     /// predecessors of several symbols); 0 if the system is context-free throughout.

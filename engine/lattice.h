@@ -1,0 +1,44 @@
+// engine/lattice.h: how the turtles of one grammar count their steps: exactly, where the angles allow it.
+#pragma once
+
+#include "engine/grammar.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace sikku {
+
+/// Positions and headings of a grammar's turtle.
+///
+/// If every turn is a multiple of 360/k degrees, headings are whole numbers modulo k. If moreover phi(k) <= 8,
+/// positions are points of Z[zeta], zeta = exp(2 pi i / k): `rank` = phi(k) whole coordinates (2, 4, 6 or 8; k = 1
+/// and 2 are counted as 4), in units of `unit` turtle steps. A curve that closes then closes exactly. Else positions
+/// are doubles; else headings are degrees in doubles, too.
+struct Lattice {
+    std::uint32_t headings = 0;   ///< k, or 0: headings are degrees
+    int rank = 0;                 ///< coordinates of a position, or 0: positions are doubles
+    double unit = 1.0;            ///< length of one unit, in turtle steps
+    double first_heading = 90.0;  ///< degrees anticlockwise from the x axis
+
+    /// Of one unit step for each heading, in the plane, the first heading included.
+    std::vector<glm::dvec2> direction;
+    /// Coordinates of zeta^h for each heading h; only the first `rank` count.
+    std::vector<std::array<std::int8_t, 8>> power;
+
+    /// For each symbol of the grammar:
+    std::vector<std::uint32_t> turn;   ///< its turn in headings, if headings > 0
+    std::vector<std::int64_t> length;  ///< its step in units, if rank > 0
+
+    /// Where the i-th coordinate's unit points to in the plane.
+    glm::dvec2 basis(int i) const { return direction[static_cast<std::size_t>(i)]; }
+};
+
+Lattice make_lattice(const Grammar& grammar);
+
+/// Cosine and sine of a turn, exact at multiples of 30 and 45 degrees where they are 0, 1/2 or 1.
+glm::dvec2 unit_vector(double degrees);
+glm::dvec2 unit_vector(TurnFraction turn);
+
+}  // namespace sikku

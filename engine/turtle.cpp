@@ -1,0 +1,373 @@
+#include "engine/turtle.h"
+
+#include "engine/lattice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t deepest = std::size_t{1} << 24;
+constexpr std::size_t points_in_block = 1024;
+
+/// Positions in Z[zeta], headings modulo k.
+template <int Rank>
+class ExactWalker {
+public:
+    struct State {
+        std::array<std::int64_t, Rank> at{};
+        std::uint32_t heading = 0;
+        bool same_place(const State& other) const { return at == other.at; }
+    };
+
+    explicit ExactWalker(const Lattice& lattice) : lattice_(lattice) {
+        for (int i = 0; i < Rank; ++i) basis_[static_cast<std::size_t>(i)] = lattice.basis(i) * lattice.unit;
+        step_.resize(lattice.length.size() * lattice.headings);
+        for (std::size_t symbol = 0; symbol < lattice.length.size(); ++symbol) {
+            for (std::uint32_t h = 0; h < lattice.headings; ++h) {
+                for (std::size_t i = 0; i < Rank; ++i) {
+                    step_[symbol * lattice.headings + h][i] = lattice.power[h][i] * lattice.length[symbol];
+                }
+            }
+        }
+    }
+    void step(State& state, Symbol symbol) const {
+        const auto& step = step_[symbol * lattice_.headings + state.heading];
+        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += step[i];
+    }
+    void turn(State& state, Symbol symbol) const {
+        state.heading += lattice_.turn[symbol];
+        if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
+    }
+    glm::dvec2 point(const State& state) const {
+        glm::dvec2 sum(0.0);
+        for (std::size_t i = 0; i < Rank; ++i) sum += static_cast<double>(state.at[i]) * basis_[i];
+        return sum;
+    }
+    double heading(const State& state) const {
+        return lattice_.first_heading + 360.0 * state.heading / lattice_.headings;
+    }
+    /// Far enough from the end of 64 bits for another run of symbols?
+    bool in_range(const State& state) const {
+        return std::all_of(state.at.begin(), state.at.end(), [](std::int64_t coordinate) {
+            return coordinate < (std::int64_t{1} << 62) && coordinate > -(std::int64_t{1} << 62);
+        });
+    }
+
+private:
+    const Lattice& lattice_;
+    std::array<glm::dvec2, Rank> basis_;
+    std::vector<std::array<std::int64_t, Rank>> step_;  // by symbol and heading
+};
+
+/// Positions in doubles; headings modulo k, or in degrees where no k serves.
+class PlaneWalker {
+public:
+    struct State {
+        glm::dvec2 at{0.0};
+        std::uint32_t heading = 0;
+        double degrees = 0.0;
+        bool same_place(const State& other) const {
+            const glm::dvec2 gap = at - other.at;
+            return std::hypot(gap.x, gap.y) <= 1e-9 * std::max(1.0, std::hypot(at.x, at.y));
+        }
+    };
+
+    PlaneWalker(const Lattice& lattice, const Grammar& grammar) : lattice_(lattice), grammar_(grammar) {}
+    void step(State& state, Symbol symbol) const {
+        const double length = grammar_.symbols()[symbol].command.value;
+        const glm::dvec2 direction = lattice_.headings > 0 ? lattice_.direction[state.heading]
+                                                           : unit_vector(lattice_.first_heading + state.degrees);
+        state.at += length * direction;
+    }
+    void turn(State& state, Symbol symbol) const {
+        if (lattice_.headings > 0) {
+            state.heading += lattice_.turn[symbol];
+            if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
+        } else {
+            state.degrees = std::fmod(state.degrees + grammar_.symbols()[symbol].command.angle.degrees, 360.0);
+        }
+    }
+    glm::dvec2 point(const State& state) const { return state.at; }
+    double heading(const State& state) const {
+        return lattice_.first_heading +
+               (lattice_.headings > 0 ? 360.0 * state.heading / lattice_.headings : state.degrees);
+    }
+    bool in_range(const State& state) const { return std::fabs(state.at.x) < 1e300 && std::fabs(state.at.y) < 1e300; }
+
+private:
+    const Lattice& lattice_;
+    const Grammar& grammar_;
+};
+
+/// The turtle over one way of walking. `Surveying` looks, else it draws.
+template <class Walker, bool Surveying>
+class WalkingTurtle final : public Turtle {
+public:
+    WalkingTurtle(std::unique_ptr<Lattice> lattice, Walker walker, const Grammar& grammar, PathSink* sink,
+                  bool moves_draw)
+        : lattice_(std::move(lattice)), walker_(std::move(walker)), sink_(sink), moves_draw_(moves_draw) {
+        for (const SymbolInfo& symbol : grammar.symbols()) {
+            commands_.push_back({symbol.command.action, symbol.command.value,
+                                 std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees)});
+        }
+        points_.reserve(points_in_block);
+    }
+
+    void symbols(const Run& run) override {
+        const std::uint64_t first = position_;
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            const Instruction& command = commands_[symbol];
+            switch (command.action) {
+                case Action::pass:
+                    break;
+                case Action::draw:
+                    step(symbol, command, true);
+                    break;
+                case Action::move:
+                    step(symbol, command, false);
+                    break;
+                case Action::turn:
+                    require_finite(command);
+                    walker_.turn(state_.place, symbol);
+                    break;
+                default:
+                    rare(command);
+            }
+        }
+        if (!walker_.in_range(state_.place)) {
+            throw WordError(
+                fmt::format("between symbols {} and {} of the word the turtle leaves the range of its "
+                            "coordinates",
+                            first + 1, position_));
+        }
+    }
+
+    void finish() override {
+        if (!stack_.empty()) {
+            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().position));
+        }
+        if (!polygons_.empty()) {
+            throw WordError(fmt::format("symbol {} of the word: this '{{' is not closed", polygons_.back().position));
+        }
+        lift();
+        survey_.end = walker_.point(state_.place);
+        survey_.closed = State().place.same_place(state_.place);
+        survey_.heading = std::fmod(walker_.heading(state_.place), 360.0);
+        if (survey_.heading < 0) survey_.heading += 360.0;
+        if (survey_.heading >= 360.0) survey_.heading = 0;
+    }
+
+    Survey survey() const override { return survey_; }
+
+private:
+    using Place = typename Walker::State;
+    struct State {
+        Place place;
+        Pen pen;
+    };
+    struct Saved {
+        State state;
+        std::uint64_t position;
+    };
+    struct Polygon {
+        std::vector<glm::dvec2> vertices;
+        std::uint64_t position;
+    };
+    struct Instruction {
+        Action action;
+        double value;
+        bool finite;
+    };
+
+    void require_finite(const Instruction& command) const {
+        if (!command.finite) {
+            throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
+        }
+    }
+
+    void step(Symbol symbol, const Instruction& command, bool drawn) {
+        require_finite(command);
+        if constexpr (Surveying) {
+            if (drawn) note_ink(walker_.point(state_.place));
+            walker_.step(state_.place, symbol);
+            const glm::dvec2 point = walker_.point(state_.place);
+            widen(survey_.box, point);
+            ++survey_.moves;
+            if (drawn) {
+                ++survey_.drawn;
+                survey_.length += std::fabs(command.value);
+                widen(*survey_.ink, point);
+            }
+        } else {
+            if (drawn || moves_draw_) {
+                lower();
+                walker_.step(state_.place, symbol);
+                points_.push_back(walker_.point(state_.place));
+                if (points_.size() == points_in_block) flush();
+            } else {
+                lift();
+                walker_.step(state_.place, symbol);
+            }
+            if (!polygons_.empty()) polygons_.back().vertices.push_back(walker_.point(state_.place));
+        }
+    }
+
+    static void widen(Bounds& bounds, glm::dvec2 point) {
+        bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y)};
+        bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y)};
+    }
+    void note_ink(glm::dvec2 point) {
+        if (!survey_.ink) survey_.ink = Bounds{point, point};
+        widen(*survey_.ink, point);
+    }
+
+    void rare(const Instruction& command) {
+        switch (command.action) {
+            case Action::push:
+                if (stack_.size() >= deepest) {
+                    throw WordError(
+                        fmt::format("symbol {} of the word: brackets nest deeper than 16,777,216", position_));
+                }
+                if (moves_draw_) lift();
+                stack_.push_back({state_, position_});
+                survey_.depth = std::max(survey_.depth, static_cast<std::int64_t>(stack_.size()));
+                break;
+            case Action::pop:
+                if (stack_.empty()) {
+                    throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
+                }
+                lift();
+                state_ = stack_.back().state;
+                stack_.pop_back();
+                break;
+            case Action::polygon_begin:
+                if (polygons_.size() >= deepest) {
+                    throw WordError(
+                        fmt::format("symbol {} of the word: braces nest deeper than 16,777,216", position_));
+                }
+                polygons_.push_back({{walker_.point(state_.place)}, position_});
+                break;
+            case Action::polygon_end:
+                end_polygon();
+                break;
+            case Action::width_factor:
+            case Action::width_set:
+                require_finite(command);
+                if (command.action == Action::width_set) {
+                    state_.pen.width = std::fabs(command.value);
+                    state_.pen.width_set = true;
+                } else {
+                    state_.pen.width = std::min(state_.pen.width * command.value, 1e9);
+                }
+                break;
+            case Action::colour_step:
+            case Action::colour_set: {
+                require_finite(command);
+                const double base = command.action == Action::colour_step ? state_.pen.colour : 0;
+                state_.pen.colour = static_cast<int>(std::clamp(std::round(base + command.value), -1e9, 1e9));
+                break;
+            }
+            case Action::disc:
+                require_finite(command);
+                if (sink_) {
+                    flush();
+                    sink_->disc(walker_.point(state_.place), std::fabs(command.value), state_.pen);
+                }
+                break;
+            default:
+                break;
+        }
+    }
+
+    void end_polygon() {
+        if (polygons_.empty()) throw WordError(fmt::format("symbol {} of the word: '}}' without '{{'", position_));
+        std::vector<glm::dvec2> vertices = std::move(polygons_.back().vertices);
+        polygons_.pop_back();
+        if (vertices.size() > 1 && vertices.front() == vertices.back()) vertices.pop_back();
+        if (sink_ && vertices.size() >= 3) {
+            flush();
+            sink_->polygon(vertices, state_.pen);
+        }
+    }
+
+    /// Before a segment is drawn: the pen is down, and it is the right one.
+    void lower() {
+        if (!down_) {
+            down_ = true;
+            pen_ = state_.pen;
+            start_ = state_.place;
+            sink_->begin_stroke(walker_.point(state_.place), pen_);
+        } else if (pen_ != state_.pen) {
+            flush();
+            pen_ = state_.pen;
+            sink_->change_pen(pen_);
+        }
+    }
+
+    void lift() {
+        if (!down_) return;
+        flush();
+        sink_->end_stroke(start_.same_place(state_.place));
+        down_ = false;
+    }
+
+    void flush() {
+        if (points_.empty()) return;
+        sink_->lines(points_);
+        points_.clear();
+    }
+
+    std::unique_ptr<Lattice> lattice_;
+    Walker walker_;
+    PathSink* sink_;
+    bool moves_draw_;
+    std::vector<Instruction> commands_;
+    State state_;
+    std::vector<Saved> stack_;
+    std::vector<Polygon> polygons_;
+    std::uint64_t position_ = 0;
+    bool down_ = false;
+    Pen pen_;
+    Place start_;
+    std::vector<glm::dvec2> points_;
+    Survey survey_;
+};
+
+template <bool Surveying>
+std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, bool moves_draw) {
+    auto lattice = std::make_unique<Lattice>(make_lattice(grammar));
+    const Lattice& fixed = *lattice;
+    const auto make = [&]<class Walker>(Walker walker) -> std::unique_ptr<Turtle> {
+        return std::make_unique<WalkingTurtle<Walker, Surveying>>(std::move(lattice), std::move(walker), grammar,
+                                                                  sink, moves_draw);
+    };
+    switch (fixed.rank) {
+        case 2:
+            return make(ExactWalker<2>(fixed));
+        case 4:
+            return make(ExactWalker<4>(fixed));
+        case 6:
+            return make(ExactWalker<6>(fixed));
+        case 8:
+            return make(ExactWalker<8>(fixed));
+        default:
+            return make(PlaneWalker(fixed, grammar));
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Turtle> Turtle::drawing(const Grammar& grammar, PathSink& sink, bool moves_draw) {
+    return make_turtle<false>(grammar, &sink, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::surveying(const Grammar& grammar) {
+    return make_turtle<true>(grammar, nullptr, false);
+}
+
+}  // namespace sikku
