@@ -55,42 +55,29 @@ std::int64_t decimal_denominator(double value) {
 
 }  // namespace
 
-glm::dvec2 unit_vector(TurnFraction turn) {
+FoldedTurn fold_turn(TurnFraction turn) {
     const std::int64_t q = turn.denominator;
     std::int64_t p = turn.numerator % q;
     if (p < 0) p += q;
-    // Fold into the first eighth, where sine and cosine are computed.
-    const std::int64_t eighth = 8 * p / q;
-    const auto radians = [&](std::int64_t numerator, std::int64_t denominator) {
-        return 2 * std::numbers::pi * static_cast<double>(numerator) / static_cast<double>(denominator);
-    };
-    double along = 0;  // cosine and sine of the distance to the nearest axis
-    double across = 0;
-    const std::int64_t quarter = (eighth + 1) / 2;  // nearest axis
-    const std::int64_t rest = 4 * p - quarter * q;  // signed, in units of turn / 4q
-    const std::int64_t distance = rest < 0 ? -rest : rest;
-    if (distance == 0) {
-        along = 1;
-    } else if (3 * distance == q) {  // 30 degrees
-        along = std::sqrt(3.0) / 2;
-        across = 0.5;
+    const std::int64_t quarter = (8 * p / q + 1) / 2;
+    return {static_cast<int>(quarter % 4), 4 * p - quarter * q};
+}
+
+glm::dvec2 unit_vector(TurnFraction turn) {
+    const FoldedTurn folded = fold_turn(turn);
+    const std::int64_t q = turn.denominator;
+    const std::int64_t distance = std::abs(folded.rest);
+    glm::dvec2 near(1.0, 0.0);
+    if (3 * distance == q) {  // 30 degrees
+        near = {std::sqrt(3.0) / 2, 0.5};
     } else if (2 * distance == q) {
-        along = across = std::sqrt(0.5);
-    } else {
-        along = std::cos(radians(distance, 4 * q));
-        across = std::sin(radians(distance, 4 * q));
+        near = glm::dvec2(std::sqrt(0.5));
+    } else if (distance != 0) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(distance) / (4 * static_cast<double>(q));
+        near = {std::cos(angle), std::sin(angle)};
     }
-    if (rest < 0) across = -across;
-    switch (quarter % 4) {
-        case 0:
-            return {along, across};
-        case 1:
-            return {-across, along};
-        case 2:
-            return {-along, -across};
-        default:
-            return {across, -along};
-    }
+    if (folded.rest < 0) near.y = -near.y;
+    return by_quarters(folded.quarter, near);
 }
 
 glm::dvec2 unit_vector(double degrees) {

@@ -1,0 +1,126 @@
+#include "engine/extent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sikku {
+namespace {
+
+/// Counts symbols and hands them on.
+class Counter : public SymbolSink {
+public:
+    explicit Counter(std::size_t symbols) : counts_(symbols, 0) {}
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) ++counts_[symbol];
+    }
+    const std::vector<std::uint64_t>& counts() const { return counts_; }
+
+private:
+    std::vector<std::uint64_t> counts_;
+};
+
+template <class Number>
+void tell_counts(const Grammar& grammar, const std::vector<Number>& counts, Measurement& result) {
+    std::map<std::string, Integer> letters;
+    Integer total = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] == 0) continue;
+        letters[grammar.symbols()[i].letter] += counts[i];
+        total += counts[i];
+    }
+    result.symbols = Quantity::of(total);
+    for (const auto& [letter, count] : letters) result.counts.emplace_back(letter, Quantity::of(count));
+}
+
+/// drawn, moves and length, from the numbers of symbols of the interpreted word.
+void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
+    const Lattice lattice = make_lattice(grammar);
+    Integer drawn = 0;
+    Integer moves = 0;
+    Integer units = 0;
+    double length = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const Command& command = grammar.symbols()[i].command;
+        if (command.action != Action::draw && command.action != Action::move) continue;
+        moves += counts[i];
+        if (command.action == Action::move) continue;
+        drawn += counts[i];
+        if (lattice.rank > 0) {
+            units += counts[i] * (lattice.length[i] < 0 ? -lattice.length[i] : lattice.length[i]);
+        } else {
+            length += counts[i].template convert_to<double>() * std::fabs(command.value);
+        }
+    }
+    result.drawn = Quantity::of(drawn);
+    result.moves = Quantity::of(moves);
+    if (lattice.rank > 0) {
+        const auto denominator = static_cast<std::int64_t>(std::llround(1.0 / lattice.unit));
+        result.length = Quantity::of(Integer((units + denominator / 2) / denominator));
+        if (result.length.digits.empty())
+            result.length.value = units.convert_to<double>() / static_cast<double>(denominator);
+    } else {
+        result.length = Quantity::of(length);
+    }
+}
+
+Fold as_fold(const Survey& survey) {
+    const auto four = [](const Bounds& bounds) {
+        return std::array{Quantity::of(bounds.low.x), Quantity::of(bounds.low.y), Quantity::of(bounds.high.x),
+                          Quantity::of(bounds.high.y)};
+    };
+    Fold fold;
+    fold.box = four(survey.box);
+    if (survey.ink) fold.ink = four(*survey.ink);
+    fold.end = {Quantity::of(survey.end.x), Quantity::of(survey.end.y)};
+    fold.heading = survey.heading;
+    fold.closed = survey.closed;
+    fold.depth = survey.depth;
+    return fold;
+}
+
+Quantity about(double log10) {
+    return {std::pow(10.0, log10), fmt::format("about 10^{:.0f}", std::floor(log10))};
+}
+
+}  // namespace
+
+Measurement measure(const Grammar& given, double budget) {
+    const Grammar grammar = shorten(given);
+    Measurement result;
+    result.n = given.steps();
+    const DerivationOptions limits{true, budget < 1.8e19 ? static_cast<std::uint64_t>(budget) : UINT64_MAX};
+    const auto plain = forecast(grammar, false);
+    if (plain) {
+        const auto interpreted = forecast(grammar, true);
+        if (!plain->counts || !interpreted->counts) {
+            result.symbols = about(plain->log10_length);
+            result.drawn = result.moves = result.length = about(interpreted->log10_length);
+            return result;
+        }
+        tell_counts(grammar, *plain->counts, result);
+        tell_steps(grammar, *interpreted->counts, result);
+        result.geometry = fold(grammar);
+        if (result.geometry || interpreted->nodes > budget) return result;
+    }
+    if (!plain) {
+        Counter counter(grammar.symbols().size());
+        derive(grammar, counter, {false, limits.budget});
+        tell_counts(grammar, counter.counts(), result);
+    }
+    const auto turtle = Turtle::surveying(grammar);
+    derive(grammar, *turtle, limits);
+    const Survey survey = turtle->survey();
+    result.derived = true;
+    if (!plain) {
+        result.drawn = Quantity::of(Integer(survey.drawn));
+        result.moves = Quantity::of(Integer(survey.moves));
+        result.length = Quantity::of(survey.length);
+    }
+    result.geometry = as_fold(survey);
+    return result;
+}
+
+}  // namespace sikku

@@ -1,0 +1,32 @@
+// engine/extent.h: how long, how large, closed or not: what can be told of a pattern's word without drawing it.
+#pragma once
+
+#include "engine/fold.h"
+#include "engine/turtle.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Everything `sikku measure` tells. Unit steps of the turtle, starting at 0 0.
+struct Measurement {
+    std::int64_t n = 0;
+    Quantity symbols;                                      ///< of the word before `interpret:`
+    std::vector<std::pair<std::string, Quantity>> counts;  ///< of it, by letter, sorted; those that occur
+    Quantity drawn;                                        ///< segments; from here on after `interpret:`
+    Quantity moves;                                        ///< steps, drawn or not
+    Quantity length;                                       ///< drawn, in steps
+    /// Absent if the word is too long for even the fold (then only counts are told).
+    std::optional<Fold> geometry;
+    bool derived = false;  ///< the word had to be walked
+};
+
+/// From the fold where the system allows it, else by one pass over the word.
+/// @param budget  most nodes of that pass; above it, a BudgetError
+/// @throws WordError for brackets that do not balance, steps that are not finite
+Measurement measure(const Grammar& grammar, double budget);
+
+}  // namespace sikku
