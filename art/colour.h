@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -19,5 +20,11 @@ std::optional<Colour> parse_colour(std::string_view text);
 
 /// `#rrggbb`; alpha is not part of it.
 std::string hex(Colour colour);
+
+/// The CSS name if there is one, else hex(); alpha is not part of it.
+std::string colour_name(Colour colour);
+
+/// Every name that parse_colour knows, in lower case, for hints.
+const std::vector<std::string_view>& colour_names();
 
 }  // namespace sikku

@@ -11,7 +11,8 @@ namespace sikku {
 /// Writes beside the target (`.NAME.XXXXXX.tmp` in the same folder) and renames into place on commit; without
 /// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
 /// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
-/// replaces, or the mode the umask gives.
+/// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
+/// and /dev/stdout are written straight to.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path target);
@@ -23,18 +24,34 @@ public:
     void write(std::string_view bytes);
     /// Bytes handed over so far.
     std::uint64_t size() const { return written_; }
+    /// Whether insert() may be used: false for devices and pipes.
+    bool can_insert() const { return !direct_; }
+    /// Puts `bytes` before the byte at `position` (at most size()); what was there moves up. Cost: what moves.
+    void insert(std::uint64_t position, std::string_view bytes);
     /// The temporary file, for a library that opens files by itself. Do not mix with write().
     const std::filesystem::path& temporary() const { return temporary_; }
     /// Flushes and renames. To be called once, last.
     void commit();
 
 private:
+    void create();
     void flush();
+    void write_all(const char* bytes, std::size_t count);
+    [[noreturn]] void fail(int error) const;
+
+    std::filesystem::path name_;  ///< as the caller gave it, for messages
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
+    int mode_ = -1;  ///< of the file that is replaced
+    int slot_ = -1;  ///< in the list of remove_unfinished_files()
+    bool direct_ = false;
     std::string buffer_;
     std::uint64_t written_ = 0;
 };
+
+/// Removes the temporary file of every OutputFile that is neither committed nor destroyed. May be called from a
+/// signal handler that then ends the program.
+void remove_unfinished_files() noexcept;
 
 }  // namespace sikku

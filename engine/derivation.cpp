@@ -139,8 +139,8 @@ private:
 /// Depth-first expansion of `word` through `levels`.
 class Streamer {
 public:
-    Streamer(const Grammar& grammar, const Levels& levels, std::size_t block_memory, SymbolSink& sink)
-        : levels_(levels), blocks_(grammar, levels, block_memory), sink_(sink) {
+    Streamer(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink)
+        : levels_(levels), blocks_(grammar, levels, options.block_memory), watch_(options.watch), sink_(sink) {
         pending_.reserve(longest_run);
     }
 
@@ -203,7 +203,7 @@ private:
         const auto symbols = blocks_.symbols(entry);
         if (entry.number < 0) return gather(symbols);
         flush();
-        sink_.symbols({symbols, entry.number});
+        send({symbols, entry.number});
     }
 
     void gather(std::span<const Symbol> symbols) {
@@ -211,14 +211,20 @@ private:
         pending_.insert(pending_.end(), symbols.begin(), symbols.end());
     }
 
+    void send(const Run& run) {
+        sink_.symbols(run);
+        if (watch_) watch_(run.symbols.size());
+    }
+
     void flush() {
         if (pending_.empty()) return;
-        sink_.symbols({pending_, -1});
+        send({pending_, -1});
         pending_.clear();
     }
 
     const Levels& levels_;
     Blocks blocks_;
+    const std::function<void(std::uint64_t)>& watch_;
     SymbolSink& sink_;
     std::vector<Frame> frames_;
     Word pending_;
@@ -358,6 +364,7 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
             const bool unchanged = next == *word;
             rewritten = std::move(next);
             word = &rewritten;
+            if (options.watch) options.watch(0);
             if (unchanged) {
                 step += std::min(run.steps - i, whole - step) - 1;
                 i = run.steps;
@@ -365,7 +372,7 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
         }
     }
     const Levels levels(grammar, whole, options.interpreted);
-    Streamer(grammar, levels, options.block_memory, sink).stream(*word);
+    Streamer(grammar, levels, options, sink).stream(*word);
     sink.finish();
 }
 

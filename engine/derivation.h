@@ -4,6 +4,7 @@
 #include "engine/grammar.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 
@@ -45,6 +46,9 @@ struct DerivationOptions {
     std::uint64_t budget = UINT64_MAX;
     /// Most symbols that the blocks hold together: what is kept to be handed out again.
     std::size_t block_memory = std::size_t{1} << 20;
+    /// Called after each run with its number of symbols (and with 0 after each step on a whole word); may throw, to
+    /// stop the derivation.
+    std::function<void(std::uint64_t symbols)> watch;
 };
 
 /// Hands the word after grammar.steps() derivation steps to `sink`, left to right.

@@ -87,11 +87,14 @@ Quantity about(double log10) {
 
 }  // namespace
 
-Measurement measure(const Grammar& given, double budget) {
+Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
     const Grammar grammar = shorten(given);
     Measurement result;
     result.n = given.steps();
-    const DerivationOptions limits{true, budget < 1.8e19 ? static_cast<std::uint64_t>(budget) : UINT64_MAX};
+    DerivationOptions limits;
+    limits.interpreted = true;
+    if (budget < 1.8e19) limits.budget = static_cast<std::uint64_t>(budget);
+    limits.watch = watch;
     const auto plain = forecast(grammar, false);
     if (plain) {
         const auto interpreted = forecast(grammar, true);
@@ -107,7 +110,9 @@ Measurement measure(const Grammar& given, double budget) {
     }
     if (!plain) {
         Counter counter(grammar.symbols().size());
-        derive(grammar, counter, {false, limits.budget});
+        DerivationOptions plain_word = limits;
+        plain_word.interpreted = false;
+        derive(grammar, counter, plain_word);
         tell_counts(grammar, counter.counts(), result);
     }
     const auto turtle = Turtle::surveying(grammar);

@@ -26,7 +26,8 @@ struct Measurement {
 
 /// From the fold where the system allows it, else by one pass over the word.
 /// @param budget  most nodes of that pass; above it, a BudgetError
+/// @param watch   as in DerivationOptions
 /// @throws WordError for brackets that do not balance, steps that are not finite
-Measurement measure(const Grammar& grammar, double budget);
+Measurement measure(const Grammar& grammar, double budget, const std::function<void(std::uint64_t)>& watch = {});
 
 }  // namespace sikku

@@ -1,0 +1,272 @@
+#include "art/draw.h"
+
+#include "art/image_file.h"
+#include "art/output_file.h"
+#include "art/pdf.h"
+#include "art/raster.h"
+#include "art/svg.h"
+#include "engine/fold.h"
+#include "engine/spline.h"
+#include "engine/turtle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace sikku {
+namespace {
+
+/// The box of a drawing as it will lie on the page, and its widest pen.
+class ExtentSink : public PathSink {
+public:
+    explicit ExtentSink(const glm::dmat3x2& orientation) : orientation_(orientation) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        change_pen(pen);
+        at_ = turned(start);
+        box.add(at_);
+    }
+    void lines(std::span<const glm::dvec2> ends) override {
+        for (const glm::dvec2 end : ends) box.add(turned(end));
+        if (!ends.empty()) at_ = turned(ends.back());
+    }
+    void curves(std::span<const glm::dvec2> controls) override {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
+                                                 turned(controls[i + 2])};
+            box.add(b[3]);
+            for (int axis = 0; axis < 2; ++axis) {
+                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
+                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
+            }
+            at_ = b[3];
+        }
+    }
+    void change_pen(const Pen& pen) override {
+        double& widest = pen.width_set ? widest_set : widest_factor;
+        widest = std::max(widest, pen.width);
+    }
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+        for (const glm::dvec2 vertex : vertices) box.add(turned(vertex));
+    }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        const glm::dvec2 at = turned(centre);
+        box.add(at - glm::dvec2(radius));
+        box.add(at + glm::dvec2(radius));
+        if (radius > 0) return;
+        // A dot is twice as wide as the line.
+        Pen doubled = pen;
+        doubled.width *= 2;
+        change_pen(doubled);
+    }
+
+    Box box;
+    double widest_factor = 0.0;  ///< of pens that are a factor of the style's
+    double widest_set = 0.0;     ///< of pens that were set
+
+private:
+    glm::dvec2 turned(glm::dvec2 point) const { return orientation_ * glm::dvec3(point, 1.0); }
+
+    /// Where the curve's derivative along `axis` vanishes.
+    void add_extremes(const std::array<glm::dvec2, 4>& b, int axis) {
+        const double p = b[1][axis] - b[0][axis];
+        const double q = b[2][axis] - b[1][axis];
+        const double r = b[3][axis] - b[2][axis];
+        const double square = p - 2 * q + r;
+        const double half = q - p;
+        const double root = std::sqrt(std::max(0.0, half * half - square * p));
+        for (const double t : {square == 0 ? -p / (2 * half) : (-half + root) / square,
+                               square == 0 ? -1.0 : (-half - root) / square}) {
+            if (!(t > 0 && t < 1)) continue;
+            const double s = 1 - t;
+            box.add(s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3]);
+        }
+    }
+
+    glm::dmat3x2 orientation_;
+    glm::dvec2 at_{0.0};
+};
+
+/// Reads the word once or several times, always into the same kind of turtle.
+class Drawer {
+public:
+    Drawer(const Grammar& grammar, Print& print, const DrawOptions& options)
+        : grammar_(grammar), print_(print), options_(options), spline_(print.style.line == Line::spline) {
+        const std::vector<char> reached = grammar.reachable();
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            if (!reached[i]) continue;
+            switch (grammar.symbols()[i].command.action) {
+                case Action::push:
+                case Action::pop:
+                    has_brackets_ = true;
+                    break;
+                case Action::polygon_begin:
+                case Action::disc:
+                    has_areas_ = true;
+                    break;
+                case Action::width_factor:
+                case Action::width_set:
+                    has_widths_ = true;
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+
+    DrawReport prepare() {
+        if (spline_) find_closed_strokes();
+        const glm::dmat3x2 turned = orientation(options_.placement);
+        ExtentSink extent(turned);
+        std::optional<Fold> folded;
+        if (!spline_ && !has_areas_ && !has_widths_) folded = fold(grammar_);
+        if (folded) {
+            for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
+            if (!extent.box.empty()) extent.widest_factor = 1.0;
+        } else {
+            read(extent);
+        }
+        if (extent.box.empty()) {
+            throw std::runtime_error(
+                "there is nothing to draw: the word holds no step that draws, no polygon, no disc");
+        }
+        double ink_steps = 0;
+        double ink_millimetres = 0;
+        if (print_.style.stroked || has_areas_) {
+            const double width = std::max(extent.widest_factor * print_.style.stroke.value, extent.widest_set);
+            (print_.style.stroke.in_steps ? ink_steps : ink_millimetres) = width / 2;
+        }
+        PlacementOptions placement = options_.placement;
+        placement.scale *= grammar_.scale_percent() / 100;
+        print_.placement = place(extent.box, print_.page, placement, ink_steps, ink_millimetres);
+        const double step = print_.placement.step;
+        DrawReport report;
+        report.step = step;
+        report.size = (extent.box.high - extent.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
+        report.overflows = report.size.x > print_.page.width - 2 * print_.page.margin + 1e-6 ||
+                           report.size.y > print_.page.height - 2 * print_.page.margin + 1e-6;
+        return report;
+    }
+
+    /// One pass over the word into `sink`.
+    void read(PathSink& sink) const {
+        if (!spline_) return read_straight(sink);
+        SplineSink spline(sink, closed_);
+        read_straight(spline);
+    }
+
+private:
+    void read_straight(PathSink& sink) const {
+        const auto turtle = Turtle::drawing(grammar_, sink, spline_);
+        DerivationOptions derivation;
+        derivation.interpreted = true;
+        if (options_.budget < 1.8e19) derivation.budget = static_cast<std::uint64_t>(options_.budget);
+        derivation.watch = options_.watch;
+        derive(grammar_, *turtle, derivation);
+    }
+
+    /// Without brackets there is one stroke, and the fold knows whether it closes.
+    void find_closed_strokes() {
+        if (!has_brackets_) {
+            if (const auto folded = fold(grammar_)) {
+                closed_ = {folded->closed};
+                return;
+            }
+        }
+        StrokeCensus census;
+        read_straight(census);
+        closed_ = std::move(census.closed);
+    }
+
+    const Grammar& grammar_;
+    Print& print_;
+    const DrawOptions& options_;
+    bool spline_;
+    bool has_brackets_ = false;
+    bool has_areas_ = false;
+    bool has_widths_ = false;
+    std::vector<bool> closed_;
+};
+
+std::string image_format(PrintFormat format) {
+    switch (format) {
+        case PrintFormat::tiff:
+            return "tif";
+        case PrintFormat::jpeg:
+            return "jpg";
+        case PrintFormat::exr:
+            return "exr";
+        default:
+            return "png";
+    }
+}
+
+void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& options, OutputFile& output) {
+    const auto raster = make_raster(print);
+    drawer.read(*raster);
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    ImageSpec spec;
+    spec.format = image_format(options.format);
+    spec.width = size.width;
+    spec.height = size.height;
+    spec.channels = raster->channels();
+    spec.dpi = print.dpi;
+    spec.threads = options.threads;
+    spec.title = print.title;
+    spec.description = print.pattern;
+    spec.software = print.made;
+    const auto image = open_image(output.temporary(), spec);
+    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+        if (options.watch) options.watch(0);
+        image->rows(first_row, rows, pixels);
+    });
+    image->close();
+}
+
+}  // namespace
+
+std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& byte : extension) {
+        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
+    }
+    if (extension == ".svg") return PrintFormat::svg;
+    if (extension == ".pdf") return PrintFormat::pdf;
+    if (extension == ".png") return PrintFormat::png;
+    if (extension == ".tif" || extension == ".tiff") return PrintFormat::tiff;
+    if (extension == ".jpg" || extension == ".jpeg") return PrintFormat::jpeg;
+    if (extension == ".exr") return PrintFormat::exr;
+    return std::nullopt;
+}
+
+DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, const std::filesystem::path& file) {
+    const Grammar grammar = shorten(given);
+    require_affordable(grammar, true, options.budget);
+    OutputFile output(file);
+    Drawer drawer(grammar, print, options);
+    const DrawReport report = drawer.prepare();
+    switch (options.format) {
+        case PrintFormat::svg: {
+            const auto writer = write_svg(print, output);
+            drawer.read(*writer);
+            writer->finish();
+            break;
+        }
+        case PrintFormat::pdf: {
+            const auto writer = write_pdf(print, output);
+            drawer.read(*writer);
+            writer->finish();
+            break;
+        }
+        default:
+            draw_pixels(drawer, print, options, output);
+            break;
+    }
+    output.commit();
+    return report;
+}
+
+}  // namespace sikku

@@ -1,0 +1,237 @@
+#include "art/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
+constexpr int most_links = 40;             // as the kernel follows
+
+/// Paths for remove_unfinished_files(); a signal handler may only read atomics and call unlink. A path is freed
+/// only by the owner after it took it out of its slot.
+std::array<std::atomic<const char*>, 64> unfinished{};
+
+int remember(const std::filesystem::path& path) {
+    char* copy = ::strdup(path.c_str());
+    for (std::size_t slot = 0; copy && slot < unfinished.size(); ++slot) {
+        const char* empty = nullptr;
+        if (unfinished[slot].compare_exchange_strong(empty, copy)) return static_cast<int>(slot);
+    }
+    std::free(copy);
+    return -1;
+}
+
+void forget(int slot) {
+    if (slot < 0) return;
+    const char* path = unfinished[static_cast<std::size_t>(slot)].exchange(nullptr);
+    std::free(const_cast<char*>(path));
+}
+
+/// The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for. Opening it by name would begin at the
+/// first byte of a redirected file instead of where the shell is.
+std::optional<int> named_descriptor(const std::string& name) {
+    if (name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!name.starts_with(folder)) continue;
+        const char* begin = name.data() + folder.size();
+        const char* end = name.data() + name.size();
+        int descriptor = 0;
+        const auto [stop, error] = std::from_chars(begin, end, descriptor);
+        if (error == std::errc() && stop == end && descriptor >= 0) return descriptor;
+    }
+    return std::nullopt;
+}
+
+std::string random_letters() {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
+    std::array<unsigned char, 6> bytes{};
+    if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) bytes.fill(0);
+    std::string result;
+    for (const unsigned char byte : bytes) result += letters[byte % letters.size()];
+    return result;
+}
+
+/// The name cut to what a temporary name can hold, not inside of a character.
+std::string stem_of(const std::filesystem::path& target) {
+    std::string stem = target.filename().string();
+    if (stem.size() > longest_stem) {
+        std::size_t end = longest_stem;
+        while (end > 0 && (static_cast<unsigned char>(stem[end]) & 0xC0) == 0x80) --end;
+        stem.resize(end);
+    }
+    return stem;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)), target_(name_) {
+    buffer_.reserve(buffer_bytes);
+    if (const auto named = named_descriptor(name_.string())) {
+        direct_ = true;
+        temporary_ = target_;
+        descriptor_ = ::fcntl(*named, F_DUPFD_CLOEXEC, 3);
+        if (descriptor_ < 0) fail(errno);
+        return;
+    }
+    for (int links = 0;; ++links) {
+        struct stat status {};
+        if (::lstat(target_.c_str(), &status) != 0) {
+            if (errno != ENOENT) fail(errno);
+            if (target_.filename().empty()) fail(target_.empty() ? ENOENT : EISDIR);
+            break;
+        }
+        if (S_ISLNK(status.st_mode)) {
+            if (links == most_links) fail(ELOOP);
+            std::error_code error;
+            const std::filesystem::path pointee = std::filesystem::read_symlink(target_, error);
+            if (error) fail(error.value());
+            target_ = target_.parent_path() / pointee;
+            continue;
+        }
+        if (S_ISDIR(status.st_mode)) fail(EISDIR);
+        direct_ = !S_ISREG(status.st_mode);
+        mode_ = static_cast<int>(status.st_mode & 0777);
+        // A rename would get past the protection of a read-only file.
+        if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
+        break;
+    }
+    create();
+}
+
+void OutputFile::create() {
+    if (direct_) {
+        temporary_ = target_;
+        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+        if (descriptor_ < 0) fail(errno);
+        return;
+    }
+    const std::string stem = stem_of(target_);
+    // Never more open than the file it replaces, and open enough for whoever opens temporary().
+    const mode_t mode = mode_ < 0 ? 0666 : static_cast<mode_t>(mode_) | 0600;
+    for (int attempt = 0;; ++attempt) {
+        temporary_ = target_.parent_path() / fmt::format(".{}.{}.tmp", stem, random_letters());
+        descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (descriptor_ >= 0) break;
+        if (errno != EEXIST || attempt == 100) fail(errno);
+    }
+    slot_ = remember(temporary_);
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!direct_ && !temporary_.empty()) ::unlink(temporary_.c_str());
+    forget(slot_);
+}
+
+void OutputFile::write(std::string_view bytes) {
+    written_ += bytes.size();
+    if (buffer_.size() + bytes.size() <= buffer_bytes) {
+        buffer_.append(bytes);
+        return;
+    }
+    flush();
+    if (bytes.size() >= buffer_bytes) {
+        write_all(bytes.data(), bytes.size());
+    } else {
+        buffer_.append(bytes);
+    }
+}
+
+void OutputFile::flush() {
+    write_all(buffer_.data(), buffer_.size());
+    buffer_.clear();
+}
+
+void OutputFile::write_all(const char* bytes, std::size_t count) {
+    while (count > 0) {
+        const ssize_t done = ::write(descriptor_, bytes, count);
+        if (done < 0) {
+            if (errno == EINTR) continue;
+            fail(errno);
+        }
+        bytes += done;
+        count -= static_cast<std::size_t>(done);
+    }
+}
+
+void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
+    if (direct_ || position > written_) throw std::logic_error("OutputFile::insert: no such place");
+    if (bytes.empty()) return;
+    flush();
+    const auto at = [](std::uint64_t offset) { return static_cast<off_t>(offset); };
+    const auto write_at = [&](const char* from, std::size_t count, std::uint64_t offset) {
+        while (count > 0) {
+            const ssize_t done = ::pwrite(descriptor_, from, count, at(offset));
+            if (done < 0) {
+                if (errno == EINTR) continue;
+                fail(errno);
+            }
+            from += done;
+            count -= static_cast<std::size_t>(done);
+            offset += static_cast<std::uint64_t>(done);
+        }
+    };
+    // From the end, so that nothing is overwritten before it is read.
+    std::string block;
+    for (std::uint64_t end = written_; end > position;) {
+        const std::uint64_t begin = end - std::min<std::uint64_t>(end - position, buffer_bytes);
+        block.resize(static_cast<std::size_t>(end - begin));
+        std::size_t read = 0;
+        while (read < block.size()) {
+            const ssize_t done = ::pread(descriptor_, block.data() + read, block.size() - read, at(begin + read));
+            if (done < 0 && errno == EINTR) continue;
+            if (done <= 0) fail(done < 0 ? errno : EIO);
+            read += static_cast<std::size_t>(done);
+        }
+        write_at(block.data(), block.size(), begin + bytes.size());
+        end = begin;
+    }
+    write_at(bytes.data(), bytes.size(), position);
+    written_ += bytes.size();
+    if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
+}
+
+void OutputFile::commit() {
+    flush();
+    // By name: a library may have made the file anew.
+    if (!direct_ && mode_ >= 0 && ::chmod(temporary_.c_str(), static_cast<mode_t>(mode_)) != 0) fail(errno);
+    const int descriptor = std::exchange(descriptor_, -1);
+    // Some file systems report a full disk only here.
+    if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
+    if (direct_) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+    temporary_.clear();
+    forget(std::exchange(slot_, -1));
+}
+
+void OutputFile::fail(int error) const {
+    throw std::runtime_error(
+        fmt::format("cannot write '{}': {}", name_.string(), std::generic_category().message(error)));
+}
+
+void remove_unfinished_files() noexcept {
+    for (const auto& slot : unfinished) {
+        if (const char* path = slot.load()) ::unlink(path);
+    }
+}
+
+}  // namespace sikku

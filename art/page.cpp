@@ -1,0 +1,175 @@
+#include "art/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr double millimetres_of_inch = 25.4;
+constexpr double step_of_a_point = 10.0;  // of a drawing without extent
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& byte : result) {
+        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
+    }
+    return result;
+}
+
+/// A number and what stands behind it; the unit is empty for a bare number.
+struct Measure {
+    double number = 0.0;
+    std::string unit;
+};
+
+std::optional<Measure> read_measure(std::string_view text) {
+    text = trimmed(text);
+    if (text.starts_with('+')) text.remove_prefix(1);
+    Measure measure;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), measure.number);
+    if (error != std::errc() || !std::isfinite(measure.number)) return std::nullopt;
+    const auto digits = static_cast<std::size_t>(end - text.data());
+    measure.unit = lower_case(trimmed(text.substr(digits)));
+    return measure;
+}
+
+std::optional<double> in_millimetres(const Measure& measure, double dpi) {
+    double result = measure.number;
+    if (measure.unit == "cm") {
+        result *= 10.0;
+    } else if (measure.unit == "in") {
+        result *= millimetres_of_inch;
+    } else if (measure.unit == "pt") {
+        result = result * millimetres_of_inch / 72.0;
+    } else if (measure.unit == "px") {
+        result = result * millimetres_of_inch / dpi;
+    } else if (!measure.unit.empty() && measure.unit != "mm") {
+        return std::nullopt;
+    }
+    if (!std::isfinite(result)) return std::nullopt;
+    return result;
+}
+
+struct NamedSize {
+    std::string_view name;
+    glm::dvec2 size;
+};
+const std::array<NamedSize, 10> named_sizes = {{
+    {"a0", {841.0, 1189.0}},
+    {"a1", {594.0, 841.0}},
+    {"a2", {420.0, 594.0}},
+    {"a3", {297.0, 420.0}},
+    {"a4", {210.0, 297.0}},
+    {"a5", {148.0, 210.0}},
+    {"a6", {105.0, 148.0}},
+    {"letter", {215.9, 279.4}},
+    {"legal", {215.9, 355.6}},
+    {"tabloid", {279.4, 431.8}},
+}};
+
+/// Cosine and sine of whole quarter turns without rounding.
+glm::dvec2 direction(double degrees) {
+    const double turn = std::fmod(degrees, 360.0);
+    const double quarters = turn / 90.0;
+    if (quarters == std::floor(quarters)) {
+        constexpr std::array<std::array<int, 2>, 4> axes = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+        const auto& axis = axes[static_cast<std::size_t>((static_cast<int>(quarters) + 4) % 4)];
+        return {axis[0], axis[1]};
+    }
+    const double radians = turn * 3.14159265358979323846 / 180.0;
+    return {std::cos(radians), std::sin(radians)};
+}
+
+/// The step at which one axis is filled, or nullopt if the drawing has no extent along it.
+std::optional<double> fitting_step(double room, double extent, double ink_steps, double ink_mm) {
+    const double steps = extent + 2.0 * ink_steps;
+    if (!(steps > 0.0)) return std::nullopt;
+    return (room - 2.0 * ink_mm) / steps;
+}
+
+}  // namespace
+
+std::optional<double> parse_length(std::string_view text, double dpi) {
+    const auto measure = read_measure(text);
+    if (!measure) return std::nullopt;
+    return in_millimetres(*measure, dpi);
+}
+
+std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
+    const std::string name = lower_case(trimmed(text));
+    for (const NamedSize& named : named_sizes) {
+        if (named.name == name) return named.size;
+    }
+    // `px` holds an x as well, so every x is tried.
+    for (std::size_t x = name.find('x'); x != std::string::npos; x = name.find('x', x + 1)) {
+        auto width = read_measure(std::string_view(name).substr(0, x));
+        const auto height = read_measure(std::string_view(name).substr(x + 1));
+        if (!width || !height) continue;
+        if (width->unit.empty()) width->unit = height->unit;
+        if (height->unit.empty() && !width->unit.empty()) continue;
+        const auto width_mm = in_millimetres(*width, dpi);
+        const auto height_mm = in_millimetres(*height, dpi);
+        if (width_mm && height_mm) return glm::dvec2(*width_mm, *height_mm);
+    }
+    return std::nullopt;
+}
+
+glm::dmat3x2 orientation(const PlacementOptions& options) {
+    const glm::dvec2 turned = direction(options.rotate);
+    const double mirrored = options.mirror ? -1.0 : 1.0;
+    glm::dmat3x2 result(0.0);
+    // Adding 0 turns -0 into 0.
+    result[0] = {mirrored * turned.x + 0.0, mirrored * turned.y + 0.0};
+    result[1] = {0.0 - turned.y, turned.x};
+    return result;
+}
+
+Placement place(const Box& box, const Page& page, const PlacementOptions& options, double ink_steps, double ink_mm) {
+    const glm::dvec2 low = box.empty() ? glm::dvec2(0.0) : box.low;
+    const glm::dvec2 high = box.empty() ? glm::dvec2(0.0) : box.high;
+    const glm::dvec2 extent = high - low;
+    Placement placement;
+    if (options.step) {
+        placement.step = *options.step;
+    } else if (extent.x <= 0.0 && extent.y <= 0.0) {
+        placement.step = step_of_a_point;
+    } else {
+        const glm::dvec2 room(page.width - 2.0 * page.margin, page.height - 2.0 * page.margin);
+        const auto across = fitting_step(room.x, extent.x, ink_steps, ink_mm);
+        const auto down = fitting_step(room.y, extent.y, ink_steps, ink_mm);
+        const double fitted = across && down ? std::min(*across, *down) : across ? *across : *down;
+        const double pen_alone = std::min(room.x, room.y) - 2.0 * ink_mm;
+        if (!(fitted > 0.0) || pen_alone < 0.0) {
+            throw std::runtime_error(fmt::format(
+                "the margins and the pen leave no room on a page of {:.6g} x {:.6g} mm: margin {:.6g} mm, "
+                "pen {:.6g} mm",
+                page.width, page.height, page.margin, 2.0 * ink_mm));
+        }
+        placement.step = fitted * options.scale;
+    }
+    const glm::dmat3x2 turned = orientation(options);
+    const double step = placement.step;
+    const glm::dvec2 centre = low * 0.5 + high * 0.5;
+    // Multiplied by the signed step and not negated, so that 0 stays 0.
+    placement.to_page[0] = {step * turned[0].x, 0.0 - step * turned[0].y};
+    placement.to_page[1] = {step * turned[1].x, 0.0 - step * turned[1].y};
+    placement.to_page[2] = {page.width * 0.5 - step * centre.x, page.height * 0.5 + step * centre.y};
+    return placement;
+}
+
+}  // namespace sikku

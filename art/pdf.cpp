@@ -1,0 +1,583 @@
+#include "art/pdf.h"
+
+#include "art/micrometres.h"
+
+#include <zlib.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr double points_of_micrometre = 72.0 / 25400.0;
+constexpr double most_units = 14400.0;  // of a page's side, in its units: ISO 32000-1, annex C
+
+constexpr std::size_t block_points = 1024;
+constexpr std::size_t pack_bytes = std::size_t{1} << 18;
+/// Painted at once; readers keep a whole path in memory, and it is cut without a trace, as caps are round and a
+/// translucent layer is painted as a group.
+constexpr int most_path_points = 8192;
+
+/// Layers in drawing order: polygons, then the strokes of each palette index, then discs.
+constexpr int polygon_layer = -1;
+constexpr int disc_layer = std::numeric_limits<int>::max();
+
+/// Distance of the control points of a quarter circle's Bézier, of its radius.
+constexpr double quarter_circle = 0.5522847498307936;
+
+/// Compresses pieces of streams, each for itself, so that one compressor serves any number of them at a time.
+class Deflater {
+public:
+    Deflater() {
+        if (deflateInit2(&stream_, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+            throw std::runtime_error("zlib: no memory");
+        }
+    }
+    ~Deflater() { deflateEnd(&stream_); }
+    Deflater(const Deflater&) = delete;
+    Deflater& operator=(const Deflater&) = delete;
+
+    /// Appends a whole number of bytes of blocks, none of them the last.
+    void append(std::string_view text, std::string& packed) {
+        deflateReset(&stream_);
+        stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(text.data()));
+        stream_.avail_in = static_cast<uInt>(text.size());
+        do {
+            const std::size_t size = packed.size();
+            packed.resize(size + pack_bytes / 4);
+            stream_.next_out = reinterpret_cast<Bytef*>(packed.data() + size);
+            stream_.avail_out = static_cast<uInt>(pack_bytes / 4);
+            deflate(&stream_, Z_FULL_FLUSH);
+            packed.resize(packed.size() - stream_.avail_out);
+        } while (stream_.avail_out == 0);
+    }
+
+private:
+    z_stream stream_{};
+};
+
+/// A text string: as it is if it is printable ASCII, else in UTF-16 with a byte order mark.
+std::string text_string(std::string_view text) {
+    const bool plain = std::all_of(text.begin(), text.end(), [](char byte) {
+        return (byte >= 0x20 && byte < 0x7F) || byte == '\n' || byte == '\t';
+    });
+    if (plain) {
+        std::string result = "(";
+        for (const char byte : text) {
+            if (byte == '(' || byte == ')' || byte == '\\') result += '\\';
+            result += byte;
+        }
+        return result + ')';
+    }
+    std::string result = "<FEFF";
+    const auto put = [&result](std::uint32_t unit) { fmt::format_to(std::back_inserter(result), "{:04X}", unit); };
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = [&](std::size_t k) {
+            return k < text.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])) : 0u;
+        };
+        const std::uint32_t lead = byte(i);
+        const std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
+        std::uint32_t code = length == 0   ? 0xFFFD
+                             : length == 1 ? lead
+                             : length == 2 ? lead & 0x1F
+                             : length == 3 ? lead & 0x0F
+                                           : lead & 0x07;
+        std::size_t used = 1;
+        for (; used < length && (byte(i + used) & 0xC0) == 0x80; ++used) code = code << 6 | (byte(i + used) & 0x3F);
+        if (used < length || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) code = 0xFFFD;
+        i += used;
+        if (code >= 0x10000) {
+            put(0xD800 + ((code - 0x10000) >> 10));
+            put(0xDC00 + ((code - 0x10000) & 0x3FF));
+        } else {
+            put(code);
+        }
+    }
+    return result + '>';
+}
+
+std::string channels(Colour colour) {
+    return fmt::format("{} {} {}", decimal(colour.red / 255.0, 4), decimal(colour.green / 255.0, 4),
+                       decimal(colour.blue / 255.0, 4));
+}
+
+inline char* put_point(char* out, Micrometres point) {
+    out = put_number(out, point.x);
+    *out++ = ' ';
+    out = put_number(out, point.y);
+    *out++ = ' ';
+    return out;
+}
+
+inline char* put_operator(char* out, char name) {
+    *out++ = name;
+    *out++ = '\n';
+    return out;
+}
+
+constexpr std::size_t point_room = 2 * number_room + 2;
+constexpr std::size_t line_room = point_room + 2;
+constexpr std::size_t curve_room = 3 * point_room + 2;
+
+struct Layer {
+    std::string label;
+    int stream = 0;            ///< number of the object with the drawing
+    int length = 0;            ///< and of its length, if it goes to the file before that is known
+    int group = 0;             ///< and of the optional content group
+    Colour colour;             ///< of a stroke layer
+    bool translucent = false;  ///< the whole layer is painted as one
+    TextBuffer text;
+    std::string packed;
+    std::uint64_t packed_bytes = 0;  ///< including what is in the file
+    uLong checksum = 1;              ///< Adler-32
+    bool to_file = false;
+    bool path_open = false;
+    int points = 0;             ///< of the open path
+    std::string width;          ///< as set last
+    std::optional<Colour> run;  ///< colour of polygons or discs, as set last
+};
+
+class Writer final : public PdfWriter {
+public:
+    Writer(const Print& print, OutputFile& file) : print_(print), file_(file), place_(print.placement) {
+        const double longest = std::max(print.page.width, print.page.height) * 1000.0 * points_of_micrometre;
+        unit_ = std::max(1.0, std::ceil(longest / most_units));
+        write("%PDF-1.6\n%\xE2\xE3\xCF\xD3\n");
+        catalog_ = new_object();
+        pages_ = new_object();
+        page_ = new_object();
+        resources_ = new_object();
+    }
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        here_ = place_(start);
+        started_ = false;
+        whole_ = true;
+        take(pen);
+    }
+
+    void change_pen(const Pen& pen) override {
+        if (print_.style.index(pen) == index_ && width_text(pen) == width_) return;
+        end_piece(false);
+        take(pen);
+    }
+
+    void lines(std::span<const glm::dvec2> ends) override {
+        if (!visible_) {
+            here_ = place_(ends.back());
+            return;
+        }
+        while (!ends.empty()) {
+            start_piece();
+            const auto block = ends.first(std::min(ends.size(), block_points));
+            ends = ends.subspan(block.size());
+            char* const begin = layer_->text.room(block.size() * line_room);
+            char* out = begin;
+            Micrometres here = here_;
+            const MicrometrePlacement place = place_;
+            for (const glm::dvec2 point : block) {
+                const Micrometres next = place(point);
+                if (next == here) continue;
+                here = next;
+                out = put_operator(put_point(out, next), 'l');
+            }
+            here_ = here;
+            end_block(begin, out, block.size());
+        }
+    }
+
+    void curves(std::span<const glm::dvec2> controls) override {
+        if (!visible_) {
+            here_ = place_(controls.back());
+            return;
+        }
+        while (!controls.empty()) {
+            start_piece();
+            const auto block = controls.first(std::min(controls.size(), 3 * (block_points / 4)));
+            controls = controls.subspan(block.size());
+            char* const begin = layer_->text.room(block.size() / 3 * curve_room);
+            char* out = begin;
+            Micrometres here = here_;
+            const MicrometrePlacement place = place_;
+            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
+                const Micrometres first = place(block[i]);
+                const Micrometres second = place(block[i + 1]);
+                const Micrometres end = place(block[i + 2]);
+                if (first == here && second == here && end == here) continue;
+                here = end;
+                out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+            }
+            here_ = here;
+            end_block(begin, out, block.size());
+        }
+    }
+
+    void end_stroke(bool closed) override { end_piece(closed && whole_); }
+
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        const Colour colour = print_.style.fill_colour(pen);
+        if (colour.alpha == 0 || vertices.empty()) return;
+        Layer& layer = coloured_run(polygon_layer, "fills", colour);
+        const MicrometrePlacement place = place_;
+        bool first = true;
+        while (!vertices.empty()) {
+            const auto block = vertices.first(std::min(vertices.size(), block_points));
+            vertices = vertices.subspan(block.size());
+            char* out = layer.text.room(block.size() * line_room);
+            for (const glm::dvec2 vertex : block) {
+                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
+                first = false;
+            }
+            layer.text.filled_to(out);
+            pack(layer, pack_bytes);
+        }
+        layer.text.append("f\n");
+    }
+
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        const Colour colour = print_.style.fill_colour(pen);
+        // A dot is twice as wide as the line.
+        const double millimetres =
+            radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
+        if (colour.alpha == 0 || !(millimetres > 0.0)) return;
+        Layer& layer = coloured_run(disc_layer, "discs", colour);
+        const Micrometres middle = place_(centre);
+        const double r = millimetres * 1000.0;
+        const auto at = [&](double x, double y) {
+            return Micrometres{to_whole(middle.x + r * x), to_whole(middle.y + r * y)};
+        };
+        constexpr double k = quarter_circle;
+        char* out = layer.text.room(6 * curve_room);
+        out = put_operator(put_point(out, at(1, 0)), 'm');
+        const auto curve = [&](Micrometres first, Micrometres second, Micrometres end) {
+            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+        };
+        curve(at(1, k), at(k, 1), at(0, 1));
+        curve(at(-k, 1), at(-1, k), at(-1, 0));
+        curve(at(-1, -k), at(-k, -1), at(0, -1));
+        curve(at(k, -1), at(1, -k), at(1, 0));
+        out = put_operator(out, 'f');
+        layer.text.filled_to(out);
+        pack(layer, pack_bytes);
+    }
+
+    void finish() override {
+        for (auto& [order, layer] : layers_) {
+            end_path(layer);
+            layer.text.append(layer.translucent ? "Q\n" : "Q\nEMC\n");
+        }
+        // An object that is under way in the file ends before the next begins.
+        for (auto& [order, layer] : layers_) {
+            if (!layer.to_file) continue;
+            pack(layer, 0);
+            end_packed(layer);
+            write(layer.packed);
+            write("\nendstream\nendobj\n");
+            begin_object(layer.length);
+            write(fmt::format("{}\nendobj\n", layer.packed_bytes));
+        }
+        std::string contents;
+        std::string groups;
+        std::string properties;
+        std::string forms;
+        if (const auto& ground = print_.style.ground; ground && ground->alpha > 0) {
+            const int group = new_object();
+            write_group(group, "ground");
+            fmt::format_to(std::back_inserter(properties), "/G{} {} 0 R\n", group, group);
+            fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
+            fmt::format_to(std::back_inserter(contents), " {} 0 R",
+                           write_plain_stream(fmt::format("/OC /G{} BDC q {} rg {} 0 0 {} {} re f Q EMC\n", group,
+                                                          channels(*ground), set_alpha(ground->alpha),
+                                                          user(print_.page.width), user(print_.page.height))));
+        }
+        for (auto& [order, layer] : layers_) {
+            if (!layer.to_file) {
+                pack(layer, 0);
+                end_packed(layer);
+                begin_object(layer.stream);
+                write(stream_head(layer, fmt::format("{}", layer.packed_bytes)));
+                write(layer.packed);
+                write("\nendstream\nendobj\n");
+            }
+            write_group(layer.group, layer.label);
+            fmt::format_to(std::back_inserter(properties), "/G{} {} 0 R\n", layer.group, layer.group);
+            fmt::format_to(std::back_inserter(groups), " {} 0 R", layer.group);
+            int content = layer.stream;
+            if (layer.translucent) {
+                fmt::format_to(std::back_inserter(forms), "/X{} {} 0 R\n", layer.stream, layer.stream);
+                content = write_plain_stream(fmt::format("/OC /G{} BDC q {} /X{} Do Q EMC\n", layer.group,
+                                                         set_alpha(layer.colour.alpha), layer.stream));
+            }
+            fmt::format_to(std::back_inserter(contents), " {} 0 R", content);
+            layer.packed = {};
+        }
+        write_structure(contents, groups, properties, forms);
+        layers_.clear();
+    }
+
+private:
+    void write(std::string_view text) { file_.write(text); }
+
+    int new_object() {
+        offsets_.push_back(0);
+        return static_cast<int>(offsets_.size());
+    }
+    void begin_object(int number) {
+        offsets_[static_cast<std::size_t>(number) - 1] = file_.size();
+        write(fmt::format("{} 0 obj\n", number));
+    }
+
+    /// Millimetres in units of the page.
+    std::string user(double millimetres) const {
+        return decimal(millimetres * 1000.0 * points_of_micrometre / unit_, 4);
+    }
+
+    /// The operator that sets the opacity of fills and groups; the state it names is remembered.
+    std::string set_alpha(std::uint8_t alpha) {
+        if (alpha == 255 && alphas_.empty()) return "";
+        alphas_.insert(alpha);
+        return fmt::format("/A{} gs", alpha);
+    }
+
+    /// Micrometres with y down become units of the page with y up.
+    std::string matrix() const {
+        const std::string scale = decimal(points_of_micrometre / unit_, 14);
+        return fmt::format("{} 0 0 -{} 0 {} cm", scale, scale, user(print_.page.height));
+    }
+
+    std::string stream_head(const Layer& layer, const std::string& length) const {
+        const std::string form = layer.translucent ? fmt::format(
+                                                         "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
+                                                         "/Group << /S /Transparency /CS /DeviceRGB >> ",
+                                                         user(print_.page.width), user(print_.page.height))
+                                                   : "";
+        return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
+    }
+
+    /// The first layer of all goes to the file at once, the others wait in memory.
+    Layer& open_layer(int order, std::string_view label, Colour colour, bool translucent) {
+        const auto [found, is_new] = layers_.try_emplace(order);
+        Layer& layer = found->second;
+        if (!is_new) return layer;
+        layer.label = label;
+        layer.colour = colour;
+        layer.translucent = translucent;
+        layer.stream = new_object();
+        layer.group = new_object();
+        layer.packed = "\x78\x9C";
+        layer.packed_bytes = layer.packed.size();
+        if (layers_.size() == 1) {
+            layer.to_file = true;
+            layer.length = new_object();
+            begin_object(layer.stream);
+            write(stream_head(layer, fmt::format("{} 0 R", layer.length)));
+        }
+        if (!translucent) layer.text.append(fmt::format("/OC /G{} BDC\n", layer.group));
+        layer.text.append(fmt::format("q {} 1 J 1 j\n", matrix()));
+        return layer;
+    }
+
+    /// Polygons and discs keep their order whatever their colours, as they may cover each other.
+    Layer& coloured_run(int order, std::string_view label, Colour colour) {
+        Layer& layer = open_layer(order, label, colour, false);
+        if (layer.run != colour) {
+            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
+            layer.run = colour;
+        }
+        return layer;
+    }
+
+    std::string width_text(const Pen& pen) const {
+        return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
+    }
+
+    void take(const Pen& pen) {
+        if (pen_ == pen) return;
+        pen_ = pen;
+        index_ = print_.style.index(pen);
+        width_ = width_text(pen);
+        colour_ = print_.style.line_colour(pen);
+        // In PDF a width of 0 is the thinnest line there is, and not none.
+        visible_ = print_.style.stroked && colour_.alpha > 0 && width_ != "0";
+        layer_ = nullptr;
+    }
+
+    /// Puts the pen down where it is, if it is not down. Only when something is drawn: a pen that is changed
+    /// twice at one place leaves no dot.
+    void start_piece() {
+        if (started_) return;
+        started_ = true;
+        if (!layer_) {
+            layer_ = &open_layer(index_, fmt::format("{} {}", index_ + 1, colour_name(colour_)), colour_,
+                                 colour_.alpha != 255);
+        }
+        if (layer_->width != width_) {
+            end_path(*layer_);
+            if (layer_->width.empty()) layer_->text.append(fmt::format("{} RG\n", channels(colour_)));
+            layer_->text.append(fmt::format("{} w\n", width_));
+            layer_->width = width_;
+        }
+        layer_->path_open = true;
+        drawn_ = false;
+        put(here_, 'm');
+    }
+
+    void put(Micrometres point, char name) {
+        char* out = layer_->text.room(line_room);
+        layer_->text.filled_to(put_operator(put_point(out, point), name));
+    }
+
+    void end_block(const char* begin, const char* out, std::size_t points) {
+        drawn_ = drawn_ || out != begin;
+        layer_->text.filled_to(out);
+        layer_->points += static_cast<int>(points);
+        if (layer_->points > most_path_points) {
+            end_piece(false);
+            end_path(*layer_);
+        }
+        pack(*layer_, pack_bytes);
+    }
+
+    void end_piece(bool closed) {
+        if (!started_) return;
+        // A line without length: the round caps make it a dot.
+        if (!drawn_) put(here_, 'l');
+        if (closed && drawn_) layer_->text.append("h\n");
+        layer_->points += 1;
+        if (layer_->points > most_path_points) end_path(*layer_);
+        started_ = false;
+        whole_ = false;
+    }
+
+    static void end_path(Layer& layer) {
+        if (layer.path_open) layer.text.append("S\n");
+        layer.path_open = false;
+        layer.points = 0;
+    }
+
+    /// Compresses what the layer holds if it is at least `least` bytes.
+    void pack(Layer& layer, std::size_t least) {
+        if (layer.text.size() < least) return;
+        const std::string_view text = layer.text.view();
+        const std::size_t before = layer.packed.size();
+        layer.checksum = adler32_z(layer.checksum, reinterpret_cast<const Bytef*>(text.data()), text.size());
+        // A polygon's text may be longer than zlib counts.
+        for (std::size_t at = 0; at < text.size(); at += std::size_t{1} << 30) {
+            deflater_.append(text.substr(at, std::size_t{1} << 30), layer.packed);
+        }
+        layer.packed_bytes += layer.packed.size() - before;
+        layer.text.clear();
+        if (layer.to_file) {
+            write(layer.packed);
+            layer.packed.clear();
+        }
+    }
+
+    /// An empty last block, and the checksum.
+    static void end_packed(Layer& layer) {
+        layer.packed += std::string_view("\x03\x00", 2);
+        for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
+        layer.packed_bytes += 6;
+    }
+
+    int write_plain_stream(const std::string& text) {
+        const int number = new_object();
+        begin_object(number);
+        write(fmt::format("<< /Length {} >>\nstream\n{}endstream\nendobj\n", text.size(), text));
+        return number;
+    }
+
+    void write_group(int number, std::string_view label) {
+        begin_object(number);
+        write(fmt::format("<< /Type /OCG /Name {} >>\nendobj\n", text_string(label)));
+    }
+
+    void write_structure(const std::string& contents, const std::string& groups, const std::string& properties,
+                         const std::string& forms) {
+        begin_object(resources_);
+        write("<<\n");
+        if (!properties.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties));
+        if (!forms.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms));
+        if (!alphas_.empty()) {
+            write("/ExtGState <<\n");
+            for (const int alpha : alphas_) {
+                const std::string value = decimal(alpha / 255.0, 4);
+                write(fmt::format("/A{} << /Type /ExtGState /CA {} /ca {} >>\n", alpha, value, value));
+            }
+            write(">>\n");
+        }
+        write(">>\nendobj\n");
+
+        begin_object(page_);
+        const std::string box = fmt::format("[0 0 {} {}]", user(print_.page.width), user(print_.page.height));
+        write(fmt::format(
+            "<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
+            "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
+            pages_, box, box, box, box, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+            alphas_.empty() ? "" : "/Group << /S /Transparency /CS /DeviceRGB >>\n", resources_, contents));
+        begin_object(pages_);
+        write(fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>\nendobj\n", page_));
+        begin_object(catalog_);
+        write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n", pages_));
+        if (!groups.empty()) {
+            write(fmt::format("/OCProperties << /OCGs [{} ] /D << /Order [{} ] >> >>\n", groups, groups));
+        }
+        write(">>\nendobj\n");
+        const int info = new_object();
+        begin_object(info);
+        write("<< ");
+        if (!print_.title.empty()) write(fmt::format("/Title {}\n", text_string(print_.title)));
+        if (!print_.made.empty()) write(fmt::format("/Subject {}\n", text_string(print_.made)));
+        // A key of our own beside those of the standard, which allows it: the print can be made again from it.
+        if (!print_.pattern.empty()) write(fmt::format("/SikkuPattern {}\n", text_string(print_.pattern)));
+        write("/Creator (Sikku) >>\nendobj\n");
+
+        const std::uint64_t table = file_.size();
+        write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", offsets_.size() + 1));
+        for (const std::uint64_t offset : offsets_) write(fmt::format("{:010} 00000 n \n", offset));
+        write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n",
+                          offsets_.size() + 1, catalog_, info, table));
+    }
+
+    const Print& print_;
+    OutputFile& file_;
+    const MicrometrePlacement place_;
+    Deflater deflater_;
+    std::map<int, Layer> layers_;
+    std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
+    std::set<int> alphas_;
+    double unit_ = 1.0;  ///< points of one unit of the page
+    int catalog_ = 0;
+    int pages_ = 0;
+    int page_ = 0;
+    int resources_ = 0;
+
+    // The stroke that is being drawn, and its piece with the present pen.
+    std::optional<Pen> pen_;
+    Layer* layer_ = nullptr;
+    int index_ = 0;
+    Colour colour_;
+    std::string width_;
+    bool visible_ = false;
+    bool started_ = false;  ///< the piece has its m
+    bool drawn_ = false;    ///< and something that has length
+    bool whole_ = true;     ///< the stroke is one piece so far
+    Micrometres here_;
+};
+
+}  // namespace
+
+std::unique_ptr<PdfWriter> write_pdf(const Print& print, OutputFile& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+}  // namespace sikku

@@ -1,0 +1,534 @@
+#include "art/svg.h"
+
+#include "art/micrometres.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <pugixml.hpp>
+
+namespace sikku {
+namespace {
+
+constexpr std::string_view name_space = "urn:sikku:print";
+constexpr std::string_view head_end = "</metadata>";
+
+/// libxml2, and with it xmllint and rsvg, refuses attributes of 10 MB, and also 10 MB in which it did not come by the
+/// end of what it has buffered when an element began, about one chance in eight. So a file begins with long paths and
+/// goes on with short ones.
+constexpr std::uint64_t most_path_bytes = 3'900'000;
+constexpr std::uint64_t long_path_region = 3'000'000;
+constexpr std::uint64_t late_path_bytes = 32'000;
+constexpr std::size_t block_points = 1024;
+constexpr std::size_t flush_bytes = std::size_t{1} << 18;
+/// The first strokes of a layer are paths of their own, so that they can be picked up one by one; among very many
+/// the short ones share paths of about this size.
+constexpr int single_strokes = 256;
+constexpr std::uint64_t shared_path_bytes = 4096;
+
+/// Layers in drawing order: polygons, then the strokes of each palette index, then discs.
+constexpr int polygon_layer = -1;
+constexpr int disc_layer = std::numeric_limits<int>::max();
+
+/// The length of the UTF-8 sequence at the front of `text` if it is a character that XML 1.0 can hold, else 0.
+std::size_t xml_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
+    if (lead < 0xC2 || lead > 0xF4 || !follows(1)) return 0;
+    if (lead < 0xE0) return 2;
+    if (!follows(2)) return 0;
+    if (lead < 0xF0) {
+        if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F)) return 0;
+        if (lead == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE) return 0;
+        return 3;
+    }
+    if (!follows(3) || (lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F)) return 0;
+    return 4;
+}
+
+bool fits_xml(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = xml_character(text.substr(i));
+        if (length == 0) return false;
+        i += length;
+    }
+    return true;
+}
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = xml_character(text.substr(i));
+        if (length == 0) {
+            result += "\xEF\xBF\xBD";
+            ++i;
+            continue;
+        }
+        switch (text[i]) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\r':
+                result += "&#13;";
+                break;  // a parser would turn it into a line feed
+            default:
+                result.append(text, i, length);
+        }
+        i += length;
+    }
+    return result;
+}
+
+std::string to_hex(std::string_view bytes) {
+    std::string result;
+    result.reserve(2 * bytes.size());
+    for (const char byte : bytes) {
+        result += "0123456789abcdef"[static_cast<unsigned char>(byte) >> 4];
+        result += "0123456789abcdef"[static_cast<unsigned char>(byte) & 15];
+    }
+    return result;
+}
+
+std::optional<std::string> from_hex(std::string_view digits) {
+    std::string result;
+    if (digits.size() % 2 != 0) return std::nullopt;
+    for (std::size_t i = 0; i < digits.size(); i += 2) {
+        int value = 0;
+        for (const char digit : {digits[i], digits[i + 1]}) {
+            const std::size_t at = std::string_view("0123456789abcdef").find(digit);
+            if (at == std::string_view::npos) return std::nullopt;
+            value = value * 16 + static_cast<int>(at);
+        }
+        result += static_cast<char>(value);
+    }
+    return result;
+}
+
+/// ` name="0.5"`, or nothing for an opaque colour.
+std::string opacity(std::string_view name, Colour colour) {
+    return colour.alpha == 255 ? "" : fmt::format(" {}=\"{}\"", name, decimal(colour.alpha / 255.0, 4));
+}
+
+/// A command letter where it differs from the last one; else the separator that the number after it needs.
+inline char* put_command(char* out, char letter, char& last, std::int32_t value) {
+    if (letter != last) {
+        *out++ = last = letter;
+    } else if (value >= 0) {
+        *out++ = ' ';
+    }
+    return put_number(out, value);
+}
+
+inline char* put_next(char* out, std::int32_t value) {
+    if (value >= 0) *out++ = ' ';
+    return put_number(out, value);
+}
+
+constexpr std::size_t line_room = 1 + 2 * number_room;
+constexpr std::size_t curve_room = 1 + 6 * number_room;
+
+/// Path data from point to point. The letters are those of relative commands; differences of rounded positions
+/// do not drift.
+class PathData {
+public:
+    explicit PathData(Micrometres start) : here_(start) {}
+
+    void line(char*& out, Micrometres next) {
+        const std::int32_t right = next.x - here_.x;
+        const std::int32_t down = next.y - here_.y;
+        here_ = next;
+        if (down == 0) {
+            if (right != 0) out = put_command(out, 'h', command_, right);
+        } else if (right == 0) {
+            out = put_command(out, 'v', command_, down);
+        } else {
+            out = put_command(out, 'l', command_, right);
+            out = put_next(out, down);
+        }
+    }
+
+    void curve(char*& out, Micrometres first, Micrometres second, Micrometres end) {
+        if (first == here_ && second == here_ && end == here_) return;
+        out = put_command(out, 'c', command_, first.x - here_.x);
+        out = put_next(out, first.y - here_.y);
+        for (const Micrometres point : {second, end}) {
+            out = put_next(out, point.x - here_.x);
+            out = put_next(out, point.y - here_.y);
+        }
+        here_ = end;
+    }
+
+    Micrometres here() const { return here_; }
+
+private:
+    Micrometres here_;
+    char command_ = 0;
+};
+
+struct Layer {
+    TextBuffer text;
+    std::uint64_t flushed = 0;  ///< bytes of it that are in the file already
+    bool to_file = false;
+    bool path_open = false;        ///< an attribute d is open, which the next stroke may share
+    std::uint64_t path_begin = 0;  ///< where it began, as position()
+    std::string path_width;        ///< stroke-width of the open path
+    std::string width;             ///< stroke-width that the layer gives its paths
+    Micrometres at;                ///< where the open path ends
+    int strokes = 0;
+    std::optional<Colour> run;  ///< colour of the open group of polygons or discs
+
+    std::uint64_t position() const { return flushed + text.size(); }
+};
+
+class Writer final : public SvgWriter {
+public:
+    Writer(const Print& print, OutputFile& file) : print_(print), file_(file), place_(print.placement) {
+        write_head();
+        body_begin_ = written_ = file_.size();
+    }
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        here_ = place_(start);
+        started_ = false;
+        whole_ = true;
+        take(pen);
+    }
+
+    void change_pen(const Pen& pen) override {
+        if (print_.style.index(pen) == index_ && width_text(pen) == width_) return;
+        end_piece(false);
+        take(pen);
+    }
+
+    void lines(std::span<const glm::dvec2> ends) override {
+        if (!visible_) {
+            here_ = place_(ends.back());
+            return;
+        }
+        while (!ends.empty()) {
+            start_piece();
+            const auto block = ends.first(std::min(ends.size(), block_points));
+            ends = ends.subspan(block.size());
+            char* const begin = layer_->text.room(block.size() * line_room);
+            char* out = begin;
+            // Locals, so that the compiler need not fear that writing text changes them.
+            PathData path = data_;
+            const MicrometrePlacement place = place_;
+            for (const glm::dvec2 point : block) path.line(out, place(point));
+            data_ = path;
+            end_block(begin, out);
+        }
+    }
+
+    void curves(std::span<const glm::dvec2> controls) override {
+        if (!visible_) {
+            here_ = place_(controls.back());
+            return;
+        }
+        while (!controls.empty()) {
+            start_piece();
+            const auto block = controls.first(std::min(controls.size(), 3 * (block_points / 4)));
+            controls = controls.subspan(block.size());
+            char* const begin = layer_->text.room(block.size() / 3 * curve_room);
+            char* out = begin;
+            PathData path = data_;
+            const MicrometrePlacement place = place_;
+            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
+                path.curve(out, place(block[i]), place(block[i + 1]), place(block[i + 2]));
+            }
+            data_ = path;
+            end_block(begin, out);
+        }
+    }
+
+    void end_stroke(bool closed) override { end_piece(closed && whole_); }
+
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        const Colour colour = print_.style.fill_colour(pen);
+        if (colour.alpha == 0 || vertices.empty()) return;
+        Layer& layer = coloured_run(polygon_layer, colour);
+        char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
+        char* out = begin;
+        const MicrometrePlacement place = place_;
+        const Micrometres start = place(vertices.front());
+        out = put_text(out, "<path d=\"M");
+        out = put_number(out, start.x);
+        out = put_next(out, start.y);
+        PathData path(start);
+        for (const glm::dvec2 vertex : vertices.subspan(1)) path.line(out, place(vertex));
+        out = put_text(out, "z\"/>\n");
+        layer.text.filled_to(out);
+        flush(layer);
+    }
+
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        const Colour colour = print_.style.fill_colour(pen);
+        // A dot is twice as wide as the line.
+        const double millimetres =
+            radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
+        if (colour.alpha == 0 || !(millimetres > 0.0)) return;
+        Layer& layer = coloured_run(disc_layer, colour);
+        const Micrometres middle = place_(centre);
+        layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", middle.x, middle.y,
+                                      decimal(std::min(millimetres * 1000.0, 1e9), 1)));
+        flush(layer);
+    }
+
+    void finish() override {
+        std::string before;
+        const Layer* streamed = nullptr;
+        for (auto& [order, layer] : layers_) {
+            end_path(layer);
+            if (layer.run) layer.text.append("</g>\n");
+            layer.text.append("</g>\n");
+            if (layer.to_file) {
+                streamed = &layer;
+                file_.write(layer.text.view());
+            } else if (!streamed && streaming_) {
+                before.append(layer.text.view());
+            } else {
+                file_.write(layer.text.view());
+            }
+        }
+        file_.write("</svg>\n");
+        if (!before.empty()) file_.insert(body_begin_, before);
+        layers_.clear();
+    }
+
+private:
+    static char* put_text(char* out, std::string_view text) {
+        std::memcpy(out, text.data(), text.size());
+        return out + text.size();
+    }
+
+    void write_head() {
+        const std::string width = decimal(print_.page.width, 4);
+        const std::string height = decimal(print_.page.height, 4);
+        file_.write(
+            fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                        "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" xmlns:sikku=\"{}\"\n"
+                        "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\">\n",
+                        name_space, width, height, width, height));
+        file_.write(fmt::format("<title>{}</title>\n<desc>", escaped(print_.title)));
+        file_.write(escaped(print_.pattern));
+        file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", escaped(print_.made)));
+        if (!fits_xml(print_.pattern)) {
+            file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
+        }
+        file_.write(fmt::format("{}\n", head_end));
+        if (const auto& ground = print_.style.ground; ground && ground->alpha > 0) {
+            file_.write(
+                fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"ground\">\n"
+                            "<rect width=\"{}\" height=\"{}\" fill=\"{}\"{}/>\n</g>\n",
+                            width, height, hex(*ground), opacity("fill-opacity", *ground)));
+        }
+    }
+
+    /// The layer of that order, begun with its group on first use. The first layer of all goes to the file at
+    /// once; the others wait in memory, as they may have to stand before it.
+    Layer& open_layer(int order, const std::string& label, const std::string& attributes) {
+        const auto [found, is_new] = layers_.try_emplace(order);
+        Layer& layer = found->second;
+        if (is_new) {
+            layer.to_file = layers_.size() == 1 && file_.can_insert();
+            streaming_ = streaming_ || layer.to_file;
+            layer.text.append(
+                fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
+                            "transform=\"scale(0.001)\"{}>\n",
+                            label, attributes));
+        }
+        return layer;
+    }
+
+    /// Polygons and discs keep their order whatever their colours, as they may cover each other.
+    Layer& coloured_run(int order, Colour colour) {
+        Layer& layer = open_layer(order, order == polygon_layer ? "fills" : "discs", "");
+        if (layer.run != colour) {
+            if (layer.run) layer.text.append("</g>\n");
+            layer.text.append(fmt::format("<g fill=\"{}\"{}>\n", hex(colour), opacity("fill-opacity", colour)));
+            layer.run = colour;
+        }
+        return layer;
+    }
+
+    std::string width_text(const Pen& pen) const {
+        return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
+    }
+
+    void take(const Pen& pen) {
+        if (pen_ == pen) return;
+        pen_ = pen;
+        index_ = print_.style.index(pen);
+        width_ = width_text(pen);
+        colour_ = print_.style.line_colour(pen);
+        visible_ = print_.style.stroked && colour_.alpha > 0;
+        layer_ = nullptr;
+    }
+
+    /// Puts the pen down where it is, if it is not down. Only when something is drawn: a pen that is changed
+    /// twice at one place leaves no dot.
+    void start_piece() {
+        if (started_) return;
+        started_ = true;
+        if (!layer_) {
+            // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
+            layer_ = &open_layer(index_, fmt::format("{} {}", index_ + 1, colour_name(colour_)),
+                                 fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
+                                             "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                                             hex(colour_), opacity("opacity", colour_), width_));
+            if (layer_->width.empty()) layer_->width = width_;
+        }
+        if (layer_->path_open && (layer_->strokes < single_strokes || layer_->path_width != width_ ||
+                                  layer_->position() - layer_->path_begin > shared_path_bytes)) {
+            end_path(*layer_);
+        }
+        if (layer_->path_open) {
+            char* out = layer_->text.room(line_room);
+            *out++ = 'm';
+            out = put_number(out, here_.x - layer_->at.x);
+            out = put_next(out, here_.y - layer_->at.y);
+            layer_->text.filled_to(out);
+        } else {
+            layer_->text.append(width_ == layer_->width ? "<path d=\""
+                                                        : fmt::format("<path stroke-width=\"{}\" d=\"", width_));
+            layer_->path_open = true;
+            layer_->path_begin = layer_->position();
+            layer_->path_width = width_;
+            char* out = layer_->text.room(line_room);
+            *out++ = 'M';
+            out = put_number(out, here_.x);
+            out = put_next(out, here_.y);
+            layer_->text.filled_to(out);
+        }
+        drawn_ = false;
+        piece_start_ = here_;
+        data_ = PathData(here_);
+    }
+
+    void end_block(const char* begin, const char* out) {
+        drawn_ = drawn_ || out != begin;
+        here_ = data_.here();
+        layer_->text.filled_to(out);
+        written_ += static_cast<std::uint64_t>(out - begin);
+        flush(*layer_);
+        const std::uint64_t path_bytes = layer_->position() - layer_->path_begin;
+        if (path_bytes > most_path_bytes ||
+            (path_bytes > late_path_bytes && written_ - path_bytes > long_path_region)) {
+            end_piece(false);
+            end_path(*layer_);
+        }
+    }
+
+    void end_piece(bool closed) {
+        if (!started_) return;
+        // A line without length: the round caps make it a dot.
+        if (!drawn_) layer_->text.append("h0");
+        if (closed && drawn_) layer_->text.append("z");
+        layer_->at = closed ? piece_start_ : here_;
+        ++layer_->strokes;
+        started_ = false;
+        whole_ = false;
+    }
+
+    static void end_path(Layer& layer) {
+        if (layer.path_open) layer.text.append("\"/>\n");
+        layer.path_open = false;
+    }
+
+    void flush(Layer& layer) {
+        if (!layer.to_file || layer.text.size() < flush_bytes) return;
+        file_.write(layer.text.view());
+        layer.flushed += layer.text.size();
+        layer.text.clear();
+    }
+
+    const Print& print_;
+    OutputFile& file_;
+    const MicrometrePlacement place_;
+    std::map<int, Layer> layers_;
+    std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
+    std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
+    bool streaming_ = false;
+
+    // The stroke that is being drawn, and its piece with the present pen.
+    std::optional<Pen> pen_;
+    Layer* layer_ = nullptr;
+    int index_ = 0;
+    Colour colour_;
+    std::string width_;
+    bool visible_ = false;
+    bool started_ = false;  ///< the piece has its M
+    bool drawn_ = false;    ///< and something that has length
+    bool whole_ = true;     ///< the stroke is one piece so far
+    Micrometres piece_start_;
+    Micrometres here_;
+    PathData data_{Micrometres{}};
+};
+
+}  // namespace
+
+std::unique_ptr<SvgWriter> write_svg(const Print& print, OutputFile& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+std::optional<Provenance> svg_provenance(const std::filesystem::path& file) {
+    // Patterns are at most 64 MB, escaped perhaps six times as long, or twice that in hexadecimal digits.
+    constexpr std::size_t most_bytes = std::size_t{640} << 20;
+    constexpr std::size_t first_bytes = 4096;
+    std::ifstream stream(file, std::ios::binary);
+    std::string head;
+    std::string block(first_bytes, '\0');
+    std::size_t desc = std::string::npos;
+    std::size_t metadata = std::string::npos;
+    while (stream && head.size() < most_bytes) {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        // A marker may lie across two blocks.
+        const std::size_t from = head.size() - std::min<std::size_t>(head.size(), 16);
+        head.append(block, 0, static_cast<std::size_t>(stream.gcount()));
+        if (block.size() == first_bytes) {
+            if (head.find(name_space) == std::string::npos) return std::nullopt;
+            block.resize(std::size_t{1} << 16);
+        }
+        if (desc == std::string::npos) desc = head.find("</desc>", from);
+        if (metadata == std::string::npos) metadata = head.find(head_end, from);
+        if (desc != std::string::npos && metadata != std::string::npos) break;
+    }
+    if (desc == std::string::npos || metadata == std::string::npos) return std::nullopt;
+    head.resize(std::max(desc + std::string_view("</desc>").size(), metadata + head_end.size()));
+
+    // The elements around the head are left open: the parser complains, and keeps what it has read.
+    pugi::xml_document document;
+    document.load_buffer(head.data(), head.size(), pugi::parse_default | pugi::parse_ws_pcdata);
+    const pugi::xml_node root = document.document_element();
+    const pugi::xml_node made = root.child("metadata").child("sikku:made");
+    if (!root.child("desc") || !made) return std::nullopt;
+    Provenance provenance;
+    provenance.made = made.child_value();
+    provenance.pattern = root.child("desc").child_value();
+    if (const pugi::xml_node exact = root.child("metadata").child("sikku:pattern")) {
+        const auto bytes = from_hex(exact.child_value());
+        if (!bytes) return std::nullopt;
+        provenance.pattern = *bytes;
+    }
+    return provenance;
+}
+
+}  // namespace sikku

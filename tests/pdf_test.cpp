@@ -1,0 +1,235 @@
+#include "art/pdf.h"
+
+#include "art/svg.h"
+#include "tests/print_tools.h"
+
+#include <charconv>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <random>
+
+namespace sikku {
+namespace {
+
+using Points = std::vector<glm::dvec2>;
+
+class Pdf : public ::testing::Test {
+protected:
+    template <typename Draw>
+    std::filesystem::path write(const Print& print, Draw&& draw, const std::string& name = "print.pdf") {
+        const auto path = folder_ / name;
+        OutputFile file(path);
+        const auto writer = write_pdf(print, file);
+        draw(*writer);
+        writer->finish();
+        file.commit();
+        return path;
+    }
+
+    /// Says what is wrong with the file's structure, or nothing.
+    static std::string complaints(const std::filesystem::path& path) {
+        const Outcome outcome = run("qpdf --check '" + path.string() + "'");
+        return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
+    }
+
+    /// The file with its streams uncompressed.
+    std::string plain_text(const std::filesystem::path& path) {
+        const auto plain = folder_ / "plain.pdf";
+        const Outcome outcome = run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
+        EXPECT_TRUE(outcome.ok) << outcome.text;
+        return contents(plain);
+    }
+
+    ScratchFolder folder_;
+};
+
+#define NEEDS(program) \
+    if (!has_program(program)) GTEST_SKIP() << "no " program " on this machine"
+
+TEST_F(Pdf, IsSoundAndHasItsBoxes) {
+    NEEDS("qpdf");
+    NEEDS("pdfinfo");
+    for (const bool empty : {false, true}) {
+        Print print = plain_print();
+        print.page = {210.0, 297.0, 10.0};
+        if (empty) print.style.ground.reset();
+        const auto path = write(print, [&](PathSink& sink) {
+            if (!empty) draw_sampler(sink);
+        });
+        EXPECT_EQ(complaints(path), "");
+        EXPECT_TRUE(contents(path).starts_with("%PDF-1.6\n"));
+        const std::string boxes = run("pdfinfo -box '" + path.string() + "'").text;
+        for (const std::string name : {"MediaBox", "CropBox", "BleedBox", "TrimBox"}) {
+            EXPECT_NE(boxes.find(name), std::string::npos);
+        }
+        for (std::size_t at = boxes.find("Box:"); at != std::string::npos; at = boxes.find("Box:", at + 1)) {
+            EXPECT_NE(boxes.find("0.00     0.00   595.28   841.89", at), std::string::npos) << boxes;
+        }
+    }
+}
+
+TEST_F(Pdf, SheetsBeyondTheLimitHaveALargerUnit) {
+    NEEDS("qpdf");
+    NEEDS("pdfinfo");
+    Print print = plain_print();
+    print.page = {12'000.0, 3'000.0, 10.0};
+    const auto path = write(print, draw_sampler);
+    EXPECT_EQ(complaints(path), "");
+    const std::string text = contents(path);
+    EXPECT_NE(text.find("/UserUnit 3\n"), std::string::npos);
+    EXPECT_NE(text.find("/MediaBox [0 0 11338.5827 2834.6457]"), std::string::npos);
+}
+
+TEST_F(Pdf, PositionsAreWholeMicrometres) {
+    NEEDS("qpdf");
+    Print print = plain_print();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> anywhere(-20.0, 100.0);
+    Points points;
+    for (int i = 0; i < 30'000; ++i) points.emplace_back(anywhere(random), anywhere(random));
+    const auto path = write(print, [&](PathSink& sink) {
+        sink.begin_stroke(points.front(), Pen{});
+        sink.lines(std::span<const glm::dvec2>(points).subspan(1, 14'999));
+        sink.curves(std::span<const glm::dvec2>(points).subspan(15'000));
+        sink.end_stroke(false);
+    });
+    EXPECT_EQ(complaints(path), "");
+    const std::string text = plain_text(path);
+    std::istringstream stream(text.substr(text.find(" cm 1 J 1 j")));
+    Points drawn;
+    std::vector<double> numbers;
+    for (std::string word; stream >> word && word != "Q";) {
+        double number = 0.0;
+        if (std::from_chars(word.data(), word.data() + word.size(), number).ec == std::errc()) {
+            numbers.push_back(number);
+            continue;
+        }
+        // A long path is painted in pieces, each beginning where the last one ended.
+        const bool goes_on = word == "m" && !drawn.empty();
+        if (goes_on) {
+            EXPECT_EQ(drawn.back(), (glm::dvec2(numbers.at(0), numbers.at(1))));
+        } else if ((word == "m" || word == "l" || word == "c")) {
+            for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) drawn.emplace_back(numbers[i], numbers[i + 1]);
+        }
+        numbers.clear();
+    }
+    ASSERT_EQ(drawn.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec2 exact = print.placement.to_page * glm::dvec3(points[i], 1.0) * 1000.0;
+        ASSERT_NEAR(drawn[i].x, exact.x, 0.5 + 1e-6) << i;
+        ASSERT_NEAR(drawn[i].y, exact.y, 0.5 + 1e-6) << i;
+    }
+}
+
+TEST_F(Pdf, LayersAreNamedAndInOrder) {
+    NEEDS("qpdf");
+    const std::string text = plain_text(write(plain_print(), draw_sampler));
+    for (const std::string name : {"ground", "fills", "1 black", "2 red", "3 blue", "discs"}) {
+        EXPECT_NE(text.find("/Name (" + name + ")"), std::string::npos) << name;
+    }
+}
+
+TEST_F(Pdf, TheSameDrawingIsTheSameBytes) {
+    const std::string bytes = contents(write(plain_print(), draw_sampler));
+    EXPECT_EQ(contents(write(plain_print(), draw_sampler)), bytes);
+    EXPECT_EQ(bytes.find("Date"), std::string::npos);
+}
+
+TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
+    NEEDS("qpdf");
+    NEEDS("pdfinfo");
+    Print print = plain_print();
+    for (const std::string title : {"(a) < b & c\\ )(", "கோலம் \xF0\x9F\x8C\xBC",
+                                    "Schl\xC3\xBC"
+                                    "ssel & \"q\""}) {
+        print.title = title;
+        print.made = "sikku 0.1.0, -n 4; " + title;
+        const auto path = write(print, draw_sampler);
+        EXPECT_EQ(complaints(path), "");
+        const std::string information = run("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
+        EXPECT_NE(information.find(title + "\n"), std::string::npos) << information;
+        EXPECT_NE(information.find(print.made + "\n"), std::string::npos) << information;
+        EXPECT_NE(information.find("Sikku"), std::string::npos);
+    }
+    print.title = std::string("\x01\x7F broken \xC3 \xED\xA0\x80 \xF8 \0.", 22);
+    EXPECT_EQ(complaints(write(print, draw_sampler)), "");
+}
+
+TEST_F(Pdf, OthersDrawItAsItIsMeant) {
+    NEEDS("qpdf");
+    NEEDS("pdftoppm");
+    Print print = plain_print();
+    print.style.palette[2].alpha = 128;
+    const auto path = write(print, [](PathSink& sink) {
+        draw_sampler(sink);
+        Pen blue;
+        blue.colour = 2;
+        sink.begin_stroke({55, 40}, blue);
+        sink.lines(Points{{85, 40}});
+        sink.end_stroke(false);
+    });
+    EXPECT_EQ(complaints(path), "");
+    const Pixels pixels = render_pdf(path, 254);  // 10 pixels a millimetre
+    ASSERT_NEAR(pixels.width, 1000, 1);
+    ASSERT_NEAR(pixels.height, 600, 1);
+    const Colour white{255, 255, 255, 255};
+    const Colour red{255, 0, 0, 255};
+    const Colour black{0, 0, 0, 255};
+    const Colour half_blue{127, 127, 255, 255};
+    EXPECT_TRUE(near(pixels.at(5, 5), white));
+    EXPECT_TRUE(near(pixels.at(105, 100), black)) << "a dot from a line without length";
+    EXPECT_TRUE(near(pixels.at(700, 500), red)) << "a line";
+    EXPECT_TRUE(near(pixels.at(700, 492), red)) << "of its width";
+    EXPECT_TRUE(near(pixels.at(700, 488), white));
+    EXPECT_TRUE(near(pixels.at(895, 300), black)) << "the same with another pen";
+    EXPECT_TRUE(near(pixels.at(350, 400), red)) << "the later polygon is on top";
+    EXPECT_TRUE(near(pixels.at(250, 400), half_blue)) << "the earlier one";
+    EXPECT_TRUE(near(pixels.at(218, 100), red)) << "a dot of twice the line's width";
+    EXPECT_TRUE(near(pixels.at(222, 100), white));
+    for (int x = 560; x < 850; x += 3) ASSERT_TRUE(near(pixels.at(x, 200), half_blue)) << x;
+}
+
+TEST_F(Pdf, LooksLikeTheSvg) {
+    NEEDS("rsvg-convert");
+    NEEDS("pdftoppm");
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> anywhere(5.0, 55.0);
+    Points points;
+    for (int i = 0; i < 31; ++i) points.emplace_back(anywhere(random) * 1.6, anywhere(random));
+    Print print = plain_print();
+    print.style.stroke = {1.0, false};
+    print.style.palette = {Colour{20, 60, 120, 200}, Colour{200, 30, 30, 255}, Colour{30, 160, 60, 100}};
+    const auto draw = [&](PathSink& sink) {
+        draw_sampler(sink);
+        sink.polygon(std::span<const glm::dvec2>(points).first(9), Pen{1.0, false, 2});
+        sink.begin_stroke(points.front(), Pen{});
+        sink.curves(std::span<const glm::dvec2>(points).subspan(1));
+        sink.end_stroke(false);
+    };
+    const auto pdf = write(print, draw);
+    const auto svg = folder_ / "print.svg";
+    {
+        OutputFile file(svg);
+        const auto writer = write_svg(print, file);
+        draw(*writer);
+        writer->finish();
+        file.commit();
+    }
+    const auto from_svg = folder_ / "svg.pdf";
+    ASSERT_TRUE(run("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
+    const Pixels one = render_pdf(pdf, 150);
+    const Pixels other = render_pdf(from_svg, 150);
+    ASSERT_EQ(one.width, other.width);
+    ASSERT_EQ(one.height, other.height);
+    double difference = 0.0;
+    double ink = 0.0;
+    for (std::size_t i = 0; i < one.bytes.size(); ++i) {
+        const int a = static_cast<unsigned char>(one.bytes[i]);
+        difference += std::abs(a - static_cast<unsigned char>(other.bytes.at(i)));
+        ink += 255 - a;
+    }
+    EXPECT_LT(difference, 0.02 * ink);
+}
+
+}  // namespace
+}  // namespace sikku

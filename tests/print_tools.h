@@ -1,0 +1,169 @@
+// tests/print_tools.h: what the tests of prints share: a scratch folder, other people's programs, pixels.
+#pragma once
+
+#include "art/output_file.h"
+#include "art/print.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// A folder that is gone after the test.
+class ScratchFolder {
+public:
+    ScratchFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "sikku_test_XXXXXX").string();
+        if (!::mkdtemp(pattern.data())) throw std::runtime_error("mkdtemp");
+        path_ = pattern;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+    /// Names of what is in it, hidden files too.
+    std::vector<std::string> names() const {
+        std::vector<std::string> list;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+            list.push_back(entry.path().filename().string());
+        }
+        return list;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string contents(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+inline bool has_program(const std::string& name) {
+    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// Standard output and error of a command, and whether it succeeded.
+struct Outcome {
+    bool ok = false;
+    std::string text;
+};
+inline Outcome run(const std::string& command) {
+    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+    if (!pipe) return {};
+    Outcome outcome;
+    std::array<char, 4096> block{};
+    while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
+        outcome.text.append(block.data(), count);
+    }
+    outcome.ok = ::pclose(pipe) == 0;
+    return outcome;
+}
+
+/// A picture as pdftoppm writes it.
+struct Pixels {
+    int width = 0;
+    int height = 0;
+    std::string bytes;
+
+    Colour at(int x, int y) const {
+        const std::size_t i =
+            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes.at(i + k)); };
+        return {byte(0), byte(1), byte(2), 255};
+    }
+};
+inline Pixels read_ppm(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    Pixels pixels;
+    std::string magic;
+    int most = 0;
+    stream >> magic >> pixels.width >> pixels.height >> most;
+    stream.get();
+    std::ostringstream text;
+    text << stream.rdbuf();
+    pixels.bytes = text.str();
+    return pixels;
+}
+
+/// The first page of a PDF.
+inline Pixels render_pdf(const std::filesystem::path& pdf, int dpi) {
+    const std::string stem = pdf.string() + ".page";
+    const Outcome outcome =
+        run("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    EXPECT_EQ(outcome.text, "");
+    return read_ppm(stem + ".ppm");
+}
+
+/// Channels differ by at most `tolerance`.
+inline ::testing::AssertionResult near(Colour actual, Colour expected, int tolerance = 6) {
+    const auto far = [&](int a, int b) { return std::abs(a - b) > tolerance; };
+    if (far(actual.red, expected.red) || far(actual.green, expected.green) || far(actual.blue, expected.blue)) {
+        return ::testing::AssertionFailure() << hex(actual) << " is not " << hex(expected);
+    }
+    return ::testing::AssertionSuccess();
+}
+
+/// One turtle step is a millimetre and (0, 0) is the bottom left corner of a white page of 100 x 60 mm.
+inline Print plain_print() {
+    Print print;
+    print.page = {100.0, 60.0, 5.0};
+    print.style.stroke = {2.0, false};
+    print.style.ground = Colour{255, 255, 255, 255};
+    print.style.palette = {Colour{0, 0, 0, 255}, Colour{255, 0, 0, 255}, Colour{0, 0, 255, 255}};
+    Box box;
+    box.add({0.0, 0.0});
+    box.add({100.0, 60.0});
+    PlacementOptions options;
+    options.step = 1.0;
+    print.placement = place(box, print.page, options, 0.0, 0.0);
+    print.title = "A test";
+    print.pattern = "axiom: F\n";
+    print.made = "sikku 0.1.0, -n 4";
+    return print;
+}
+
+/// Something of everything, in an order that is not the order of layers.
+inline void draw_sampler(PathSink& sink) {
+    using Points = std::vector<glm::dvec2>;
+    const Pen black;
+    Pen red;
+    red.colour = 1;
+    Pen blue;
+    blue.colour = 2;
+    sink.begin_stroke({10, 10}, red);
+    sink.lines(Points{{90, 10}});
+    sink.disc({50, 10}, 3.0, blue);
+    sink.change_pen(black);
+    sink.lines(Points{{90, 50}});
+    sink.end_stroke(false);
+    sink.polygon(Points{{20, 5}, {40, 5}, {40, 25}, {20, 25}}, blue);
+    sink.polygon(Points{{30, 15}, {50, 15}, {50, 35}, {30, 35}}, red);
+    sink.begin_stroke({60, 30}, blue);
+    sink.curves(Points{{60, 45}, {80, 45}, {80, 30}});
+    sink.curves(Points{{80, 15}, {60, 15}, {60, 30}});
+    sink.end_stroke(true);
+    sink.begin_stroke({10, 50}, black);
+    sink.lines(Points{{10, 50}});
+    sink.end_stroke(true);
+    sink.disc({20, 50}, 0.0, red);
+}
+
+}  // namespace sikku
