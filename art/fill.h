@@ -48,16 +48,18 @@ void AreaFill::sweep(SpanFunction&& span) {
         float* sums = sums_.data() + row * stride_;
         float winding = 0;
         int run_start = reach.low, run_coverage = 0;
-        for (int column = reach.low; column <= reach.high; ++column) {
+        const int last = reach.high < width_ ? reach.high : width_ - 1;
+        sums[width_] = sums[width_ + 1] = 0;
+        for (int column = reach.low; column <= last; ++column) {
             // Whole blocks without an edge keep the coverage.
             static constexpr float nothing[8] = {};
-            while (column + 8 <= reach.high && std::memcmp(sums + column, nothing, sizeof nothing) == 0) column += 8;
+            while (column + 8 <= last && std::memcmp(sums + column, nothing, sizeof nothing) == 0) column += 8;
             winding += sums[column];
             sums[column] = 0;
             const float area = std::fabs(winding);
             const int coverage = area >= 1 ? 255 : static_cast<int>(area * 255 + 0.5f);
             if (coverage != run_coverage) {
-                if (run_coverage > 0 && column > run_start) span(row, run_start, column, run_coverage);
+                if (run_coverage > 0) span(row, run_start, column, run_coverage);
                 run_start = column;
                 run_coverage = coverage;
             }

@@ -81,8 +81,7 @@ void block_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int ro
     }
 }
 
-void spans_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count,
-                const Capsule& c) {
+void spans_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count, const Capsule& c) {
     for (const Span* span = spans; span != spans + count; ++span) {
         const float row = static_cast<float>(span->row);
         row_sse2(pixels + span->row * stride, span->first, span->end, c, c.u + row * c.uy, c.v + row * c.ux);
@@ -102,12 +101,11 @@ SIKKU_AVX2 inline __m128i coverage_avx2(const Capsule& c, __m256 u_row, __m256 v
     return _mm_packus_epi16(words, words);
 }
 
-SIKKU_AVX2 inline void row_avx2(std::uint8_t* line, int first, int end, const Capsule& c, float u_row,
-                                float v_row) {
+SIKKU_AVX2 inline void row_avx2(std::uint8_t* line, int first, int end, const Capsule& c, float u_row, float v_row) {
     const __m256 u = _mm256_set1_ps(u_row), v = _mm256_set1_ps(v_row);
     for (int column = first; column < end; column += 8) {
-        const __m256 x = _mm256_add_ps(_mm256_set1_ps(static_cast<float>(column)),
-                                       _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7));
+        const __m256 x =
+            _mm256_add_ps(_mm256_set1_ps(static_cast<float>(column)), _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7));
         __m128i* eight = reinterpret_cast<__m128i*>(line + column);
         _mm_storel_epi64(eight, _mm_max_epu8(_mm_loadl_epi64(eight), coverage_avx2(c, u, v, x)));
     }
@@ -340,7 +338,8 @@ void Stroker::draw_rows(const Segment& segment, const Capsule& capsule, int x0, 
             add(row, first, end);
             continue;
         }
-        std::memset(pixels + row * mask_.stride + inner_first, 255, static_cast<std::size_t>(inner_end - inner_first));
+        std::memset(pixels + row * mask_.stride + inner_first, 255,
+                    static_cast<std::size_t>(inner_end - inner_first));
         if (first < inner_first) add(row, first, inner_first);
         if (inner_end < end) add(row, inner_end, end);
     }

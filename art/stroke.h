@@ -71,10 +71,10 @@ public:
 private:
     struct Segment {
         SubPoint from, to;
-        float length = 0;         ///< pixels
-        float ux = 1, uy = 0;     ///< direction
-        float before = 0;         ///< how far this segment answers for pixels before its start, and
-        float after = 0;          ///< after its end, in pixels
+        float length = 0;      ///< pixels
+        float ux = 1, uy = 0;  ///< direction
+        float before = 0;      ///< how far this segment answers for pixels before its start, and
+        float after = 0;       ///< after its end, in pixels
     };
     void flush(bool ends);
     void draw(const Segment& segment);

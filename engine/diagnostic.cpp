@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <tuple>
 
 namespace sikku {
 namespace {
@@ -163,14 +164,16 @@ void Diagnostics::add(const Span& where, std::string message, bool warning) {
                      excerpt(where.source->text, where.at), warning});
 }
 
-void Diagnostics::throw_if_errors() const {
-    if (!has_errors()) return;
-    std::vector<Diagnostic> sorted = list_;
-    std::stable_sort(sorted.begin(), sorted.end(), [](const Diagnostic& a, const Diagnostic& b) {
-        return a.file == b.file &&
-               (a.where.line != b.where.line ? a.where.line < b.where.line : a.where.column < b.where.column);
+std::vector<Diagnostic> Diagnostics::sorted() const {
+    std::vector<Diagnostic> result = list_;
+    std::stable_sort(result.begin(), result.end(), [](const Diagnostic& a, const Diagnostic& b) {
+        return std::tie(a.file, a.where.line, a.where.column) < std::tie(b.file, b.where.line, b.where.column);
     });
-    throw PatternError(std::move(sorted), errors_);
+    return result;
+}
+
+void Diagnostics::throw_if_errors() const {
+    if (has_errors()) throw PatternError(sorted(), errors_);
 }
 
 PatternError::PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors)

@@ -61,6 +61,13 @@ public:
     void warning(const Span& where, std::string message) { add(where, std::move(message), true); }
     const std::vector<Diagnostic>& list() const { return list_; }
     bool has_errors() const { return errors_ > 0; }
+    /// The text is no pattern at all; looking further at it would tell nothing.
+    bool is_unreadable() const { return unreadable_; }
+    void unreadable(const Span& where, std::string message) {
+        unreadable_ = true;
+        error(where, std::move(message));
+    }
+    std::vector<Diagnostic> sorted() const;
     /// Throws PatternError with everything collected, sorted by place, if there is an error.
     void throw_if_errors() const;
 
@@ -68,6 +75,7 @@ private:
     void add(const Span& where, std::string message, bool warning);
     std::vector<Diagnostic> list_;
     std::size_t errors_ = 0;
+    bool unreadable_ = false;
 };
 
 /// A pattern that cannot be used: every diagnostic of it. what() is their text.

@@ -353,16 +353,16 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
         text.resize(most_bytes);
         while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
         const auto source = std::make_shared<const Source>(std::move(name), std::move(text));
-        diagnostics.error({source, source->text.size(), 0}, "a pattern file is at most 64 MB");
+        diagnostics.unreadable({source, source->text.size(), 0}, "a pattern file is at most 64 MB");
         pattern.source = source;
         return pattern;
     }
     const std::size_t bad = first_bad_byte(text);
     pattern.source = std::make_shared<const Source>(std::move(name), std::move(text));
     if (bad != std::string::npos) {
-        diagnostics.error({pattern.source, bad, 1}, pattern.source->text[bad] == 0
-                                                        ? "a NUL byte: this is no pattern file"
-                                                        : "a byte that is no UTF-8: this is no pattern file");
+        diagnostics.unreadable({pattern.source, bad, 1}, pattern.source->text[bad] == 0
+                                                             ? "a NUL byte: this is no pattern file"
+                                                             : "a byte that is no UTF-8: this is no pattern file");
         return pattern;
     }
     Parser(pattern, diagnostics).run();

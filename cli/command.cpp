@@ -1,0 +1,178 @@
+#include "cli/command.h"
+
+#include "art/style.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_bytes = (std::size_t{64} << 20) + 1;  // one more than a pattern may have
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string read_stream(std::FILE* stream, const std::string& name) {
+    std::string text;
+    std::vector<char> block(std::size_t{1} << 16);
+    while (text.size() < most_bytes) {
+        const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most_bytes - text.size()), stream);
+        text.append(block.data(), got);
+        if (got == 0) break;
+    }
+    if (std::ferror(stream) != 0) throw UsageError(fmt::format("{}: {}", name, std::strerror(errno)));
+    return text;
+}
+
+/// Beside the program, in a build folder as after installation.
+std::filesystem::path patterns_folder() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error) {
+        auto folder = program.parent_path() / SIKKU_PATTERNS_RELATIVE;
+        if (std::filesystem::is_directory(folder, error)) return folder.lexically_normal();
+    }
+    return SIKKU_PATTERNS_INSTALLED;
+}
+
+}  // namespace
+
+void add_pattern_options(CLI::App& command, PatternOptions& options) {
+    command
+        .add_option("PATTERN", options.pattern,
+                    "A pattern file, the name of one that comes along, or - for standard input")
+        ->required();
+    command.add_option("-n,--steps", options.steps, "Derivation length, instead of the pattern's")
+        ->check(CLI::Range(std::int64_t{0}, INT64_MAX));
+    command.add_option("--set", options.settings, "KEY=VALUE: another value for a key or a define of the pattern")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--variant", options.variant, "One of the pattern's variants");
+}
+
+std::vector<KnownPattern> known_patterns() {
+    std::vector<KnownPattern> found;
+    std::error_code error;
+    for (std::filesystem::recursive_directory_iterator entry(patterns_folder(), error), end; !error && entry != end;
+         entry.increment(error)) {
+        const auto& path = entry->path();
+        if (path.extension() == ".lsys") {
+            found.push_back({path.stem().string(), path.parent_path().filename().string(), path});
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const KnownPattern& a, const KnownPattern& b) {
+        return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+    });
+    return found;
+}
+
+PatternText read_pattern_text(const std::string& pattern) {
+    if (pattern == "-") return {"-", read_stream(stdin, "standard input")};
+    std::filesystem::path path = pattern;
+    std::string name = pattern;
+    std::error_code error;
+    const bool is_name = pattern.find('/') == std::string::npos && !pattern.ends_with(".lsys");
+    if (is_name && (!std::filesystem::exists(path, error) || std::filesystem::is_directory(path, error))) {
+        const auto known = known_patterns();
+        const auto match = std::find_if(known.begin(), known.end(),
+                                        [&](const KnownPattern& candidate) { return candidate.name == pattern; });
+        if (match == known.end()) {
+            if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
+            std::vector<std::string_view> names;
+            for (const KnownPattern& candidate : known) names.push_back(candidate.name);
+            const std::string_view near = nearest(pattern, names);
+            throw UsageError(fmt::format("there is no file and no pattern '{}'{}", pattern,
+                                         near.empty() ? "; `sikku patterns` lists those that come along"
+                                                      : fmt::format("; did you mean '{}'?", near)));
+        }
+        path = match->file;
+        name = match->name + ".lsys";
+    }
+    if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    if (!file) throw UsageError(fmt::format("{}: {}", pattern, std::strerror(errno)));
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);
+    return {name, read_stream(file, pattern)};
+}
+
+LoadedPattern load(const PatternOptions& options, bool quiet) {
+    std::vector<Setting> settings;
+    for (const std::string& text : options.settings) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw UsageError(fmt::format("--set {}: expected KEY=VALUE", text));
+        }
+        settings.push_back({"--set", text.substr(0, equals), text.substr(equals + 1)});
+    }
+    if (options.steps) settings.push_back({"-n", "derivation length", fmt::format("{}", *options.steps)});
+    PatternText text = read_pattern_text(options.pattern);
+    Diagnostics diagnostics;
+    LoadedPattern loaded;
+    loaded.pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
+    apply_overrides(loaded.pattern, options.variant, settings, diagnostics);
+    if (!diagnostics.is_unreadable()) {
+        check_keys(loaded.pattern, style_keys(), diagnostics);
+        loaded.grammar = compile_grammar(loaded.pattern, diagnostics);
+        read_style(loaded.pattern, 96, diagnostics);
+    }
+    diagnostics.throw_if_errors();
+    if (!quiet) {
+        for (const Diagnostic& warning : diagnostics.list()) fmt::print(stderr, "{}\n", warning.text());
+    }
+    return loaded;
+}
+
+Progress::Progress(double expected, bool quiet)
+    : expected_(expected), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+
+Progress::~Progress() {
+    if (visible_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::add(std::uint64_t symbols) {
+    symbols_ += static_cast<double>(symbols);
+    if (interrupted()) throw Interrupted();
+    // The clock costs more than most calls do.
+    if (shown_ && (symbols == 0 || ++calls_ % 256 == 0)) show();
+}
+
+void Progress::show() {
+    const double time = now();
+    if (time - started_ < 0.5 || time - last_ < 0.1) return;
+    last_ = time;
+    visible_ = true;
+    const double rate = symbols_ / (time - started_);
+    if (expected_ > 0 && std::isfinite(expected_)) {
+        const double share = std::min(1.0, symbols_ / expected_);
+        const auto filled = static_cast<std::size_t>(share * 30);
+        fmt::print(stderr, "\r[{}{}] {:3.0f} %  {:.0f} M symbols a second\033[K", std::string(filled, '#'),
+                   std::string(30 - filled, ' '), share * 100, rate / 1e6);
+    } else {
+        fmt::print(stderr, "\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
+    }
+}
+
+std::uint64_t memory_budget() {
+    std::ifstream file("/proc/meminfo");
+    std::string key;
+    std::uint64_t kilobytes = 0;
+    std::string unit;
+    while (file >> key >> kilobytes >> unit) {
+        // Two words of 4 bytes a symbol that double while they grow, 8 bytes for brackets; half of what there is.
+        if (key == "MemAvailable:") return kilobytes * 1024 / 2 / 32;
+    }
+    return std::uint64_t{1} << 26;
+}
+
+}  // namespace sikku

@@ -1,0 +1,100 @@
+// cli/command.h: what the commands share: finding and loading patterns, progress, errors.
+#pragma once
+
+#include "engine/grammar.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// A mistake of the caller: exit status 2.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The user pressed ctrl-C, or somebody sent SIGTERM.
+class Interrupted : public std::runtime_error {
+public:
+    Interrupted() : std::runtime_error("interrupted; nothing was written") {}
+};
+
+/// Set by the signal handler that main() installs.
+bool interrupted();
+
+/// Options of every command that takes a pattern.
+struct PatternOptions {
+    std::string pattern;
+    std::optional<std::int64_t> steps;
+    std::vector<std::string> settings;
+    std::string variant;
+};
+void add_pattern_options(CLI::App& command, PatternOptions& options);
+
+/// A pattern read, overridden and compiled; warnings were told on standard error.
+struct LoadedPattern {
+    Pattern pattern;
+    Grammar grammar;
+};
+/// @throws PatternError, UsageError for a name that nothing has
+LoadedPattern load(const PatternOptions& options, bool quiet);
+
+/// A pattern that comes along.
+struct KnownPattern {
+    std::string name;
+    std::string kind;  ///< the folder: kolams, tilings, …
+    std::filesystem::path file;
+};
+/// Sorted by kind and name.
+std::vector<KnownPattern> known_patterns();
+
+/// Path, name of a pattern that comes along, or `-`: its text and the name to call it by in messages.
+struct PatternText {
+    std::string name;
+    std::string text;
+};
+PatternText read_pattern_text(const std::string& pattern);
+
+/// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.
+class Progress {
+public:
+    /// @param expected  symbols in all, or 0 if unknown
+    Progress(double expected, bool quiet);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void add(std::uint64_t symbols);
+    /// For DerivationOptions::watch; refers to this object.
+    std::function<void(std::uint64_t)> watch() {
+        return [this](std::uint64_t symbols) { add(symbols); };
+    }
+
+private:
+    void show();
+    double expected_;
+    bool shown_;
+    bool visible_ = false;
+    double symbols_ = 0;
+    std::uint64_t calls_ = 0;
+    double started_;
+    double last_;
+};
+
+/// Most symbols of a word kept whole that memory now has room for.
+std::uint64_t memory_budget();
+
+void add_derive(CLI::App& app, bool& quiet);
+void add_measure(CLI::App& app, bool& quiet);
+void add_draw(CLI::App& app, bool& quiet);
+void add_patterns(CLI::App& app);
+void add_show(CLI::App& app, bool& quiet);
+void add_check(CLI::App& app);
+void add_completion(CLI::App& app);
+
+}  // namespace sikku

@@ -1,0 +1,113 @@
+// cli/derive.cpp: `sikku derive`: the word itself.
+#include "cli/command.h"
+#include "engine/forecast.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace sikku {
+namespace {
+
+/// Prints symbols to a file descriptor. Blocks that recur are turned into text once.
+class TextSink : public SymbolSink {
+public:
+    TextSink(const Grammar& grammar, int descriptor) : grammar_(grammar), descriptor_(descriptor) {
+        for (const SymbolInfo& symbol : grammar.symbols()) texts_.push_back(symbol_text(symbol));
+        has_names_ = !grammar.names().empty();
+        buffer_.reserve(buffer_size + 4096);
+#ifdef F_SETPIPE_SZ
+        // A larger pipe means fewer turns between writer and reader; where it is refused, the old size serves.
+        fcntl(descriptor, F_SETPIPE_SZ, 1 << 20);
+#endif
+    }
+
+    void symbols(const Run& run) override {
+        if (has_last_ && has_names_ && needs_blank(grammar_, last_, run.symbols.front())) buffer_ += ' ';
+        if (run.block < 0) {
+            append(run.symbols, buffer_);
+        } else {
+            const auto number = static_cast<std::size_t>(run.block);
+            if (number >= blocks_.size()) blocks_.resize(number + 1);
+            std::string& text = blocks_[number];
+            if (text.empty()) append(run.symbols, text);
+            buffer_ += text;
+        }
+        last_ = run.symbols.back();
+        has_last_ = true;
+        if (buffer_.size() >= buffer_size) flush();
+    }
+
+    void finish() override {
+        buffer_ += '\n';
+        flush();
+    }
+
+private:
+    static constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+    void append(std::span<const Symbol> symbols, std::string& text) const {
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            if (i > 0 && has_names_ && needs_blank(grammar_, symbols[i - 1], symbols[i])) text += ' ';
+            text += texts_[symbols[i]];
+        }
+    }
+
+    void flush() {
+        const char* at = buffer_.data();
+        std::size_t left = buffer_.size();
+        while (left > 0) {
+            const ssize_t written = ::write(descriptor_, at, left);
+            if (written < 0) {
+                if (errno == EINTR && !interrupted()) continue;
+                if (interrupted()) throw Interrupted();
+                throw std::runtime_error(fmt::format("standard output: {}", std::strerror(errno)));
+            }
+            at += written;
+            left -= static_cast<std::size_t>(written);
+        }
+        buffer_.clear();
+    }
+
+    const Grammar& grammar_;
+    int descriptor_;
+    std::vector<std::string> texts_;
+    bool has_names_ = false;
+    bool has_last_ = false;
+    Symbol last_ = 0;
+    std::string buffer_;
+    std::vector<std::string> blocks_;
+};
+
+}  // namespace
+
+void add_derive(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("derive", "Print the derived word on standard output");
+    auto options = std::make_shared<PatternOptions>();
+    auto interpreted = std::make_shared<bool>(false);
+    add_pattern_options(*command, *options);
+    command->add_flag("--interpreted", *interpreted, "The word as interpreters see it, after `interpret:`");
+    command->footer(
+        "There is no limit to its length: it is streamed.\n\n"
+        "Examples:\n"
+        "  sikku derive fibonacci-words\n"
+        "  sikku derive koch-island -n 8 | wc -c");
+    command->callback([options, interpreted, &quiet] {
+        const LoadedPattern loaded = load(*options, quiet);
+        const Grammar grammar = shorten(loaded.grammar);
+        Progress progress(0, quiet || isatty(STDOUT_FILENO) == 1);
+        TextSink sink(grammar, STDOUT_FILENO);
+        DerivationOptions derivation;
+        derivation.interpreted = *interpreted;
+        derivation.budget = memory_budget();
+        derivation.watch = progress.watch();
+        derive(grammar, sink, derivation);
+    });
+}
+
+}  // namespace sikku

@@ -1,0 +1,151 @@
+// cli/draw.cpp: `sikku draw`: a print.
+#include "art/draw.h"
+#include "cli/command.h"
+#include "engine/forecast.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sikku {
+namespace {
+
+struct Options {
+    PatternOptions pattern;
+    std::string output;
+    std::string size = "A4";
+    bool landscape = false;
+    std::string margin = "10mm";
+    bool fit = false;
+    std::string step;
+    double rotate = 0.0;
+    bool mirror = false;
+    double dpi = 300.0;
+    double budget = 200e6;
+    int threads = 0;
+};
+
+double length(const char* option, const std::string& text, double dpi) {
+    const auto value = parse_length(text, dpi);
+    if (!value || !std::isfinite(*value)) {
+        throw UsageError(
+            fmt::format("{} {}: expected a length such as 5mm, 1.5cm, 2in, 12pt or 300px", option, text));
+    }
+    return *value;
+}
+
+Page page_of(const Options& options) {
+    const auto size = parse_size(options.size, options.dpi);
+    if (!size) {
+        throw UsageError(
+            fmt::format("--size {}: expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as "
+                        "300x300mm",
+                        options.size));
+    }
+    Page page{size->x, size->y, length("--margin", options.margin, options.dpi)};
+    if (options.landscape && page.height > page.width) std::swap(page.width, page.height);
+    constexpr double most = 10'000;  // millimetres: wider than any press or plotter
+    if (!(page.width >= 1 && page.height >= 1 && page.width <= most && page.height <= most)) {
+        throw UsageError(fmt::format("--size {}: a page is between 1 mm and 10 m wide and high", options.size));
+    }
+    if (!(page.margin >= 0 && 2 * page.margin < std::min(page.width, page.height))) {
+        throw UsageError(fmt::format("--margin {}: the margins leave nothing of a page of {:g} x {:g} mm",
+                                     options.margin, page.width, page.height));
+    }
+    return page;
+}
+
+std::string made_with(const Options& options, const Grammar& grammar) {
+    std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, grammar.steps());
+    if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
+    for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
+    return text;
+}
+
+void run(const Options& options, bool quiet) {
+    const auto format = print_format(options.output);
+    if (!format) {
+        throw UsageError(
+            fmt::format("-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg or .exr", options.output));
+    }
+    if (!(options.dpi >= 1 && options.dpi <= 10'000)) throw UsageError("--dpi: between 1 and 10000");
+    if (!std::isfinite(options.rotate)) throw UsageError("--rotate: expected degrees");
+    Print print;
+    print.page = page_of(options);
+    print.dpi = options.dpi;
+    const bool pixels = *format != PrintFormat::svg && *format != PrintFormat::pdf;
+    if (pixels && std::max(print.page.width, print.page.height) * options.dpi / 25.4 > 200'000) {
+        throw UsageError(
+            "the picture would be over 200,000 pixels wide or high: a smaller --size or --dpi is needed");
+    }
+    DrawOptions drawing;
+    drawing.format = *format;
+    drawing.placement.rotate = options.rotate;
+    drawing.placement.mirror = options.mirror;
+    if (!options.step.empty()) {
+        drawing.placement.step = length("--step", options.step, options.dpi);
+        if (!(*drawing.placement.step > 0 && *drawing.placement.step <= 10'000)) {
+            throw UsageError(fmt::format("--step {}: a step is above 0 and at most 10 m long", options.step));
+        }
+    }
+    drawing.threads = options.threads;
+    drawing.budget = options.budget;
+
+    LoadedPattern loaded = load(options.pattern, quiet);
+    Diagnostics diagnostics;
+    print.style = read_style(loaded.pattern, options.dpi, diagnostics);
+    diagnostics.throw_if_errors();
+    print.title = loaded.pattern.text("title");
+    print.pattern = loaded.pattern.source->text;
+    print.made = made_with(options, loaded.grammar);
+    if (loaded.grammar.whole_word_steps() > 0) {
+        drawing.budget = std::min(drawing.budget, static_cast<double>(memory_budget()));
+    }
+    Progress progress(0, quiet);
+    drawing.watch = progress.watch();
+    const Page page = print.page;
+    const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
+    if (report.overflows && !quiet) {
+        fmt::print(
+            stderr,
+            "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "
+            "outside is cut off\n",
+            report.size.x, report.size.y, page.width - 2 * page.margin, page.height - 2 * page.margin);
+    }
+}
+
+}  // namespace
+
+void add_draw(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG or EXR");
+    auto options = std::make_shared<Options>();
+    add_pattern_options(*command, options->pattern);
+    command->add_option("-o,--output", options->output, "The file; its extension says which kind")->required();
+    command
+        ->add_option("--size", options->size, "A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm")
+        ->capture_default_str();
+    command->add_flag("--landscape", options->landscape, "The page lies on its side");
+    command->add_option("--margin", options->margin, "On all four sides")->capture_default_str();
+    auto* fit = command->add_flag("--fit", options->fit, "Fill the page within its margins (default)");
+    command->add_option("--step", options->step, "Length of one turtle step on paper, instead of --fit")
+        ->excludes(fit);
+    command->add_option("--rotate", options->rotate, "Degrees anticlockwise")->capture_default_str();
+    command->add_flag("--mirror", options->mirror, "Left and right exchanged, before --rotate");
+    command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
+        ->capture_default_str();
+    command->add_option("--budget", options->budget, "Most nodes of the derivation that are visited")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("-j,--jobs", options->threads, "Threads for pictures; 0: one for each core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->footer(
+        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all.\n\n"
+        "Examples:\n"
+        "  sikku draw snake-kolam -o snake.svg\n"
+        "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
+        "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
+    command->callback([options, &quiet] { run(*options, quiet); });
+}
+
+}  // namespace sikku

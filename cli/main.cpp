@@ -1,0 +1,78 @@
+// cli/main.cpp: the program: its commands, its errors, its signals.
+#include "cli/command.h"
+#include "engine/derivation.h"
+
+#include <fmt/format.h>
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+namespace {
+volatile std::sig_atomic_t signal_seen = 0;
+
+extern "C" void note_signal(int) {
+    signal_seen = 1;
+}
+
+/// The first ctrl-C lets the work end tidily, a second one ends it at once.
+void catch_signals() {
+    struct sigaction action = {};
+    action.sa_handler = note_signal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+int fail(int status, const char* message) {
+    fmt::print(stderr, "sikku: {}\n", message);
+    return status;
+}
+
+}  // namespace
+
+bool sikku::interrupted() {
+    return signal_seen != 0;
+}
+
+int main(int argc, char** argv) {
+    using namespace sikku;
+    catch_signals();
+    CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
+    app.set_version_flag("--version", "sikku " SIKKU_VERSION);
+    bool quiet = false;
+    app.add_flag("-q,--quiet", quiet, "No progress, no warnings");
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.get_formatter()->column_width(34);
+    add_draw(app, quiet);
+    add_derive(app, quiet);
+    add_measure(app, quiet);
+    add_patterns(app);
+    add_show(app, quiet);
+    add_check(app);
+    add_completion(app);
+    app.footer("`sikku COMMAND --help` tells more, with examples.");
+    try {
+        app.parse(argc, argv);
+        if (std::fflush(stdout) != 0) return fail(1, "standard output cannot be written");
+        return 0;
+    } catch (const CLI::RuntimeError& error) {
+        return error.get_exit_code();
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const PatternError& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 2;
+    } catch (const WordError& error) {
+        return fail(2, error.what());
+    } catch (const UsageError& error) {
+        return fail(2, error.what());
+    } catch (const Interrupted& error) {
+        fail(1, error.what());
+        return 130;
+    } catch (const std::bad_alloc&) {
+        return fail(1, "there is not enough memory for this");
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}

@@ -1,0 +1,138 @@
+// cli/measure.cpp: `sikku measure`: what is known of a word without deriving it.
+#include "cli/command.h"
+#include "engine/extent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sikku {
+namespace {
+
+/// A string of JSON.
+std::string quoted(std::string_view text) {
+    std::string result = "\"";
+    for (const char byte : text) {
+        if (byte == '"' || byte == '\\') {
+            result += '\\';
+            result += byte;
+        } else if (static_cast<unsigned char>(byte) < 0x20) {
+            result += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+        } else {
+            result += byte;
+        }
+    }
+    return result + '"';
+}
+
+std::string number(double value) {
+    if (!std::isfinite(value)) return "null";
+    if (value == 0) return "0";  // never -0
+    if (value == std::floor(value) && std::fabs(value) < 0x1p53) return fmt::format("{:.0f}", value);
+    return fmt::format("{}", value);
+}
+
+std::string json(const Quantity& quantity) {
+    return quantity.digits.empty() ? number(quantity.value) : quoted(quantity.digits);
+}
+
+template <std::size_t Size>
+std::string json(const std::array<Quantity, Size>& list) {
+    std::string text = "[";
+    for (const Quantity& quantity : list) text += (text.size() > 1 ? ", " : "") + json(quantity);
+    return text + "]";
+}
+
+std::string json(const std::string& title, const Measurement& m) {
+    std::string counts;
+    for (const auto& [letter, count] : m.counts) {
+        counts += fmt::format("{}{}: {}", counts.empty() ? "" : ", ", quoted(letter), json(count));
+    }
+    std::string length = json(m.length);
+    if (m.length.digits.empty() && length.find_first_not_of("0123456789") == std::string::npos) length += ".0";
+    const auto& g = m.geometry;
+    return fmt::format(
+        "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
+        "\"length\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, \"depth\": {}, "
+        "\"derived\": {}}}\n",
+        quoted(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
+        json(m.symbols), counts, json(m.drawn), json(m.moves), length, g ? json(g->box) : "null",
+        g && g->ink ? json(*g->ink) : "null", g ? json(g->end) : "null", g ? number(g->heading) : "null",
+        !g          ? "null"
+        : g->closed ? "true"
+                    : "false",
+        g ? fmt::format("{}", g->depth) : "null", m.derived ? "true" : "false");
+}
+
+std::string plain(const Quantity& quantity) {
+    if (!quantity.digits.empty()) return quantity.digits;
+    if (quantity.value == std::floor(quantity.value)) return number(quantity.value);
+    return fmt::format("{:.6g}", quantity.value);
+}
+
+template <std::size_t Size>
+std::string plain(const std::array<Quantity, Size>& list) {
+    std::string text;
+    for (const Quantity& quantity : list) text += (text.empty() ? "" : " ") + plain(quantity);
+    return text;
+}
+
+std::string prose(const std::string& title, const Measurement& m) {
+    std::string text = fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : title, m.n);
+    const auto line = [&](std::string_view name, const std::string& value) {
+        text += fmt::format("{:<9}{}\n", name, value);
+    };
+    line("symbols", plain(m.symbols));
+    std::string counts;
+    for (const auto& [letter, count] : m.counts) {
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : "   ", letter, plain(count));
+    }
+    if (!counts.empty()) line("counts", counts);
+    line("drawn", plain(m.drawn));
+    line("moves", plain(m.moves));
+    line("length", plain(m.length));
+    if (m.geometry) {
+        line("box", plain(m.geometry->box));
+        line("ink", m.geometry->ink ? plain(*m.geometry->ink) : "none");
+        line("end", plain(m.geometry->end));
+        line("heading", fmt::format("{:.6g} degrees", m.geometry->heading));
+        line("closed", m.geometry->closed ? "yes" : "no");
+        line("depth", fmt::format("{}", m.geometry->depth));
+    } else {
+        text += "The word is too long for its box to be worked out.\n";
+    }
+    line("derived", m.derived ? "yes" : "no");
+    return text;
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("measure", "Tell length, counts, box and end of the word, of any order");
+    auto options = std::make_shared<PatternOptions>();
+    auto as_json = std::make_shared<bool>(false);
+    auto budget = std::make_shared<double>(200e6);
+    add_pattern_options(*command, *options);
+    command->add_flag("--json", *as_json, "One line of JSON, for programs");
+    command->add_option("--budget", *budget, "Most nodes visited where the word has to be walked")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->footer(
+        "In unit steps of the turtle, which starts at 0 0. Systems without contexts are not derived:\n"
+        "order 60 costs as little as order 6.\n\n"
+        "Examples:\n"
+        "  sikku measure snake-kolam\n"
+        "  sikku measure hilbert -n 60 --json");
+    command->callback([options, as_json, budget, &quiet] {
+        const LoadedPattern loaded = load(*options, quiet);
+        Progress progress(0, quiet);
+        const double limit = std::min(*budget, static_cast<double>(memory_budget()));
+        const Measurement measured =
+            measure(loaded.grammar, loaded.grammar.whole_word_steps() > 0 ? limit : *budget, progress.watch());
+        const std::string title = loaded.pattern.text("title");
+        fmt::print("{}", *as_json ? json(title, measured) : prose(title, measured));
+    });
+}
+
+}  // namespace sikku

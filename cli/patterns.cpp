@@ -1,0 +1,119 @@
+// cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
+#include "art/image_file.h"
+#include "art/style.h"
+#include "art/svg.h"
+#include "cli/command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+namespace sikku {
+namespace {
+
+bool ends_with_caseless(std::string name, std::string_view ending) {
+    for (char& byte : name) {
+        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
+    }
+    return name.ends_with(ending);
+}
+
+void list_patterns(const std::string& kind, bool names_only) {
+    std::string last;
+    bool any = false;
+    for (const KnownPattern& known : known_patterns()) {
+        if (!kind.empty() && known.kind != kind) continue;
+        any = true;
+        if (names_only) {
+            fmt::print("{}\n", known.name);
+            continue;
+        }
+        if (known.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", known.kind);
+        last = known.kind;
+        Diagnostics diagnostics;
+        const Pattern pattern = parse_pattern(known.name, read_pattern_text(known.file.string()).text, diagnostics);
+        fmt::print("  {:<22} {:<42} {}\n", known.name, pattern.text("title"), pattern.text("source"));
+    }
+    if (!any)
+        throw UsageError(kind.empty() ? "no patterns were found" : fmt::format("there are no patterns '{}'", kind));
+}
+
+void show(const std::string& what, bool quiet) {
+    Provenance found;
+    if (ends_with_caseless(what, ".svg")) {
+        const auto provenance = svg_provenance(what);
+        if (!provenance) throw std::runtime_error(what + ": this is no SVG of sikku's");
+        found = *provenance;
+    } else if (ends_with_caseless(what, ".png") || ends_with_caseless(what, ".tif") ||
+               ends_with_caseless(what, ".tiff") || ends_with_caseless(what, ".jpg") ||
+               ends_with_caseless(what, ".jpeg") || ends_with_caseless(what, ".exr")) {
+        const auto text = read_image_text(what);
+        if (!text) throw std::runtime_error(what + ": this cannot be read as an image");
+        if (text->description.empty()) throw std::runtime_error(what + ": this image holds no pattern");
+        found = {text->description, text->software};
+    } else {
+        found.pattern = read_pattern_text(what).text;
+    }
+    std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
+    if (!found.made.empty() && !quiet) fmt::print(stderr, "made with {}\n", found.made);
+}
+
+/// True if the file is without mistakes.
+bool check(const std::string& file) {
+    Diagnostics diagnostics;
+    PatternText text = read_pattern_text(file);
+    const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
+    if (!diagnostics.is_unreadable()) {
+        check_keys(pattern, style_keys(), diagnostics);
+        compile_grammar(pattern, diagnostics);
+        read_style(pattern, 96, diagnostics);
+        // Every variant has to hold as well.
+        for (const Variant& variant : pattern.variants) {
+            if (diagnostics.has_errors()) break;
+            Pattern varied = pattern;
+            apply_overrides(varied, variant.name.view(), {}, diagnostics);
+            check_keys(varied, style_keys(), diagnostics);
+            compile_grammar(varied, diagnostics);
+        }
+    }
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());
+    return !diagnostics.has_errors();
+}
+
+}  // namespace
+
+void add_patterns(CLI::App& app) {
+    auto* command = app.add_subcommand("patterns", "List the patterns that come along");
+    auto kind = std::make_shared<std::string>();
+    auto names_only = std::make_shared<bool>(false);
+    command->add_option("KIND", *kind, "Only those of one kind: kolams, tilings, curves, plants, words");
+    command->add_flag("--names", *names_only, "Names only, one a line");
+    command->footer("Examples:\n  sikku patterns\n  sikku patterns kolams");
+    command->callback([kind, names_only] { list_patterns(*kind, *names_only); });
+}
+
+void add_show(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("show", "Print the text of a pattern, also of one that a print was made from");
+    auto what = std::make_shared<std::string>();
+    command->add_option("PATTERN", *what, "A name, a pattern file, -, or a print: SVG, PNG, TIFF, JPEG, EXR")
+        ->required();
+    command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
+    command->callback([what, &quiet] { show(*what, quiet); });
+}
+
+void add_check(CLI::App& app) {
+    auto* command = app.add_subcommand("check", "Tell every mistake of pattern files, with its place");
+    auto files = std::make_shared<std::vector<std::string>>();
+    command->add_option("FILE", *files, "Pattern files, names, or -")->required();
+    command->footer(
+        "Says nothing and exits with 0 if there is none, with 2 else.\n\nExamples:\n  sikku check my.lsys "
+        "patterns/*/*.lsys");
+    command->callback([files] {
+        bool good = true;
+        for (const std::string& file : *files) good = check(file) && good;
+        if (!good) throw CLI::RuntimeError(2);
+    });
+}
+
+}  // namespace sikku
