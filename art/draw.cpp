@@ -9,6 +9,8 @@
 #include "engine/spline.h"
 #include "engine/turtle.h"
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -354,6 +354,7 @@ private:
     Nib nib(std::vector<Layer>& layers, const std::vector<std::size_t>& slots, std::size_t index, double width);
     Nib line_nib(const Pen& pen);
     void line_to(glm::dvec2 end);
+    void close_line();
     void clipped_line(glm::dvec2 from, glm::dvec2 to);
     void add(const Nib& nib, SubPoint from, SubPoint to);
     void add_piece(const Nib& nib, SubPoint from, SubPoint to);
@@ -380,9 +381,10 @@ private:
 
     Nib nib_;
     glm::dvec2 at_{0.0};
-    SubPoint sub_at_;
-    bool has_sub_at_ = false;  ///< sub_at_ is at_, which is in range
-    bool drawn_ = false;       ///< the stroke left its first point
+    bool drawn_ = false;  ///< the stroke left its first point
+    // If at_ is in range: where it is, and where the straight line began that ends there and is not added yet.
+    bool has_sub_at_ = false;
+    SubPoint sub_at_, open_from_;
     std::vector<glm::dvec2> polygon_points_;
     std::uint64_t polygon_serial_ = 0;
 };
@@ -457,8 +459,8 @@ void BandRaster::begin_stroke(glm::dvec2 start, const Pen& pen) {
 }
 
 void BandRaster::change_pen(const Pen& pen) {
+    close_line();
     nib_ = line_nib(pen);
-    has_sub_at_ = false;
 }
 
 void BandRaster::lines(std::span<const glm::dvec2> ends) {
@@ -492,25 +494,40 @@ void BandRaster::curves(std::span<const glm::dvec2> controls) {
 }
 
 void BandRaster::end_stroke(bool) {
+    close_line();
     if (!drawn_ && nib_.layer && nib_.range.holds(at_)) add_piece(nib_, quantised(at_), quantised(at_));
     nib_ = {};
 }
 
 void BandRaster::line_to(glm::dvec2 end) {
-    if (nib_.range.holds(end) && (has_sub_at_ || nib_.range.holds(at_))) {
-        const SubPoint from = has_sub_at_ ? sub_at_ : quantised(at_);
-        sub_at_ = quantised(end);
-        has_sub_at_ = true;
-        if (!(from == sub_at_)) {
-            add(nib_, from, sub_at_);
+    if (nib_.range.holds(end) && (has_sub_at_ || nib_.range.holds(at_))) [[likely]] {
+        if (!has_sub_at_) {
+            open_from_ = sub_at_ = quantised(at_);
+            has_sub_at_ = true;
+        }
+        const SubPoint next = quantised(end);
+        const std::int64_t dx = next.x - sub_at_.x, dy = next.y - sub_at_.y;
+        if ((dx | dy) != 0) {
+            // A line that goes straight on is one with the last.
+            const std::int64_t open_dx = sub_at_.x - open_from_.x, open_dy = sub_at_.y - open_from_.y;
+            if (open_dx * dy != open_dy * dx || open_dx * dx + open_dy * dy < 0) {
+                add(nib_, open_from_, sub_at_);
+                open_from_ = sub_at_;
+            }
+            sub_at_ = next;
             drawn_ = true;
         }
     } else {
-        has_sub_at_ = false;
+        close_line();
         drawn_ = true;
         clipped_line(at_, end);
     }
     at_ = end;
+}
+
+void BandRaster::close_line() {
+    if (has_sub_at_ && !(open_from_ == sub_at_)) add(nib_, open_from_, sub_at_);
+    has_sub_at_ = false;
 }
 
 void BandRaster::clipped_line(glm::dvec2 from, glm::dvec2 to) {

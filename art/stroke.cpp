@@ -253,12 +253,12 @@ void Stroker::flush(bool ends) {
 
 void Stroker::draw(const Segment& segment) {
     const SubPoint a{segment.from.x, segment.from.y - top_}, b{segment.to.x, segment.to.y - top_};
-    // Pixels whose centres lie within reach of the line's box.
+    // Pixels whose centres lie nearer than reach to the line's box.
     constexpr std::int32_t half_pixel = subpixels / 2;
-    const int x0 = std::max((std::min(a.x, b.x) - reach_ + half_pixel - 1) >> subpixel_bits, 0);
-    const int y0 = std::max((std::min(a.y, b.y) - reach_ + half_pixel - 1) >> subpixel_bits, 0);
-    const int x1 = std::min((std::max(a.x, b.x) + reach_ - half_pixel) >> subpixel_bits, mask_.width - 1);
-    const int y1 = std::min((std::max(a.y, b.y) + reach_ - half_pixel) >> subpixel_bits, mask_.rows - 1);
+    const int x0 = std::max((std::min(a.x, b.x) - reach_ + half_pixel) >> subpixel_bits, 0);
+    const int y0 = std::max((std::min(a.y, b.y) - reach_ + half_pixel) >> subpixel_bits, 0);
+    const int x1 = std::min((std::max(a.x, b.x) + reach_ - half_pixel - 1) >> subpixel_bits, mask_.width - 1);
+    const int y1 = std::min((std::max(a.y, b.y) + reach_ - half_pixel - 1) >> subpixel_bits, mask_.rows - 1);
     if (x0 > x1 || y0 > y1) return;
 
     // From the middle of the line to the centre of the first pixel.

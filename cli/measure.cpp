@@ -11,7 +11,7 @@ namespace sikku {
 namespace {
 
 /// A string of JSON.
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
     std::string result = "\"";
     for (const char byte : text) {
         if (byte == '"' || byte == '\\') {
@@ -34,7 +34,7 @@ std::string number(double value) {
 }
 
 std::string json(const Quantity& quantity) {
-    return quantity.digits.empty() ? number(quantity.value) : quoted(quantity.digits);
+    return quantity.digits.empty() ? number(quantity.value) : json_string(quantity.digits);
 }
 
 template <std::size_t Size>
@@ -47,7 +47,7 @@ std::string json(const std::array<Quantity, Size>& list) {
 std::string json(const std::string& title, const Measurement& m) {
     std::string counts;
     for (const auto& [letter, count] : m.counts) {
-        counts += fmt::format("{}{}: {}", counts.empty() ? "" : ", ", quoted(letter), json(count));
+        counts += fmt::format("{}{}: {}", counts.empty() ? "" : ", ", json_string(letter), json(count));
     }
     std::string length = json(m.length);
     if (m.length.digits.empty() && length.find_first_not_of("0123456789") == std::string::npos) length += ".0";
@@ -56,7 +56,7 @@ std::string json(const std::string& title, const Measurement& m) {
         "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
         "\"length\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, \"depth\": {}, "
         "\"derived\": {}}}\n",
-        quoted(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
+        json_string(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
         json(m.symbols), counts, json(m.drawn), json(m.moves), length, g ? json(g->box) : "null",
         g && g->ink ? json(*g->ink) : "null", g ? json(g->end) : "null", g ? number(g->heading) : "null",
         !g          ? "null"
