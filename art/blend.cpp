@@ -34,6 +34,13 @@ void fill(std::uint8_t* to, std::size_t size, const Bytes& colour, int channels)
         std::memset(to, colour[0], size);
         return;
     }
+    if (size < 256) {
+        for (std::uint8_t* end = to + size; to != end; to += channels) {
+            for (int channel = 0; channel < channels; ++channel)
+                to[channel] = colour[static_cast<std::size_t>(channel)];
+        }
+        return;
+    }
     // A stretch of pixels, then copies of it that double up to what the first cache holds.
     const std::size_t start = std::min(size, static_cast<std::size_t>(16 * channels));
     for (std::size_t i = 0; i < start; ++i) to[i] = colour[i % static_cast<std::size_t>(channels)];
@@ -180,13 +187,26 @@ void Canvas::clear(Colour ground, int rows) {
 }
 
 void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage, Colour colour) {
+    const Bytes paint = bytes(colour), ground = bytes(ground_);
+    const int bare_after = bare < coverage ? 0 : bare - coverage;
+    if (channels_ < 4 && colour.alpha == 255 && (coverage <= bare || bare == 0)) {
+        // The common cases: all of it on the bare share, which was ground; or all on what was painted.
+        const bool on_ground = coverage <= bare;
+        for (std::size_t channel = 0; channel < static_cast<std::size_t>(channels_); ++channel) {
+            const int below = on_ground ? ground[channel] : pixel[channel];
+            const int change = (paint[channel] - below) * coverage;
+            pixel[channel] = static_cast<std::uint8_t>(
+                std::clamp(pixel[channel] + (change + (change < 0 ? -127 : 127)) / 255, 0, 255));
+        }
+        bare = static_cast<std::uint8_t>(bare_after);
+        return;
+    }
     // Premultiplied, as fractions. `ground` fills the bare share of the pixel, what was painted the rest. The new
     // piece goes onto the bare share first and only then onto what was painted.
     const float bare_share = static_cast<float>(bare) / 255, share = static_cast<float>(coverage) / 255;
     const float on_bare = std::min(share, bare_share), on_painted = share - on_bare;
     const float alpha = static_cast<float>(colour.alpha) / 255;
     const float kept = bare_share < 1 ? 1 - on_painted / (1 - bare_share) * alpha : 1;
-    const Bytes paint = bytes(colour), ground = bytes(ground_);
     const float ground_alpha = channels_ == 4 ? static_cast<float>(ground_.alpha) / 255 : 1;
     const float pixel_alpha = channels_ == 4 ? static_cast<float>(pixel[3]) / 255 : 1;
     const auto paint_over = [&](float of_paint, float of_ground, float of_pixel) {
@@ -200,7 +220,7 @@ void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage
         pixel[channel] = static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
     }
     if (channels_ == 4) pixel[3] = static_cast<std::uint8_t>(std::clamp(alpha_after, 0.0f, 1.0f) * 255 + 0.5f);
-    bare = static_cast<std::uint8_t>(std::max(bare - coverage, 0));
+    bare = static_cast<std::uint8_t>(bare_after);
 }
 
 void Canvas::polygon_span(int row, int first, int end, int coverage, Colour colour) {

