@@ -9,10 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -27,9 +28,9 @@ constexpr std::size_t pack_bytes = std::size_t{1} << 18;
 /// translucent layer is painted as a group.
 constexpr int most_path_points = 8192;
 
-/// Layers in drawing order: polygons, then the strokes of each palette index, then discs.
-constexpr int polygon_layer = -1;
-constexpr int disc_layer = std::numeric_limits<int>::max();
+/// Layers in drawing order: polygons, then the strokes of each colour, then the discs of each colour.
+enum class LayerKind { polygons, strokes, discs };
+using LayerOrder = std::pair<LayerKind, int>;
 
 /// Distance of the control points of a quarter circle's Bézier, of its radius.
 constexpr double quarter_circle = 0.5522847498307936;
@@ -133,7 +134,7 @@ struct Layer {
     int stream = 0;            ///< number of the object with the drawing
     int length = 0;            ///< and of its length, if it goes to the file before that is known
     int group = 0;             ///< and of the optional content group
-    Colour colour;             ///< of a stroke layer
+    Colour colour;             ///< of strokes or discs
     bool translucent = false;  ///< the whole layer is painted as one
     TextBuffer text;
     std::string packed;
@@ -148,7 +149,12 @@ struct Layer {
 
 class Writer final : public PdfWriter {
 public:
-    Writer(const Print& print, OutputFile& file) : print_(print), file_(file), place_(print.placement) {
+    Writer(const Print& print, OutputFile& file)
+        : print_(print),
+          file_(file),
+          place_(print.placement),
+          line_slots_(print.style.line_slots()),
+          fill_slots_(print.style.fill_slots()) {
         const double longest = std::max(print.page.width, print.page.height) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
         write("%PDF-1.6\n%\xE2\xE3\xCF\xD3\n");
@@ -166,7 +172,7 @@ public:
     }
 
     void change_pen(const Pen& pen) override {
-        if (print_.style.index(pen) == index_ && width_text(pen) == width_) return;
+        if (slot_of(pen) == slot_ && width_text(pen) == width_) return;
         end_piece(false);
         take(pen);
     }
@@ -225,8 +231,13 @@ public:
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         const Colour colour = print_.style.fill_colour(pen);
-        if (colour.alpha == 0 || vertices.empty()) return;
-        Layer& layer = coloured_run(polygon_layer, "fills", colour);
+        if (colour.alpha == 0 || vertices.size() < 3) return;
+        // Polygons keep their order whatever their colours, as they may cover each other.
+        Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
+        if (layer.run != colour) {
+            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
+            layer.run = colour;
+        }
         const MicrometrePlacement place = place_;
         bool first = true;
         while (!vertices.empty()) {
@@ -249,7 +260,11 @@ public:
         const double millimetres =
             radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
         if (colour.alpha == 0 || !(millimetres > 0.0)) return;
-        Layer& layer = coloured_run(disc_layer, "discs", colour);
+        const int slot = fill_slots_[static_cast<std::size_t>(print_.style.index(pen))];
+        Layer& layer = open_layer({LayerKind::discs, slot}, colour,
+                                  [&] { return fmt::format("discs {}", colour_name(colour)); });
+        if (!layer.run) layer.text.append(fmt::format("{} rg\n", channels(colour)));
+        layer.run = colour;
         const Micrometres middle = place_(centre);
         const double r = millimetres * 1000.0;
         const auto at = [&](double x, double y) {
@@ -363,14 +378,16 @@ private:
         return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
     }
 
-    /// The first layer of all goes to the file at once, the others wait in memory.
-    Layer& open_layer(int order, std::string_view label, Colour colour, bool translucent) {
+    /// The first layer of all goes to the file at once, the others wait in memory. One whose `colour` is
+    /// translucent is painted as a whole, so that nothing darkens where it overlaps or where paths are cut.
+    template <typename Label>
+    Layer& open_layer(LayerOrder order, Colour colour, Label&& label) {
         const auto [found, is_new] = layers_.try_emplace(order);
         Layer& layer = found->second;
         if (!is_new) return layer;
-        layer.label = label;
+        layer.label = label();
         layer.colour = colour;
-        layer.translucent = translucent;
+        layer.translucent = colour.alpha != 255;
         layer.stream = new_object();
         layer.group = new_object();
         layer.packed = "\x78\x9C";
@@ -381,20 +398,12 @@ private:
             begin_object(layer.stream);
             write(stream_head(layer, fmt::format("{} 0 R", layer.length)));
         }
-        if (!translucent) layer.text.append(fmt::format("/OC /G{} BDC\n", layer.group));
+        if (!layer.translucent) layer.text.append(fmt::format("/OC /G{} BDC\n", layer.group));
         layer.text.append(fmt::format("q {} 1 J 1 j\n", matrix()));
         return layer;
     }
 
-    /// Polygons and discs keep their order whatever their colours, as they may cover each other.
-    Layer& coloured_run(int order, std::string_view label, Colour colour) {
-        Layer& layer = open_layer(order, label, colour, false);
-        if (layer.run != colour) {
-            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
-            layer.run = colour;
-        }
-        return layer;
-    }
+    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(print_.style.index(pen))]; }
 
     std::string width_text(const Pen& pen) const {
         return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
@@ -403,7 +412,7 @@ private:
     void take(const Pen& pen) {
         if (pen_ == pen) return;
         pen_ = pen;
-        index_ = print_.style.index(pen);
+        slot_ = slot_of(pen);
         width_ = width_text(pen);
         colour_ = print_.style.line_colour(pen);
         // In PDF a width of 0 is the thinnest line there is, and not none.
@@ -417,8 +426,8 @@ private:
         if (started_) return;
         started_ = true;
         if (!layer_) {
-            layer_ = &open_layer(index_, fmt::format("{} {}", index_ + 1, colour_name(colour_)), colour_,
-                                 colour_.alpha != 255);
+            layer_ = &open_layer({LayerKind::strokes, slot_}, colour_,
+                                 [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
         }
         if (layer_->width != width_) {
             end_path(*layer_);
@@ -551,8 +560,10 @@ private:
     const Print& print_;
     OutputFile& file_;
     const MicrometrePlacement place_;
+    const std::vector<int> line_slots_;
+    const std::vector<int> fill_slots_;
     Deflater deflater_;
-    std::map<int, Layer> layers_;
+    std::map<LayerOrder, Layer> layers_;
     std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
     std::set<int> alphas_;
     double unit_ = 1.0;  ///< points of one unit of the page
@@ -564,7 +575,7 @@ private:
     // The stroke that is being drawn, and its piece with the present pen.
     std::optional<Pen> pen_;
     Layer* layer_ = nullptr;
-    int index_ = 0;
+    int slot_ = 0;
     Colour colour_;
     std::string width_;
     bool visible_ = false;

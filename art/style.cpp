@@ -5,15 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <system_error>
 
 namespace sikku {
 namespace {
 
-constexpr double widest = 1000.0;        // of a stroke: millimetres or steps
-constexpr double widest_pen_mm = 1e5;    // after the turtle's factors, so that every writer can print the number
+constexpr double widest = 1000.0;      // of a stroke: millimetres or steps
+constexpr double widest_pen_mm = 1e5;  // after the turtle's factors, so that every writer can print the number
+constexpr std::size_t most_colours = 4096;
 constexpr std::size_t most_quoted = 40;  // bytes of the file in a message
 
 constexpr Colour black{0, 0, 0, 255};
@@ -245,12 +248,28 @@ void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
         const auto colour = read_colour(word, expected, diagnostics);
         if (colour) palette.push_back(*colour);
         if (!colour) ++errors;
+        if (palette.size() > most_colours) {
+            diagnostics.error(word, fmt::format("a palette has at most {} colours", most_colours));
+            break;
+        }
     }
     if (palette.empty() && errors == 0) {
         diagnostics.error(key.value.empty() ? key.name_at : key.value,
                           fmt::format("'palette:' is empty: expected {}", expected));
     }
     if (!palette.empty()) style.palette = std::move(palette);
+}
+
+std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&) const) {
+    std::vector<int> result;
+    std::map<std::array<std::uint8_t, 4>, int> first;
+    const int colours = std::max(1, static_cast<int>(style.palette.size()));
+    for (int index = 0; index < colours; ++index) {
+        const Colour colour = (style.*colour_of)(Pen{.colour = index});
+        const auto [found, is_new] = first.try_emplace({colour.red, colour.green, colour.blue, colour.alpha}, index);
+        result.push_back(found->second);
+    }
+    return result;
 }
 
 }  // namespace
@@ -271,6 +290,14 @@ Colour Style::fill_colour(const Pen& pen) const {
     const int at = index(pen);
     if (at == 0 && fill) return *fill;
     return palette.empty() ? black : palette[static_cast<std::size_t>(at)];
+}
+
+std::vector<int> Style::line_slots() const {
+    return slots(*this, &Style::line_colour);
+}
+
+std::vector<int> Style::fill_slots() const {
+    return slots(*this, &Style::fill_colour);
 }
 
 double Style::line_width(const Pen& pen, double step) const {

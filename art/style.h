@@ -32,13 +32,16 @@ struct Style {
     int index(const Pen& pen) const;
     Colour line_colour(const Pen& pen) const;
     Colour fill_colour(const Pen& pen) const;
+    /// For every colour index the first one of the same colour: they share a layer.
+    std::vector<int> line_slots() const;
+    std::vector<int> fill_slots() const;
     /// Width of a pen's line in millimetres when a step is `step` millimetres long.
     double line_width(const Pen& pen, double step) const;
 };
 
 /// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each
 /// optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
-/// `palette` (a list of colours, separated by blanks or commas).
+/// `palette` (a list of colours, separated by blanks or commas; at most 4096).
 std::vector<std::string_view> style_keys();
 
 /// Reads and checks them; what is absent keeps its default: straight, 0.4 mm, black on white, and a palette of

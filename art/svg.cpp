@@ -8,9 +8,11 @@
 #include <array>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
+#include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -31,9 +33,9 @@ constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 constexpr int single_strokes = 256;
 constexpr std::uint64_t shared_path_bytes = 4096;
 
-/// Layers in drawing order: polygons, then the strokes of each palette index, then discs.
-constexpr int polygon_layer = -1;
-constexpr int disc_layer = std::numeric_limits<int>::max();
+/// Layers in drawing order: polygons, then the strokes of each colour, then the discs of each colour.
+enum class LayerKind { polygons, strokes, discs };
+using LayerOrder = std::pair<LayerKind, int>;
 
 /// The length of the UTF-8 sequence at the front of `text` if it is a character that XML 1.0 can hold, else 0.
 std::size_t xml_character(std::string_view text) {
@@ -192,14 +194,19 @@ struct Layer {
     std::string width;             ///< stroke-width that the layer gives its paths
     Micrometres at;                ///< where the open path ends
     int strokes = 0;
-    std::optional<Colour> run;  ///< colour of the open group of polygons or discs
+    std::optional<Colour> run;  ///< colour of the open group of polygons
 
     std::uint64_t position() const { return flushed + text.size(); }
 };
 
 class Writer final : public SvgWriter {
 public:
-    Writer(const Print& print, OutputFile& file) : print_(print), file_(file), place_(print.placement) {
+    Writer(const Print& print, OutputFile& file)
+        : print_(print),
+          file_(file),
+          place_(print.placement),
+          line_slots_(print.style.line_slots()),
+          fill_slots_(print.style.fill_slots()) {
         write_head();
         body_begin_ = written_ = file_.size();
     }
@@ -212,7 +219,7 @@ public:
     }
 
     void change_pen(const Pen& pen) override {
-        if (print_.style.index(pen) == index_ && width_text(pen) == width_) return;
+        if (slot_of(pen) == slot_ && width_text(pen) == width_) return;
         end_piece(false);
         take(pen);
     }
@@ -262,8 +269,8 @@ public:
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         const Colour colour = print_.style.fill_colour(pen);
-        if (colour.alpha == 0 || vertices.empty()) return;
-        Layer& layer = coloured_run(polygon_layer, colour);
+        if (colour.alpha == 0 || vertices.size() < 3) return;
+        Layer& layer = polygon_run(colour);
         char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
         char* out = begin;
         const MicrometrePlacement place = place_;
@@ -284,7 +291,11 @@ public:
         const double millimetres =
             radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
         if (colour.alpha == 0 || !(millimetres > 0.0)) return;
-        Layer& layer = coloured_run(disc_layer, colour);
+        const int slot = fill_slots_[static_cast<std::size_t>(print_.style.index(pen))];
+        Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
+            return LayerText{fmt::format("discs {}", colour_name(colour)),
+                             fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour))};
+        });
         const Micrometres middle = place_(centre);
         layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", middle.x, middle.y,
                                       decimal(std::min(millimetres * 1000.0, 1e9), 1)));
@@ -342,25 +353,32 @@ private:
         }
     }
 
+    struct LayerText {
+        std::string label;
+        std::string attributes;
+    };
+
     /// The layer of that order, begun with its group on first use. The first layer of all goes to the file at
     /// once; the others wait in memory, as they may have to stand before it.
-    Layer& open_layer(int order, const std::string& label, const std::string& attributes) {
+    template <typename Text>
+    Layer& open_layer(LayerOrder order, Text&& text) {
         const auto [found, is_new] = layers_.try_emplace(order);
         Layer& layer = found->second;
         if (is_new) {
             layer.to_file = layers_.size() == 1 && file_.can_insert();
             streaming_ = streaming_ || layer.to_file;
+            const LayerText is = text();
             layer.text.append(
                 fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
                             "transform=\"scale(0.001)\"{}>\n",
-                            label, attributes));
+                            is.label, is.attributes));
         }
         return layer;
     }
 
-    /// Polygons and discs keep their order whatever their colours, as they may cover each other.
-    Layer& coloured_run(int order, Colour colour) {
-        Layer& layer = open_layer(order, order == polygon_layer ? "fills" : "discs", "");
+    /// Polygons keep their order whatever their colours, as they may cover each other.
+    Layer& polygon_run(Colour colour) {
+        Layer& layer = open_layer({LayerKind::polygons, 0}, [] { return LayerText{"fills", ""}; });
         if (layer.run != colour) {
             if (layer.run) layer.text.append("</g>\n");
             layer.text.append(fmt::format("<g fill=\"{}\"{}>\n", hex(colour), opacity("fill-opacity", colour)));
@@ -369,6 +387,8 @@ private:
         return layer;
     }
 
+    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(print_.style.index(pen))]; }
+
     std::string width_text(const Pen& pen) const {
         return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
     }
@@ -376,7 +396,7 @@ private:
     void take(const Pen& pen) {
         if (pen_ == pen) return;
         pen_ = pen;
-        index_ = print_.style.index(pen);
+        slot_ = slot_of(pen);
         width_ = width_text(pen);
         colour_ = print_.style.line_colour(pen);
         visible_ = print_.style.stroked && colour_.alpha > 0;
@@ -390,10 +410,12 @@ private:
         started_ = true;
         if (!layer_) {
             // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
-            layer_ = &open_layer(index_, fmt::format("{} {}", index_ + 1, colour_name(colour_)),
+            layer_ = &open_layer({LayerKind::strokes, slot_}, [&] {
+                return LayerText{fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
                                  fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
                                              "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                                             hex(colour_), opacity("opacity", colour_), width_));
+                                             hex(colour_), opacity("opacity", colour_), width_)};
+            });
             if (layer_->width.empty()) layer_->width = width_;
         }
         if (layer_->path_open && (layer_->strokes < single_strokes || layer_->path_width != width_ ||
@@ -463,7 +485,9 @@ private:
     const Print& print_;
     OutputFile& file_;
     const MicrometrePlacement place_;
-    std::map<int, Layer> layers_;
+    const std::vector<int> line_slots_;
+    const std::vector<int> fill_slots_;
+    std::map<LayerOrder, Layer> layers_;
     std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
@@ -471,7 +495,7 @@ private:
     // The stroke that is being drawn, and its piece with the present pen.
     std::optional<Pen> pen_;
     Layer* layer_ = nullptr;
-    int index_ = 0;
+    int slot_ = 0;
     Colour colour_;
     std::string width_;
     bool visible_ = false;

@@ -1,0 +1,274 @@
+// art/image_module.cpp: the only file that sees OpenImageIO. It is a module of its own, loaded by image_file.cpp.
+#include "art/image_module.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// A file that remembers its first failure: some of the format writers do not look at what a write returns, and a
+/// full disk must not pass for success.
+class CheckedFile final : public OIIO::Filesystem::IOProxy {
+public:
+    explicit CheckedFile(const std::filesystem::path& path)
+        : IOProxy(path.string(), Write),
+          descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (descriptor_ < 0) throw failure(errno);
+        buffer_.reserve(buffer_size);
+    }
+    ~CheckedFile() override {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    CheckedFile(const CheckedFile&) = delete;
+    CheckedFile& operator=(const CheckedFile&) = delete;
+
+    const char* proxytype() const override { return "sikku"; }
+
+    std::size_t write(const void* data, std::size_t size) override {
+        const std::scoped_lock lock(mutex_);
+        const std::size_t written = append(static_cast<const char*>(data), size, m_pos);
+        m_pos += static_cast<std::int64_t>(written);
+        return written;
+    }
+    std::size_t pwrite(const void* data, std::size_t size, std::int64_t offset) override {
+        const std::scoped_lock lock(mutex_);
+        return append(static_cast<const char*>(data), size, offset);
+    }
+    std::size_t read(void* data, std::size_t size) override {
+        const std::size_t got = pread(data, size, m_pos);
+        m_pos += static_cast<std::int64_t>(got);
+        return got;
+    }
+    std::size_t pread(void* data, std::size_t size, std::int64_t offset) override {
+        const std::scoped_lock lock(mutex_);
+        flush_buffer();
+        const ::ssize_t got = ::pread(descriptor_, data, size, offset);
+        return got < 0 ? 0 : static_cast<std::size_t>(got);
+    }
+    std::size_t size() const override { return static_cast<std::size_t>(end_); }
+
+    /// Throws if anything was not written.
+    void finish() {
+        const std::scoped_lock lock(mutex_);
+        flush_buffer();
+        if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+        if (error_ != 0) throw failure(error_);
+    }
+    void check() {
+        const std::scoped_lock lock(mutex_);
+        if (error_ != 0) throw failure(error_);
+    }
+
+private:
+    static constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+    static std::runtime_error failure(int error) {
+        return std::runtime_error(std::generic_category().message(error));
+    }
+
+    // Neighbouring small writes, of which PNG makes many, become one.
+    std::size_t append(const char* data, std::size_t size, std::int64_t offset) {
+        if (offset != buffer_at_ + static_cast<std::int64_t>(buffer_.size()) || buffer_.size() + size > buffer_size) {
+            flush_buffer();
+            buffer_at_ = offset;
+        }
+        if (size > buffer_size) {
+            put(data, size, offset);
+            buffer_at_ = offset + static_cast<std::int64_t>(size);
+        } else {
+            buffer_.insert(buffer_.end(), data, data + size);
+        }
+        end_ = std::max(end_, offset + static_cast<std::int64_t>(size));
+        return error_ == 0 ? size : 0;
+    }
+    void flush_buffer() {
+        put(buffer_.data(), buffer_.size(), buffer_at_);
+        buffer_at_ += static_cast<std::int64_t>(buffer_.size());
+        buffer_.clear();
+    }
+    void put(const char* data, std::size_t size, std::int64_t offset) {
+        while (size > 0 && error_ == 0) {
+            const ::ssize_t written = ::pwrite(descriptor_, data, size, offset);
+            if (written < 0) {
+                if (errno != EINTR) error_ = errno;
+                continue;
+            }
+            data += written;
+            size -= static_cast<std::size_t>(written);
+            offset += written;
+        }
+    }
+
+    int descriptor_;
+    int error_ = 0;
+    std::vector<char> buffer_;
+    std::int64_t buffer_at_ = 0, end_ = 0;
+    std::mutex mutex_;
+};
+
+/// 8-bit sRGB as linear light, IEC 61966-2-1.
+std::array<float, 256> linear_light() {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double value = static_cast<double>(i) / 255;
+        table[i] = static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}
+
+class FileWriter final : public ImageWriter {
+public:
+    FileWriter(const std::filesystem::path& path, const ImageSpec& spec);
+    ~FileWriter() override;
+    void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) override;
+    void close() override;
+
+private:
+    [[noreturn]] void fail();
+    void write(int first_row, int rows, OIIO::TypeDesc type, const void* pixels);
+
+    ImageSpec spec_;
+    CheckedFile file_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    std::vector<std::uint8_t> flattened_;
+    std::vector<float> linear_;
+};
+
+// JPEG keeps texts in one EXIF block of at most 64 kB.
+constexpr std::size_t longest_jpeg_text = 60'000;
+
+FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
+    const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
+               exr = spec.format == "exr";
+    if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown image format: " + spec.format);
+    // TIFF compresses its strips in parallel only if the pool is larger than this.
+    OIIO::attribute("threads", std::max(spec.threads, 3));
+    OIIO::attribute("exr_threads", std::max(spec.threads, 1));
+    output_ = OIIO::ImageOutput::create(png ? "png" : tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
+    if (!output_) throw std::runtime_error(OIIO::geterror());
+    if (!output_->supports("ioproxy") || !output_->set_ioproxy(&file_)) {
+        throw std::runtime_error("this OpenImageIO cannot write " + spec.format + " through a proxy");
+    }
+
+    const int channels = jpeg && spec.channels == 4 ? 3 : spec.channels;
+    OIIO::ImageSpec image(spec.width, spec.height, channels, exr ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8);
+    image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+    if (channels == 4 && !exr) image.attribute("oiio:UnassociatedAlpha", 1);
+    image.attribute("XResolution", static_cast<float>(spec.dpi));
+    image.attribute("YResolution", static_cast<float>(spec.dpi));
+    image.attribute("ResolutionUnit", "in");
+    if (png) {
+        image.attribute("compression", "zip");
+        image.attribute("png:compressionLevel", 6);
+        // libpng's PNG_FILTER_NONE: left to itself it tries every filter on every row, for more than twice the time
+        // and no smaller files where areas are flat.
+        image.attribute("png:filter", 8);
+    } else if (tiff) {
+        image.attribute("compression", "zip");
+    } else if (jpeg) {
+        image.attribute("compression", "jpeg:95");
+    } else {
+        image.attribute("compression", "zip");
+    }
+    const auto text = [&](const char* name, const std::string& value) {
+        if (!value.empty() && !(jpeg && value.size() > longest_jpeg_text)) image.attribute(name, value);
+    };
+    text("ImageDescription", spec.description);
+    text("Software", spec.software);
+    if (png) text("Title", spec.title);
+    if (tiff) text("DocumentName", spec.title);
+    if (!output_->open(path.string(), image)) fail();
+}
+
+FileWriter::~FileWriter() {
+    // Not closed: the file is given up, and what closing it would complain of does not matter.
+    output_.reset();
+}
+
+void FileWriter::fail() {
+    std::string message = output_->geterror();
+    // The cause, if there is one, tells more than what became of it in a library.
+    file_.check();
+    while (!message.empty() && message.back() == '\n') message.pop_back();
+    throw std::runtime_error(message.empty() ? "the image could not be written" : message);
+}
+
+void FileWriter::write(int first_row, int rows, OIIO::TypeDesc type, const void* pixels) {
+    if (!output_->write_scanlines(first_row, first_row + rows, 0, type, pixels)) fail();
+    file_.check();
+}
+
+void FileWriter::rows(int first_row, int rows, std::span<const std::uint8_t> pixels) {
+    const std::size_t channels = static_cast<std::size_t>(spec_.channels);
+    if (spec_.format == "exr") {
+        // Linear light, with associated alpha.
+        static const std::array<float, 256> linear = linear_light();
+        linear_.resize(pixels.size());
+        for (std::size_t i = 0; i < pixels.size(); i += channels) {
+            const float alpha = channels == 4 ? static_cast<float>(pixels[i + 3]) / 255 : 1;
+            for (std::size_t channel = 0; channel < std::min<std::size_t>(channels, 3); ++channel) {
+                linear_[i + channel] = linear[pixels[i + channel]] * alpha;
+            }
+            if (channels == 4) linear_[i + 3] = alpha;
+        }
+        write(first_row, rows, OIIO::TypeDesc::FLOAT, linear_.data());
+        return;
+    }
+    if (spec_.format == "jpg" && channels == 4) {
+        // No alpha in JPEG: on white paper.
+        flattened_.clear();
+        for (std::size_t i = 0; i < pixels.size(); i += 4) {
+            const unsigned alpha = pixels[i + 3];
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                flattened_.push_back(
+                    static_cast<std::uint8_t>((pixels[i + channel] * alpha + 255 * (255 - alpha) + 127) / 255));
+            }
+        }
+        write(first_row, rows, OIIO::TypeDesc::UINT8, flattened_.data());
+        return;
+    }
+    write(first_row, rows, OIIO::TypeDesc::UINT8, pixels.data());
+}
+
+void FileWriter::close() {
+    if (!output_->close()) fail();
+    output_.reset();
+    file_.finish();
+}
+
+std::unique_ptr<ImageWriter> open(const std::filesystem::path& path, const ImageSpec& spec) {
+    return std::make_unique<FileWriter>(path, spec);
+}
+
+std::optional<ImageText> read_text(const std::filesystem::path& path) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    if (!input) {
+        static_cast<void>(OIIO::geterror());  // else it is reported on the terminal at the end
+        return std::nullopt;
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    return ImageText{spec.get_string_attribute("ImageDescription"), spec.get_string_attribute("Software")};
+}
+
+constexpr ImageModule functions{image_module_version, open, read_text};
+
+}  // namespace
+}  // namespace sikku
+
+extern "C" __attribute__((visibility("default"))) const sikku::ImageModule* sikku_image_module() {
+    return &sikku::functions;
+}

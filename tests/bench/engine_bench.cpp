@@ -1,0 +1,92 @@
+// The engine alone: derivation, turtle, fold.
+#include <benchmark/benchmark.h>
+
+#include "engine/extent.h"
+#include "engine/turtle.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+using namespace sikku;
+
+Grammar grammar_of(const std::string& text, std::int64_t steps) {
+    Diagnostics diagnostics;
+    const Pattern pattern = parse_pattern("bench", text, diagnostics);
+    auto grammar = compile_grammar(pattern, diagnostics).with_steps(steps);
+    diagnostics.throw_if_errors();
+    return *grammar;
+}
+
+const std::string koch = "axiom: F-F-F-F\nF --> F-F+F+FF-F-F+F\n";
+const std::string hilbert = "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n";
+const std::string bush = "axiom: F\nangle factor: 16\nF --> FF-[-F+F+F]+[+F-F-F]\n";
+const std::string signal =
+    "axiom: F1F1F1\nignore: +-F\nangle factor: 16\n0 < 0 > 0 --> 0\n0 < 0 > 1 --> 1[+F1F1]\n0 < 1 > 0 --> 1\n"
+    "0 < 1 > 1 --> 1\n1 < 0 > 0 --> 0\n1 < 0 > 1 --> 1F1\n1 < 1 > 0 --> 0\n1 < 1 > 1 --> 0\n+ --> -\n- --> +\n";
+
+class Counter : public SymbolSink {
+public:
+    void symbols(const Run& run) override { count += run.symbols.size(); }
+    std::uint64_t count = 0;
+};
+
+class PointCounter : public PathSink {
+public:
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2> ends) override { count += ends.size(); }
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+    std::uint64_t count = 0;
+};
+
+void derivation_of_117_million_symbols(benchmark::State& state) {
+    const Grammar grammar = grammar_of(koch, 8);
+    std::uint64_t symbols = 0;
+    for (auto _ : state) {
+        Counter counter;
+        derive(grammar, counter);
+        symbols += counter.count;
+    }
+    state.counters["symbols/s"] = benchmark::Counter(static_cast<double>(symbols), benchmark::Counter::kIsRate);
+}
+
+void context_sensitive_derivation(benchmark::State& state) {
+    const Grammar grammar = grammar_of(signal, 200);
+    std::uint64_t symbols = 0;
+    for (auto _ : state) {
+        Counter counter;
+        derive(grammar, counter);
+        symbols += counter.count;
+    }
+    state.counters["last_word"] = static_cast<double>(symbols) / static_cast<double>(state.iterations());
+}
+
+void turtle(benchmark::State& state, const std::string& text, std::int64_t steps) {
+    const Grammar grammar = grammar_of(text, steps);
+    std::uint64_t points = 0;
+    for (auto _ : state) {
+        PointCounter counter;
+        const auto walking = Turtle::drawing(grammar, counter, false);
+        derive(grammar, *walking);
+        points += counter.count;
+    }
+    state.counters["segments/s"] = benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsRate);
+}
+
+void measure_hilbert(benchmark::State& state) {
+    const Grammar grammar = grammar_of(hilbert, state.range(0));
+    for (auto _ : state) benchmark::DoNotOptimize(measure(grammar, 1e6));
+}
+
+BENCHMARK(derivation_of_117_million_symbols)->Unit(benchmark::kMillisecond);
+BENCHMARK(context_sensitive_derivation)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(turtle, hilbert_10, hilbert, 10)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(turtle, bush_of_rank_8, bush, 6)->Unit(benchmark::kMillisecond);
+BENCHMARK(measure_hilbert)->Arg(10)->Arg(60)->Arg(500)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
