@@ -172,7 +172,7 @@ public:
     }
 
     void change_pen(const Pen& pen) override {
-        if (slot_of(pen) == slot_ && width_text(pen) == width_) return;
+        if (pen_ == pen || (slot_of(pen) == slot_ && width_text(pen) == width_)) return;
         end_piece(false);
         take(pen);
     }

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 2e6;
+constexpr double most_work = 3e7;
 constexpr std::size_t most_frames = 4096;
 
 __extension__ using Int128 = __int128;
@@ -578,7 +578,7 @@ double work_of(const Grammar& grammar, double bits) {
         }
         work += compositions * static_cast<double>(run.steps);
     }
-    const double limbs = 1 + bits / 64;
+    const double limbs = std::max(1.0, bits / 64);
     return work * limbs * std::sqrt(limbs);
 }
 

@@ -124,7 +124,7 @@ TEST_F(Pdf, PositionsAreWholeMicrometres) {
 TEST_F(Pdf, LayersAreNamedAndInOrder) {
     NEEDS("qpdf");
     const std::string text = plain_text(write(plain_print(), draw_sampler));
-    for (const std::string name : {"ground", "fills", "1 black", "2 red", "3 blue", "discs"}) {
+    for (const std::string name : {"ground", "fills", "1 black", "2 red", "3 blue", "discs red", "discs blue"}) {
         EXPECT_NE(text.find("/Name (" + name + ")"), std::string::npos) << name;
     }
 }

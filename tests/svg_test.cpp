@@ -217,7 +217,8 @@ TEST_F(Svg, WhatIsFarOutsideIsHeldWithinAKilometre) {
 
 TEST_F(Svg, LayersStandInOrderWhateverCameFirst) {
     const auto root = parse(plain_print(), draw_sampler);
-    EXPECT_EQ(labels(root), (std::vector<std::string>{"ground", "fills", "1 black", "2 red", "3 blue", "discs"}));
+    EXPECT_EQ(labels(root),
+              (std::vector<std::string>{"ground", "fills", "1 black", "2 red", "3 blue", "discs red", "discs blue"}));
     const auto fills = root.select_nodes("g[2]/g");
     ASSERT_EQ(fills.size(), 2u);
     EXPECT_STREQ(fills[0].node().attribute("fill").value(), "#0000ff");
@@ -236,11 +237,29 @@ TEST_F(Svg, LayersStandInOrderWhateverCameFirst) {
     EXPECT_STREQ(root.select_node("g[4]/path").node().attribute("d").value(), "M10000 50000h80000");
     EXPECT_STREQ(root.select_node("g[5]/path").node().attribute("d").value(),
                  "M60000 30000c0-15000 20000-15000 20000 0 0 15000-20000 15000-20000 0z");
-    const auto dots = root.select_nodes("g[6]/g/circle");
+    const auto dots = root.select_nodes("g/circle");
     ASSERT_EQ(dots.size(), 2u);
-    EXPECT_STREQ(dots[0].node().attribute("r").value(), "3000");
-    EXPECT_STREQ(dots[1].node().attribute("r").value(), "2000");  // twice as wide as the line
-    EXPECT_STREQ(dots[1].node().parent().attribute("fill").value(), "#ff0000");
+    EXPECT_STREQ(dots[0].node().attribute("r").value(), "2000");  // twice as wide as the line
+    EXPECT_STREQ(dots[0].node().parent().attribute("fill").value(), "#ff0000");
+    EXPECT_STREQ(dots[1].node().attribute("r").value(), "3000");
+    EXPECT_STREQ(dots[1].node().attribute("cx").value(), "50000");
+    EXPECT_STREQ(dots[1].node().attribute("cy").value(), "50000");
+}
+
+TEST_F(Svg, IndicesOfOneColourShareALayer) {
+    Print print = plain_print();
+    print.style.palette.push_back(print.style.palette[1]);
+    const auto root = parse(print, [](PathSink& sink) {
+        for (const int colour : {3, 0, 1, -1}) {
+            sink.begin_stroke({1, 1}, Pen{1.0, false, colour});
+            sink.lines(Points{{5, 5}});
+            sink.end_stroke(false);
+            sink.disc({1, 1}, 2.0, Pen{1.0, false, colour});
+        }
+    });
+    EXPECT_EQ(labels(root), (std::vector<std::string>{"ground", "1 black", "2 red", "discs black", "discs red"}));
+    EXPECT_EQ(root.select_nodes("g[3]/path").size(), 3u);
+    EXPECT_EQ(root.select_nodes("g[5]/circle").size(), 3u);
 }
 
 TEST_F(Svg, APipeGetsTheSameBytes) {
@@ -371,7 +390,8 @@ TEST_F(Svg, AlphaOfLinesIsTheLayersAndOfFillsTheirOwn) {
 TEST_F(Svg, WithoutAStrokeOnlyFillsAreDrawn) {
     Print print = plain_print();
     print.style.stroked = false;
-    EXPECT_EQ(labels(parse(print, draw_sampler)), (std::vector<std::string>{"ground", "fills", "discs"}));
+    EXPECT_EQ(labels(parse(print, draw_sampler)),
+              (std::vector<std::string>{"ground", "fills", "discs red", "discs blue"}));
 }
 
 const std::string awkward = "a < b & c > d \"q\" 'r' ]]> &amp; --> கோலம் \xF0\x9F\x8C\xBC";

@@ -1,0 +1,211 @@
+#include "art/style.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace sikku {
+namespace {
+
+struct Read {
+    Style style;
+    std::vector<Diagnostic> errors;
+};
+Read read(const std::string& text) {
+    Diagnostics diagnostics;
+    const Pattern pattern = parse_pattern("test.lsys", text, diagnostics);
+    EXPECT_TRUE(diagnostics.list().empty());
+    const Style style = read_style(pattern, 300.0, diagnostics);
+    return {style, diagnostics.list()};
+}
+
+TEST(Colour, IsReadAsCssWritesIt) {
+    EXPECT_EQ(parse_colour("#f80"), (Colour{0xff, 0x88, 0x00, 255}));
+    EXPECT_EQ(parse_colour("#F80a"), (Colour{0xff, 0x88, 0x00, 0xaa}));
+    EXPECT_EQ(parse_colour("#12aBfE"), (Colour{0x12, 0xab, 0xfe, 255}));
+    EXPECT_EQ(parse_colour("#12abfe07"), (Colour{0x12, 0xab, 0xfe, 7}));
+    EXPECT_EQ(parse_colour("White"), (Colour{255, 255, 255, 255}));
+    EXPECT_EQ(parse_colour("lightGoldenRodYellow"), (Colour{0xfa, 0xfa, 0xd2, 255}));
+    EXPECT_EQ(parse_colour("rebeccapurple"), (Colour{0x66, 0x33, 0x99, 255}));
+    EXPECT_EQ(parse_colour("transparent"), (Colour{0, 0, 0, 0}));
+    for (const char* bad : {"", "#", "#f", "#ff", "#fffff", "#fffffff", "#fffffffff", "#ggg", "#ff ", "whit", "none",
+                            "white ", " white", "rgb(1,2,3)", "ffffff"}) {
+        EXPECT_FALSE(parse_colour(bad)) << bad;
+    }
+}
+
+TEST(Colour, EveryNameIsKnownAndNamesItself) {
+    EXPECT_EQ(colour_names().size(), 149u);  // 148 and transparent
+    for (const std::string_view name : colour_names()) {
+        const auto colour = parse_colour(name);
+        ASSERT_TRUE(colour) << name;
+        EXPECT_EQ(hex(parse_colour(colour_name(*colour)).value()), hex(*colour)) << name;
+    }
+    EXPECT_EQ(colour_name({0, 255, 255, 255}), "cyan");
+    EXPECT_EQ(colour_name({255, 0, 255, 3}), "magenta");
+    EXPECT_EQ(colour_name({128, 128, 128, 255}), "gray");
+    EXPECT_EQ(colour_name({1, 2, 0xab, 255}), "#0102ab");
+}
+
+TEST(Style, HasDefaults) {
+    const auto [style, errors] = read("axiom: F\n");
+    EXPECT_TRUE(errors.empty());
+    EXPECT_EQ(style.line, Line::straight);
+    EXPECT_TRUE(style.stroked);
+    EXPECT_EQ(style.stroke.value, 0.4);
+    EXPECT_FALSE(style.stroke.in_steps);
+    EXPECT_EQ(style.line_colour({}), (Colour{0, 0, 0, 255}));
+    EXPECT_EQ(style.fill_colour({}), (Colour{0, 0, 0, 255}));
+    EXPECT_EQ(style.ground, (Colour{255, 255, 255, 255}));
+    EXPECT_EQ(style.palette.size(), 8u);
+}
+
+TEST(Style, StrokeIsAWidthAndAColourInEitherOrder) {
+    struct Case {
+        std::string value;
+        double width;
+        bool in_steps;
+        std::optional<Colour> colour;
+    };
+    const Colour white{255, 255, 255, 255};
+    for (const Case& expected :
+         {Case{"0.4mm #fff", 0.4, false, white}, Case{"#fff 0.4mm", 0.4, false, white},
+          Case{"0.2 step white", 0.2, true, white}, Case{"white 0.2step", 0.2, true, white},
+          Case{"White", 0.4, false, white}, Case{"0.3 steps", 0.3, true, {}}, Case{"0.3 STEPS", 0.3, true, {}},
+          Case{"1.5", 1.5, false, {}}, Case{"1.5 white", 1.5, false, white}, Case{".5 mm", 0.5, false, {}},
+          Case{"+1e-1cm", 1.0, false, {}}, Case{"72pt", 25.4, false, {}}, Case{"3px", 0.254, false, {}},
+          Case{"999.9", 999.9, false, {}}, Case{"0.4mm /* thin */ #fff", 0.4, false, white}}) {
+        const auto [style, errors] = read("stroke: " + expected.value + "\n");
+        EXPECT_TRUE(errors.empty()) << expected.value;
+        EXPECT_DOUBLE_EQ(style.stroke.value, expected.width) << expected.value;
+        EXPECT_EQ(style.stroke.in_steps, expected.in_steps) << expected.value;
+        EXPECT_EQ(style.stroke_colour, expected.colour) << expected.value;
+        EXPECT_TRUE(style.stroked);
+    }
+    EXPECT_FALSE(read("stroke: None\n").style.stroked);
+}
+
+TEST(Style, TheOtherKeys) {
+    const auto [style, errors] =
+        read("LINE: Spline\nground: #8b1a1a\nfill: gold\npalette: red, #00f8 ,green\tblue,\n");
+    EXPECT_TRUE(errors.empty());
+    EXPECT_EQ(style.line, Line::spline);
+    EXPECT_EQ(style.ground, (Colour{0x8b, 0x1a, 0x1a, 255}));
+    EXPECT_EQ(style.fill, (Colour{255, 215, 0, 255}));
+    EXPECT_EQ(style.palette,
+              (std::vector<Colour>{{255, 0, 0, 255}, {0, 0, 255, 0x88}, {0, 128, 0, 255}, {0, 0, 255, 255}}));
+    EXPECT_FALSE(read("ground: none\n").style.ground);
+    EXPECT_FALSE(read("ground: transparent\n").style.ground);
+    EXPECT_EQ(read("ground: #fff8\n").style.ground, (Colour{255, 255, 255, 0x88}));
+    EXPECT_EQ(read("fill: none\n").style.fill.value().alpha, 0);
+}
+
+TEST(Style, IndicesWrapAndZeroHasColoursOfItsOwn) {
+    const Style style = read("stroke: white\nfill: gold\npalette: red green blue\n").style;
+    for (const auto& [colour, index] : {std::pair{0, 0},
+                                        {1, 1},
+                                        {2, 2},
+                                        {3, 0},
+                                        {7, 1},
+                                        {-1, 2},
+                                        {-3, 0},
+                                        {-4, 2},
+                                        {std::numeric_limits<int>::max(), 1},
+                                        {std::numeric_limits<int>::min(), 1}}) {
+        const Pen pen{1.0, false, colour};
+        EXPECT_EQ(style.index(pen), index) << colour;
+        EXPECT_EQ(colour_name(style.line_colour(pen)), index == 0 ? "white" : index == 1 ? "green" : "blue");
+        EXPECT_EQ(colour_name(style.fill_colour(pen)), index == 0 ? "gold" : index == 1 ? "green" : "blue");
+    }
+    EXPECT_EQ(colour_name(read("palette: red green\n").style.line_colour({})), "red");
+    // With a palette of the file a fill is the palette's, without one it follows the stroke.
+    EXPECT_EQ(colour_name(read("stroke: white\npalette: red green\n").style.fill_colour({})), "red");
+    EXPECT_EQ(colour_name(read("stroke: white\n").style.fill_colour({})), "white");
+    EXPECT_EQ(Style{}.index({}), 0);
+    EXPECT_EQ(Style{}.line_colour({}), (Colour{0, 0, 0, 255}));
+}
+
+TEST(Style, IndicesOfOneColourAreOneSlot) {
+    const Style style = read("stroke: blue\nfill: red\npalette: white red blue red #f008\n").style;
+    EXPECT_EQ(style.line_slots(), (std::vector<int>{0, 1, 0, 1, 4}));
+    EXPECT_EQ(style.fill_slots(), (std::vector<int>{0, 0, 2, 0, 4}));
+}
+
+TEST(Style, WidthsAreFactorsOrSet) {
+    Style style = read("stroke: 0.2 step\n").style;
+    EXPECT_DOUBLE_EQ(style.line_width({}, 10.0), 2.0);
+    EXPECT_DOUBLE_EQ(style.line_width({1.25, false, 0}, 10.0), 2.5);
+    EXPECT_DOUBLE_EQ(style.line_width({0.5, true, 0}, 10.0), 5.0);
+    style.stroke = {0.4, false};
+    EXPECT_DOUBLE_EQ(style.line_width({}, 10.0), 0.4);
+    EXPECT_DOUBLE_EQ(style.line_width({2.0, false, 0}, 10.0), 0.8);
+    EXPECT_DOUBLE_EQ(style.line_width({0.7, true, 0}, 10.0), 0.7);
+    EXPECT_EQ(style.line_width({-1.0, true, 0}, 10.0), 0.0);
+    EXPECT_EQ(style.line_width({std::nan(""), true, 0}, 10.0), 0.0);
+    EXPECT_TRUE(std::isfinite(style.line_width({HUGE_VAL, false, 0}, 10.0)));
+}
+
+/// One bad value: where it is and a piece of what is said.
+struct Bad {
+    std::string text;
+    int column;
+    std::string message;
+};
+
+class BadStyle : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(BadStyle, IsReportedAtItsPlace) {
+    const auto [style, errors] = read("axiom: F\n" + GetParam().text + "\n");
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_EQ(errors[0].where, (Place{2, GetParam().column})) << errors[0].text();
+    EXPECT_NE(errors[0].message.find(GetParam().message), std::string::npos) << errors[0].text();
+    EXPECT_FALSE(errors[0].warning);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadStyle,
+    ::testing::Values(
+        Bad{"line:", 1, "'line:' is empty: expected 'straight' or 'spline'"},
+        Bad{"line: splines", 7, "did you mean 'spline'?"}, Bad{"line: 17", 7, "expected 'straight' or 'spline'"},
+        Bad{"line: spline straight", 14, "'straight' is too much"}, Bad{"stroke:", 1, "'stroke:' is empty"},
+        Bad{"stroke: 0.4mm whit", 15, "did you mean 'white'?"}, Bad{"stroke: #ff", 9, "3, 4, 6 or 8"},
+        Bad{"stroke: 0.4mm #fffff", 15, "3, 4, 6 or 8"}, Bad{"stroke: qqqqqqqqqqqqqqqq", 9, "expected a width"},
+        Bad{"stroke: rgb(1, 2, 3)", 9, "write #rrggbb or a CSS name"},
+        Bad{"stroke: 0.4km", 12, "expected mm, cm, in"}, Bad{"stroke: 0.4mmwhite", 12, "expected mm, cm, in"},
+        Bad{"stroke: 1,5mm", 10, "',5mm' is no unit"}, Bad{"stroke: 0x10mm", 10, "'x10mm' is no unit"},
+        Bad{"stroke: 3/2 white", 10, "'/2' is no unit"}, Bad{"stroke: 0mm", 9, "cannot be seen"},
+        Bad{"stroke: white 0 step", 15, "cannot be seen"}, Bad{"stroke: -1mm", 9, "above 0"},
+        Bad{"stroke: 1000mm", 9, "narrower than 1000 mm"}, Bad{"stroke: 1e999 step", 9, "narrower than 1000"},
+        Bad{"stroke: 1e300cm", 9, "narrower than 1000"}, Bad{"stroke: 1e308in", 9, "narrower than 1000"},
+        Bad{"stroke: 1000 steps", 9, "narrower than 1000 steps"}, Bad{"stroke: 1mm 2mm", 13, "second width"},
+        Bad{"stroke: red blue", 13, "'blue' is too much"}, Bad{"stroke: none white", 14, "stands alone"},
+        Bad{"stroke: 1mm none", 13, "stands alone"}, Bad{"stroke: inf", 9, "'inf' is no colour"},
+        Bad{"stroke: nanmm", 9, "is no colour"}, Bad{"ground:", 1, "'ground:' is empty: expected a colour or none"},
+        Bad{"ground: earth", 9, "is no colour"}, Bad{"ground: red green", 13, "'green' is too much"},
+        Bad{"fill:", 1, "'fill:' is empty"}, Bad{"fill: glod", 7, "did you mean 'gold'?"},
+        Bad{"fill: #12345g", 7, "3, 4, 6 or 8"}, Bad{"palette:", 1, "'palette:' is empty"},
+        Bad{"palette: , ,", 10, "'palette:' is empty"}, Bad{"palette: red, gren blue", 15, "did you mean 'green'?"},
+        Bad{"palette: none", 10, "is no colour"}, Bad{"palette: red கோலம்", 14, "'கோலம்' is no colour"}));
+
+TEST(Style, AllMistakesAreReportedAtOnceAndNoneTwice) {
+    const auto [style, errors] = read("line: curly\nstroke: -1mm rad\nground: #1\nfill: 7\npalette: a b c\n");
+    EXPECT_EQ(errors.size(), 8u);
+}
+
+TEST(Style, EndlessNonsenseIsCutShort) {
+    std::string palette = "palette:";
+    for (int i = 0; i < 100'000; ++i) palette += " nonsense";
+    EXPECT_EQ(read(palette + "\n").errors.size(), 20u);
+    palette = "palette:";
+    for (int i = 0; i < 4096; ++i) palette += " red";
+    EXPECT_TRUE(read(palette + "\n").errors.empty());
+    EXPECT_EQ(read(palette + " red blue\n").errors.size(), 1u);
+    const auto long_word = read("ground: " + std::string(100'000, 'x') + "\n").errors;
+    ASSERT_EQ(long_word.size(), 1u);
+    EXPECT_LT(long_word[0].message.size(), 200u);
+}
+
+}  // namespace
+}  // namespace sikku
