@@ -166,7 +166,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
 
     const int channels = jpeg && spec.channels == 4 ? 3 : spec.channels;
     OIIO::ImageSpec image(spec.width, spec.height, channels, exr ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8);
-    image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+    // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's.
+    if (!tiff) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
     if (channels == 4 && !exr) image.attribute("oiio:UnassociatedAlpha", 1);
     image.attribute("XResolution", static_cast<float>(spec.dpi));
     image.attribute("YResolution", static_cast<float>(spec.dpi));
@@ -179,6 +180,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         image.attribute("png:filter", 8);
     } else if (tiff) {
         image.attribute("compression", "zip");
+        // Left alone it is given the time of day; one that is no text counts as given and is not written.
+        image.attribute("DateTime", 0);
     } else if (jpeg) {
         image.attribute("compression", "jpeg:95");
     } else {

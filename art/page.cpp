@@ -39,7 +39,7 @@ struct Measure {
 
 std::optional<Measure> read_measure(std::string_view text) {
     text = trimmed(text);
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     Measure measure;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), measure.number);
     if (error != std::errc() || !std::isfinite(measure.number)) return std::nullopt;

@@ -289,24 +289,24 @@ std::optional<Expression> Expression::compile(const Span& text, const NameLookup
 double Expression::evaluate(std::span<const double> formals) const {
     std::array<double, 16> small{};
     std::vector<double> large(stack_ > small.size() ? stack_ : 0);
-    double* top = (large.empty() ? small.data() : large.data()) - 1;  // the value last pushed
+    double* next = large.empty() ? small.data() : large.data();  // where the next value goes
     for (const Step& step : steps_) {
         const auto binary = [&](auto&& combine) {
-            --top;
-            *top = combine(top[0], top[1]);
+            --next;
+            next[-1] = combine(next[-1], next[0]);
         };
         switch (step.operation) {
             case Operation::number:
-                *++top = step.value;
+                *next++ = step.value;
                 break;
             case Operation::formal:
-                *++top = formals[step.slot];
+                *next++ = formals[step.slot];
                 break;
             case Operation::negate:
-                *top = -*top;
+                next[-1] = -next[-1];
                 break;
             case Operation::complement:
-                *top = *top == 0;
+                next[-1] = next[-1] == 0;
                 break;
             case Operation::power:
                 binary([](double a, double b) { return std::pow(a, b); });
@@ -348,49 +348,49 @@ double Expression::evaluate(std::span<const double> formals) const {
                 binary([](double a, double b) { return a != 0 || b != 0 ? 1.0 : 0.0; });
                 break;
             case Operation::sine:
-                *top = std::sin(*top);
+                next[-1] = std::sin(next[-1]);
                 break;
             case Operation::cosine:
-                *top = std::cos(*top);
+                next[-1] = std::cos(next[-1]);
                 break;
             case Operation::tangent:
-                *top = std::tan(*top);
+                next[-1] = std::tan(next[-1]);
                 break;
             case Operation::arcsine:
-                *top = std::asin(*top);
+                next[-1] = std::asin(next[-1]);
                 break;
             case Operation::arccosine:
-                *top = std::acos(*top);
+                next[-1] = std::acos(next[-1]);
                 break;
             case Operation::arctangent:
-                *top = std::atan(*top);
+                next[-1] = std::atan(next[-1]);
                 break;
             case Operation::arctangent2:
                 binary([](double a, double b) { return std::atan2(a, b); });
                 break;
             case Operation::exponential:
-                *top = std::exp(*top);
+                next[-1] = std::exp(next[-1]);
                 break;
             case Operation::logarithm:
-                *top = std::log(*top);
+                next[-1] = std::log(next[-1]);
                 break;
             case Operation::logarithm10:
-                *top = std::log10(*top);
+                next[-1] = std::log10(next[-1]);
                 break;
             case Operation::square_root:
-                *top = std::sqrt(*top);
+                next[-1] = std::sqrt(next[-1]);
                 break;
             case Operation::absolute:
-                *top = std::fabs(*top);
+                next[-1] = std::fabs(next[-1]);
                 break;
             case Operation::floor:
-                *top = std::floor(*top);
+                next[-1] = std::floor(next[-1]);
                 break;
             case Operation::ceiling:
-                *top = std::ceil(*top);
+                next[-1] = std::ceil(next[-1]);
                 break;
             case Operation::round:
-                *top = std::round(*top);
+                next[-1] = std::round(next[-1]);
                 break;
             case Operation::minimum:
                 binary([](double a, double b) { return std::fmin(a, b); });
@@ -405,7 +405,7 @@ double Expression::evaluate(std::span<const double> formals) const {
                 break;
         }
     }
-    return *top;
+    return next[-1];
 }
 
 }  // namespace sikku

@@ -11,6 +11,7 @@
 namespace sikku {
 namespace {
 
+using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
 
 class Pdf : public ::testing::Test {
@@ -151,7 +152,7 @@ TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
         EXPECT_NE(information.find(print.made + "\n"), std::string::npos) << information;
         EXPECT_NE(information.find("Sikku"), std::string::npos);
     }
-    print.title = std::string("\x01\x7F broken \xC3 \xED\xA0\x80 \xF8 \0.", 22);
+    print.title = "\x01\x7F broken \xC3 \xED\xA0\x80 \xF8 \0."s;
     EXPECT_EQ(complaints(write(print, draw_sampler)), "");
 }
 

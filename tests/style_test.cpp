@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"stroke: 1mm none", 13, "stands alone"}, Bad{"stroke: inf", 9, "'inf' is no colour"},
         Bad{"stroke: nanmm", 9, "is no colour"}, Bad{"ground:", 1, "'ground:' is empty: expected a colour or none"},
         Bad{"ground: earth", 9, "is no colour"}, Bad{"ground: red green", 13, "'green' is too much"},
-        Bad{"fill:", 1, "'fill:' is empty"}, Bad{"fill: glod", 7, "did you mean 'gold'?"},
+        Bad{"fill:", 1, "'fill:' is empty"}, Bad{"fill: goldd", 7, "did you mean 'gold'?"},
         Bad{"fill: #12345g", 7, "3, 4, 6 or 8"}, Bad{"palette:", 1, "'palette:' is empty"},
         Bad{"palette: , ,", 10, "'palette:' is empty"}, Bad{"palette: red, gren blue", 15, "did you mean 'green'?"},
         Bad{"palette: none", 10, "is no colour"}, Bad{"palette: red கோலம்", 14, "'கோலம்' is no colour"}));

@@ -15,6 +15,7 @@
 namespace sikku {
 namespace {
 
+using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
 
 /// The points of path data, in its units; every M or m begins a new list. Closing is noted.
@@ -415,7 +416,7 @@ TEST_F(Svg, TextsWithSpecialCharactersStayThemselves) {
 
 TEST_F(Svg, TextsThatXmlCannotHoldAreStillGivenBack) {
     Print print = plain_print();
-    print.title = std::string("bell \a nul \0 half \xC3 no character \xEF\xBF\xBE surrogate \xED\xA0\x80.", 49);
+    print.title = "bell \a nul \0 half \xC3 no character \xEF\xBF\xBE surrogate \xED\xA0\x80."s;
     print.pattern = "axiom: F // \x01\x1F \xFF\xEF\xBF\xBF\n" + std::string(70'000, 'F');
     const auto root = parse(print, draw_sampler);
     EXPECT_NE(std::string_view(root.child("title").child_value()).find("bell \xEF\xBF\xBD nul \xEF\xBF\xBD half"),
@@ -439,7 +440,7 @@ TEST_F(Svg, OtherFilesHaveNoProvenance) {
     EXPECT_FALSE(svg_provenance(folder_ / "missing"));
     EXPECT_FALSE(svg_provenance(folder_.path()));
     EXPECT_FALSE(svg_provenance(save("")));
-    EXPECT_FALSE(svg_provenance(save(std::string("\x89PNG\r\n\x1A\n\0\0", 10))));
+    EXPECT_FALSE(svg_provenance(save("\x89PNG\r\n\x1A\n\0\0"s)));
     EXPECT_FALSE(svg_provenance(save("<svg><desc>x</desc><metadata></metadata></svg>")));
     EXPECT_FALSE(svg_provenance(save("urn:sikku:print <<<</desc> & </metadata>")));
     const std::string whole = contents(write(plain_print(), draw_sampler));
