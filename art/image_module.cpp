@@ -148,13 +148,15 @@ private:
     std::vector<float> linear_;
 };
 
-// JPEG keeps texts in one EXIF block of at most 64 kB.
-constexpr std::size_t longest_jpeg_text = 60'000;
+// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF's OpenImageIO reads as much. Half a pattern is none.
+constexpr std::size_t longest_short_text = 60'000;
 
 FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
     const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
                exr = spec.format == "exr";
     if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown image format: " + spec.format);
+    // Debian's OpenImageIO would tell the terminal what it thinks of attributes.
+    OIIO::attribute("debug", 0);
     // TIFF compresses its strips in parallel only if the pool is larger than this.
     OIIO::attribute("threads", std::max(spec.threads, 3));
     OIIO::attribute("exr_threads", std::max(spec.threads, 1));
@@ -172,6 +174,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     image.attribute("XResolution", static_cast<float>(spec.dpi));
     image.attribute("YResolution", static_cast<float>(spec.dpi));
     image.attribute("ResolutionUnit", "in");
+    // TIFF and EXR are given the time of day if there is none; one that is no text counts, and is not written.
+    if (tiff || exr) image.attribute("DateTime", 0);
     if (png) {
         image.attribute("compression", "zip");
         image.attribute("png:compressionLevel", 6);
@@ -180,15 +184,13 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         image.attribute("png:filter", 8);
     } else if (tiff) {
         image.attribute("compression", "zip");
-        // Left alone it is given the time of day; one that is no text counts as given and is not written.
-        image.attribute("DateTime", 0);
     } else if (jpeg) {
         image.attribute("compression", "jpeg:95");
     } else {
         image.attribute("compression", "zip");
     }
     const auto text = [&](const char* name, const std::string& value) {
-        if (!value.empty() && !(jpeg && value.size() > longest_jpeg_text)) image.attribute(name, value);
+        if (!value.empty() && !((jpeg || tiff) && value.size() > longest_short_text)) image.attribute(name, value);
     };
     text("ImageDescription", spec.description);
     text("Software", spec.software);

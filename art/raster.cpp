@@ -439,7 +439,8 @@ BandRaster::Nib BandRaster::nib(std::vector<Layer>& layers, const std::vector<st
     if (layer.empty()) layer.resize(static_cast<std::size_t>(bands_));
     nib.layer = &layer;
     nib.width = static_cast<float>(width);
-    const double reach = std::max(width, 1.0) / 2 + 0.5;
+    // The edge of a slanting line is spread over the diagonal of a pixel.
+    const double reach = std::max(width, 1.0) / 2 + 0.71;
     nib.reach = static_cast<std::int32_t>(std::ceil(reach * subpixels)) + 1;
     nib.range = {-reach - 1, -reach - 1, size_.width + reach + 1, size_.height + reach + 1};
     return nib;

@@ -19,104 +19,133 @@ using Span = Stroker::Span;
 // root, minimum, maximum), so that the bytes do not depend on the processor. The scale of 255 is in the
 // coordinates already, which leaves the clamping to saturating packs.
 
+template <bool soft>
 inline std::uint8_t coverage(const Capsule& c, float u_row, float v_row, int column) {
     const float x = static_cast<float>(column);
     const float u = u_row + x * c.ux;
     const float v = v_row - x * c.uy;
     const float along = std::max(std::fabs(u) - c.half, 0.0f);
-    const float distance = std::sqrt(along * along + v * v);
-    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(c.reach - distance), 0, 255));
+    const float inside = c.radius - std::sqrt(along * along + v * v);
+    float value = inside * c.slope + 128.0f;
+    if constexpr (soft) {
+        const float bend = std::max(c.soft - std::fabs(std::fabs(inside) - c.middle), 0.0f);
+        value = std::min(std::max(value, 0.5f), 255.5f) - std::copysign(bend * bend * c.parabola, inside);
+    }
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(value), 0, 255));
 }
 
-void block_scalar(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
-    for (int row = 0; row < rows; ++row, pixels += stride) {
-        const float u_row = c.u + static_cast<float>(row) * c.uy;
-        const float v_row = c.v + static_cast<float>(row) * c.ux;
-        for (int column = 0; column < columns; ++column) {
-            pixels[column] = std::max(pixels[column], coverage(c, u_row, v_row, column));
-        }
+template <bool soft>
+inline void row_scalar(std::uint8_t* line, int first, int end, const Capsule& c, int row) {
+    const float u_row = c.u + static_cast<float>(row) * c.uy;
+    const float v_row = c.v + static_cast<float>(row) * c.ux;
+    for (int column = first; column < end; ++column) {
+        line[column] = std::max(line[column], coverage<soft>(c, u_row, v_row, column));
     }
 }
 
+template <bool soft>
+void block_scalar(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
+    for (int row = 0; row < rows; ++row) row_scalar<soft>(pixels + row * stride, 0, columns, c, row);
+}
+
+template <bool soft>
 void spans_scalar(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count,
                   const Capsule& c) {
     for (const Span* span = spans; span != spans + count; ++span) {
-        std::uint8_t* line = pixels + span->row * stride;
-        const float u_row = c.u + static_cast<float>(span->row) * c.uy;
-        const float v_row = c.v + static_cast<float>(span->row) * c.ux;
-        for (int column = span->first; column < span->end; ++column) {
-            line[column] = std::max(line[column], coverage(c, u_row, v_row, column));
-        }
+        row_scalar<soft>(pixels + span->row * stride, span->first, span->end, c, span->row);
     }
 }
 
 #ifdef SIKKU_X86
 
+template <bool soft>
 inline __m128i coverage_sse2(const Capsule& c, __m128 u_row, __m128 v_row, __m128 x) {
+    const __m128 sign = _mm_set1_ps(-0.0f);
     const __m128 u = _mm_add_ps(u_row, _mm_mul_ps(x, _mm_set1_ps(c.ux)));
     const __m128 v = _mm_sub_ps(v_row, _mm_mul_ps(x, _mm_set1_ps(c.uy)));
-    const __m128 size = _mm_andnot_ps(_mm_set1_ps(-0.0f), u);
-    const __m128 along = _mm_max_ps(_mm_sub_ps(size, _mm_set1_ps(c.half)), _mm_setzero_ps());
+    const __m128 along = _mm_max_ps(_mm_sub_ps(_mm_andnot_ps(sign, u), _mm_set1_ps(c.half)), _mm_setzero_ps());
     const __m128 distance = _mm_sqrt_ps(_mm_add_ps(_mm_mul_ps(along, along), _mm_mul_ps(v, v)));
-    const __m128i value = _mm_cvttps_epi32(_mm_sub_ps(_mm_set1_ps(c.reach), distance));
-    const __m128i words = _mm_packs_epi32(value, value);
+    const __m128 inside = _mm_sub_ps(_mm_set1_ps(c.radius), distance);
+    __m128 value = _mm_add_ps(_mm_mul_ps(inside, _mm_set1_ps(c.slope)), _mm_set1_ps(128.0f));
+    if constexpr (soft) {
+        const __m128 off = _mm_andnot_ps(sign, _mm_sub_ps(_mm_andnot_ps(sign, inside), _mm_set1_ps(c.middle)));
+        const __m128 bend = _mm_max_ps(_mm_sub_ps(_mm_set1_ps(c.soft), off), _mm_setzero_ps());
+        const __m128 change = _mm_mul_ps(_mm_mul_ps(bend, bend), _mm_set1_ps(c.parabola));
+        value = _mm_min_ps(_mm_max_ps(value, _mm_set1_ps(0.5f)), _mm_set1_ps(255.5f));
+        value = _mm_sub_ps(value, _mm_or_ps(change, _mm_and_ps(inside, sign)));
+    }
+    const __m128i whole = _mm_cvttps_epi32(value);
+    const __m128i words = _mm_packs_epi32(whole, whole);
     return _mm_packus_epi16(words, words);
 }
 
 // Writes four pixels at a time; what lies past the end is either nothing of this capsule or padding.
-inline void row_sse2(std::uint8_t* line, int first, int end, const Capsule& c, float u_row, float v_row) {
-    const __m128 u = _mm_set1_ps(u_row), v = _mm_set1_ps(v_row);
+template <bool soft>
+inline void row_sse2(std::uint8_t* line, int first, int end, const Capsule& c, int row) {
+    const __m128 u = _mm_set1_ps(c.u + static_cast<float>(row) * c.uy);
+    const __m128 v = _mm_set1_ps(c.v + static_cast<float>(row) * c.ux);
     for (int column = first; column < end; column += 4) {
         const __m128 x = _mm_add_ps(_mm_set1_ps(static_cast<float>(column)), _mm_setr_ps(0, 1, 2, 3));
         std::int32_t four;
         std::memcpy(&four, line + column, 4);
-        four = _mm_cvtsi128_si32(_mm_max_epu8(_mm_cvtsi32_si128(four), coverage_sse2(c, u, v, x)));
+        four = _mm_cvtsi128_si32(_mm_max_epu8(_mm_cvtsi32_si128(four), coverage_sse2<soft>(c, u, v, x)));
         std::memcpy(line + column, &four, 4);
     }
 }
 
+template <bool soft>
 void block_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
-    for (int row = 0; row < rows; ++row, pixels += stride) {
-        row_sse2(pixels, 0, columns, c, c.u + static_cast<float>(row) * c.uy, c.v + static_cast<float>(row) * c.ux);
-    }
+    for (int row = 0; row < rows; ++row) row_sse2<soft>(pixels + row * stride, 0, columns, c, row);
 }
 
+template <bool soft>
 void spans_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count, const Capsule& c) {
     for (const Span* span = spans; span != spans + count; ++span) {
-        const float row = static_cast<float>(span->row);
-        row_sse2(pixels + span->row * stride, span->first, span->end, c, c.u + row * c.uy, c.v + row * c.ux);
+        row_sse2<soft>(pixels + span->row * stride, span->first, span->end, c, span->row);
     }
 }
 
 #define SIKKU_AVX2 __attribute__((target("avx2")))
 
+template <bool soft>
 SIKKU_AVX2 inline __m128i coverage_avx2(const Capsule& c, __m256 u_row, __m256 v_row, __m256 x) {
+    const __m256 sign = _mm256_set1_ps(-0.0f);
     const __m256 u = _mm256_add_ps(u_row, _mm256_mul_ps(x, _mm256_set1_ps(c.ux)));
     const __m256 v = _mm256_sub_ps(v_row, _mm256_mul_ps(x, _mm256_set1_ps(c.uy)));
-    const __m256 size = _mm256_andnot_ps(_mm256_set1_ps(-0.0f), u);
-    const __m256 along = _mm256_max_ps(_mm256_sub_ps(size, _mm256_set1_ps(c.half)), _mm256_setzero_ps());
+    const __m256 along =
+        _mm256_max_ps(_mm256_sub_ps(_mm256_andnot_ps(sign, u), _mm256_set1_ps(c.half)), _mm256_setzero_ps());
     const __m256 distance = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(along, along), _mm256_mul_ps(v, v)));
-    const __m256i value = _mm256_cvttps_epi32(_mm256_sub_ps(_mm256_set1_ps(c.reach), distance));
-    const __m128i words = _mm_packs_epi32(_mm256_castsi256_si128(value), _mm256_extracti128_si256(value, 1));
+    const __m256 inside = _mm256_sub_ps(_mm256_set1_ps(c.radius), distance);
+    __m256 value = _mm256_add_ps(_mm256_mul_ps(inside, _mm256_set1_ps(c.slope)), _mm256_set1_ps(128.0f));
+    if constexpr (soft) {
+        const __m256 off =
+            _mm256_andnot_ps(sign, _mm256_sub_ps(_mm256_andnot_ps(sign, inside), _mm256_set1_ps(c.middle)));
+        const __m256 bend = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(c.soft), off), _mm256_setzero_ps());
+        const __m256 change = _mm256_mul_ps(_mm256_mul_ps(bend, bend), _mm256_set1_ps(c.parabola));
+        value = _mm256_min_ps(_mm256_max_ps(value, _mm256_set1_ps(0.5f)), _mm256_set1_ps(255.5f));
+        value = _mm256_sub_ps(value, _mm256_or_ps(change, _mm256_and_ps(inside, sign)));
+    }
+    const __m256i whole = _mm256_cvttps_epi32(value);
+    const __m128i words = _mm_packs_epi32(_mm256_castsi256_si128(whole), _mm256_extracti128_si256(whole, 1));
     return _mm_packus_epi16(words, words);
 }
 
-SIKKU_AVX2 inline void row_avx2(std::uint8_t* line, int first, int end, const Capsule& c, float u_row, float v_row) {
-    const __m256 u = _mm256_set1_ps(u_row), v = _mm256_set1_ps(v_row);
+template <bool soft>
+SIKKU_AVX2 inline void row_avx2(std::uint8_t* line, int first, int end, const Capsule& c, int row) {
+    const __m256 u = _mm256_set1_ps(c.u + static_cast<float>(row) * c.uy);
+    const __m256 v = _mm256_set1_ps(c.v + static_cast<float>(row) * c.ux);
     for (int column = first; column < end; column += 8) {
         const __m256 x =
             _mm256_add_ps(_mm256_set1_ps(static_cast<float>(column)), _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7));
         __m128i* eight = reinterpret_cast<__m128i*>(line + column);
-        _mm_storel_epi64(eight, _mm_max_epu8(_mm_loadl_epi64(eight), coverage_avx2(c, u, v, x)));
+        _mm_storel_epi64(eight, _mm_max_epu8(_mm_loadl_epi64(eight), coverage_avx2<soft>(c, u, v, x)));
     }
 }
 
+template <bool soft>
 SIKKU_AVX2 void block_avx2(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
     if (columns > 4) {
-        for (int row = 0; row < rows; ++row, pixels += stride) {
-            row_avx2(pixels, 0, columns, c, c.u + static_cast<float>(row) * c.uy,
-                     c.v + static_cast<float>(row) * c.ux);
-        }
+        for (int row = 0; row < rows; ++row) row_avx2<soft>(pixels + row * stride, 0, columns, c, row);
         return;
     }
     // Narrow, as of upright lines: two rows of four pixels fill a vector. An odd last row takes the one below it
@@ -131,7 +160,7 @@ SIKKU_AVX2 void block_avx2(std::uint8_t* pixels, std::ptrdiff_t stride, int colu
         std::memcpy(&upper, pixels, 4);
         std::memcpy(&lower, pixels + stride, 4);
         const __m128i old = _mm_insert_epi32(_mm_cvtsi32_si128(upper), lower, 1);
-        const __m128i both = _mm_max_epu8(old, coverage_avx2(c, u, v, x));
+        const __m128i both = _mm_max_epu8(old, coverage_avx2<soft>(c, u, v, x));
         upper = _mm_cvtsi128_si32(both);
         lower = _mm_extract_epi32(both, 1);
         std::memcpy(pixels, &upper, 4);
@@ -139,23 +168,24 @@ SIKKU_AVX2 void block_avx2(std::uint8_t* pixels, std::ptrdiff_t stride, int colu
     }
 }
 
+template <bool soft>
 SIKKU_AVX2 void spans_avx2(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count,
                            const Capsule& c) {
     for (const Span* span = spans; span != spans + count; ++span) {
-        const float row = static_cast<float>(span->row);
-        row_avx2(pixels + span->row * stride, span->first, span->end, c, c.u + row * c.uy, c.v + row * c.ux);
+        row_avx2<soft>(pixels + span->row * stride, span->first, span->end, c, span->row);
     }
 }
 
 #endif
 
+template <bool soft>
 Stroker::Kernels kernels(Simd simd) {
 #ifdef SIKKU_X86
-    if (simd == Simd::avx2) return {block_avx2, spans_avx2};
-    if (simd == Simd::sse2) return {block_sse2, spans_sse2};
+    if (simd == Simd::avx2) return {block_avx2<soft>, spans_avx2<soft>};
+    if (simd == Simd::sse2) return {block_sse2<soft>, spans_sse2<soft>};
 #endif
     static_cast<void>(simd);
-    return {block_scalar, spans_scalar};
+    return {block_scalar<soft>, spans_scalar<soft>};
 }
 
 // Narrower pens are done by their bounding box, wider ones row by row.
@@ -168,6 +198,8 @@ constexpr int least_interior = 24;
 constexpr float slack = 0.02f;
 // A line that departs less from an axis puts no limit on the columns.
 constexpr float flat = 1e-3f;
+// One that departs less from an axis is taken to have no soft ends: they would be worth less than 1 of 255.
+constexpr float upright = 4e-3f;
 
 // Columns of a row, as numbers of pixels from the middle of the line.
 struct Interval {
@@ -200,12 +232,11 @@ Simd best_simd() {
 }
 
 Stroker::Stroker(const Mask& mask, int top, Simd simd)
-    : mask_(mask), top_(top * subpixels), kernels_(kernels(simd)) {}
+    : mask_(mask), top_(top * subpixels), hard_(kernels<false>(simd)), soft_(kernels<true>(simd)) {}
 
 void Stroker::pen(float radius) {
     flush(true);
     radius_ = radius;
-    reach_ = static_cast<std::int32_t>(std::ceil((radius + 0.5f) * subpixels));
     wide_ = radius > wide_radius;
 }
 
@@ -225,7 +256,18 @@ void Stroker::line(SubPoint end) {
     if (segment.length > 0) {
         segment.ux = dx / segment.length;
         segment.uy = dy / segment.length;
+        segment.long_side = std::max(std::fabs(segment.ux), std::fabs(segment.uy));
+        segment.short_side = std::min(std::fabs(segment.ux), std::fabs(segment.uy));
+    } else {
+        // A dot's edge has every direction; half way between the extremes is near enough.
+        segment.long_side = 0.924f;
+        segment.short_side = 0.383f;
     }
+    if (segment.short_side < upright) {
+        segment.long_side = 1;
+        segment.short_side = 0;
+    }
+    segment.ramp = 0.5f * (segment.long_side + segment.short_side);
     if (!wide_) {
         draw(segment);
         return;
@@ -233,7 +275,7 @@ void Stroker::line(SubPoint end) {
     // The maximum over the line does not change if each pixel is left to one of the segments whose distance it
     // takes: what lies before the start of a segment was done by the one before, but for the wedge outside the
     // bend, and what lies after its end is left to the next.
-    segment.before = segment.after = radius_ + 0.5f;
+    segment.before = segment.after = radius_ + segment.ramp;
     if (has_pending_) {
         const float cosine = pending_.ux * segment.ux + pending_.uy * segment.uy;
         const float sine = std::fabs(pending_.ux * segment.uy - pending_.uy * segment.ux);
@@ -253,12 +295,14 @@ void Stroker::flush(bool ends) {
 
 void Stroker::draw(const Segment& segment) {
     const SubPoint a{segment.from.x, segment.from.y - top_}, b{segment.to.x, segment.to.y - top_};
+    // What rounding down loses is worth less than half of 1 of 255.
+    const std::int32_t reach = static_cast<std::int32_t>((radius_ + segment.ramp) * subpixels);
     // Pixels whose centres lie nearer than reach to the line's box.
     constexpr std::int32_t half_pixel = subpixels / 2;
-    const int x0 = std::max((std::min(a.x, b.x) - reach_ + half_pixel) >> subpixel_bits, 0);
-    const int y0 = std::max((std::min(a.y, b.y) - reach_ + half_pixel) >> subpixel_bits, 0);
-    const int x1 = std::min((std::max(a.x, b.x) + reach_ - half_pixel - 1) >> subpixel_bits, mask_.width - 1);
-    const int y1 = std::min((std::max(a.y, b.y) + reach_ - half_pixel - 1) >> subpixel_bits, mask_.rows - 1);
+    const int x0 = std::max((std::min(a.x, b.x) - reach + half_pixel) >> subpixel_bits, 0);
+    const int y0 = std::max((std::min(a.y, b.y) - reach + half_pixel) >> subpixel_bits, 0);
+    const int x1 = std::min((std::max(a.x, b.x) + reach - half_pixel - 1) >> subpixel_bits, mask_.width - 1);
+    const int y1 = std::min((std::max(a.y, b.y) + reach - half_pixel - 1) >> subpixel_bits, mask_.rows - 1);
     if (x0 > x1 || y0 > y1) return;
 
     // From the middle of the line to the centre of the first pixel.
@@ -266,15 +310,28 @@ void Stroker::draw(const Segment& segment) {
     const std::int64_t twice_x = std::int64_t{x0} * (2 * subpixels) + subpixels - a.x - b.x;
     const std::int64_t twice_y = std::int64_t{y0} * (2 * subpixels) + subpixels - a.y - b.y;
     const float px = static_cast<float>(twice_x) * unit, py = static_cast<float>(twice_y) * unit;
-    const Capsule capsule{255 * (px * segment.ux + py * segment.uy),
-                          255 * (py * segment.ux - px * segment.uy),
-                          255 * segment.ux,
-                          255 * segment.uy,
-                          255 * 0.5f * segment.length,
-                          255 * (radius_ + 0.5f) + 0.5f};
+    Capsule capsule;
+    capsule.u = 255 * (px * segment.ux + py * segment.uy);
+    capsule.v = 255 * (py * segment.ux - px * segment.uy);
+    capsule.ux = 255 * segment.ux;
+    capsule.uy = 255 * segment.uy;
+    capsule.half = 255 * 0.5f * segment.length;
+    // A disc's edge bends away from the straight one that coverage is worked out for: this gives it the right area.
+    capsule.radius = 255 * (segment.length > 0 ? radius_ : std::sqrt(radius_ * radius_ - 1.0f / 12));
+    const bool soft = segment.short_side > 0;
+    if (soft) {
+        capsule.slope = 1 / segment.long_side;
+        capsule.middle = 255 * 0.5f * segment.long_side;
+        capsule.soft = 255 * 0.5f * segment.short_side;
+        capsule.parabola = capsule.slope / (2 * 255 * segment.short_side);
+    } else {
+        capsule.slope = 1;
+        capsule.middle = capsule.soft = capsule.parabola = 0;
+    }
+    const Kernels& kernels = soft ? soft_ : hard_;
     const int columns = x1 - x0 + 1, rows = y1 - y0 + 1;
     if (!wide_ && (columns <= box_columns || rows <= box_rows)) {
-        kernels_.block(mask_.pixels + y0 * mask_.stride + x0, mask_.stride, columns, rows, capsule);
+        kernels.block(mask_.pixels + y0 * mask_.stride + x0, mask_.stride, columns, rows, capsule);
         return;
     }
     draw_rows(segment, capsule, x0, y0, columns, rows);
@@ -283,8 +340,8 @@ void Stroker::draw(const Segment& segment) {
 void Stroker::draw_rows(const Segment& segment, const Capsule& capsule, int x0, int y0, int columns, int rows) {
     const float px = (capsule.u * segment.ux - capsule.v * segment.uy) * (1.0f / 255);
     const float py = (capsule.u * segment.uy + capsule.v * segment.ux) * (1.0f / 255);
-    const float reach = radius_ + 0.5f + slack;
-    const float full = radius_ - 0.5f - slack;
+    const float reach = radius_ + segment.ramp + slack;
+    const float full = radius_ - segment.ramp - slack;
     const float half = 0.5f * segment.length;
     const bool limits_across = std::fabs(segment.uy) > flat, limits_along = std::fabs(segment.ux) > flat;
     const float per_uy = limits_across ? 1 / segment.uy : 0, per_ux = limits_along ? 1 / segment.ux : 0;
@@ -343,7 +400,7 @@ void Stroker::draw_rows(const Segment& segment, const Capsule& capsule, int x0, 
         if (first < inner_first) add(row, first, inner_first);
         if (inner_end < end) add(row, inner_end, end);
     }
-    kernels_.spans(pixels, mask_.stride, spans_.data(), spans_.size(), capsule);
+    (segment.short_side > 0 ? soft_ : hard_).spans(pixels, mask_.stride, spans_.data(), spans_.size(), capsule);
 }
 
 }  // namespace sikku

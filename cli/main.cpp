@@ -1,8 +1,11 @@
 // cli/main.cpp: the program: its commands, its errors, its signals.
+#include "art/output_file.h"
 #include "cli/command.h"
 #include "engine/derivation.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <new>
@@ -10,15 +13,18 @@
 namespace {
 volatile std::sig_atomic_t signal_seen = 0;
 
+/// The first ctrl-C lets the work end tidily, a second one ends it at once.
 extern "C" void note_signal(int) {
+    if (signal_seen != 0) {
+        sikku::remove_unfinished_files();
+        _exit(130);
+    }
     signal_seen = 1;
 }
 
-/// The first ctrl-C lets the work end tidily, a second one ends it at once.
 void catch_signals() {
     struct sigaction action = {};
     action.sa_handler = note_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
 }

@@ -204,7 +204,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 }
 
 bool read_number(std::string_view text, double& value) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && !text.empty() && std::isfinite(value);
 }

@@ -54,7 +54,7 @@ struct Diagnostic {
     std::string text() const;
 };
 
-/// Collects the mistakes of a file; all are reported at once. Past 100 errors only the number is kept.
+/// Collects the mistakes of a file; all are reported at once. Past 50 errors only the number is kept.
 class Diagnostics {
 public:
     void error(const Span& where, std::string message) { add(where, std::move(message), false); }

@@ -70,7 +70,7 @@ struct Pattern {
 };
 
 /// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
-/// Refuses over 64 MB, bytes that are no UTF-8, control characters. Cost: linear.
+/// Refuses over 64 MB, NUL bytes and what is no UTF-8. Cost: linear.
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.

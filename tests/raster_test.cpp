@@ -7,12 +7,14 @@
 #include "tests/print_tools.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <thread>
 
 namespace sikku {
 namespace {
@@ -103,20 +105,6 @@ std::vector<double> supersampled(int width, int height, const std::function<bool
     return result;
 }
 
-/// Mean difference over the pixels that are neither bare nor full in one of the two.
-double mean_error(const Image& image, const std::vector<double>& truth, double* worst = nullptr) {
-    double sum = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        const double ink = 255 - image.bytes[i];
-        if ((truth[i] == 0 || truth[i] == 255) && ink == truth[i]) continue;
-        sum += std::fabs(ink - truth[i]);
-        ++count;
-        if (worst) *worst = std::max(*worst, std::fabs(ink - truth[i]));
-    }
-    return sum / std::max(count, 1);
-}
-
 glm::dvec2 hilbert(int side, int d) {
     int x = 0, y = 0;
     for (int s = 1; s < side; s *= 2, d /= 4) {
@@ -164,22 +152,33 @@ void crowd(PathSink& sink, double width, double height, unsigned seed) {
 TEST(Raster, StrokesAgreeWithSupersampling) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(8, 40);
-    double sum = 0, worst = 0;
-    int count = 0;
     for (const double pen : {1.0, 1.5, 2.0, 3.3, 8.0, 14.0}) {
-        for (int i = 0; i < 8; ++i, ++count) {
+        // Over the pixels that the outline crosses, and over those of them that are not at the ends.
+        double sum = 0, sum_of_sides = 0, worst = 0;
+        int count = 0, count_of_sides = 0;
+        for (int i = 0; i < 8; ++i) {
             const glm::dvec2 a{place(random), place(random)}, b{place(random), place(random)};
             const Image image = render(pixel_print(48, 48, pen), [&](PathSink& sink) { stroke(sink, {a, b}); });
             const auto truth =
                 supersampled(48, 48, [&](glm::dvec2 p) { return distance_to_line(p, a, b) <= pen / 2; });
-            const double error = mean_error(image, truth, &worst);
-            EXPECT_LE(error, pen < 2 ? 9 : 4) << pen;
-            sum += error;
+            for (std::size_t pixel = 0; pixel < truth.size(); ++pixel) {
+                const double ink = 255 - image.bytes[pixel];
+                if ((truth[pixel] == 0 || truth[pixel] == 255) && ink == truth[pixel]) continue;
+                const double error = std::fabs(ink - truth[pixel]);
+                worst = std::max(worst, error);
+                sum += error;
+                ++count;
+                const glm::dvec2 centre{static_cast<double>(pixel % 48) + 0.5, static_cast<double>(pixel / 48) + 0.5};
+                const double along = glm::dot(centre - a, glm::normalize(b - a));
+                if (along < 1 || along > glm::length(b - a) - 1) continue;
+                sum_of_sides += error;
+                ++count_of_sides;
+            }
         }
+        EXPECT_LE(sum / count, 3) << pen;
+        EXPECT_LE(sum_of_sides / count_of_sides, 1) << pen;
+        EXPECT_LE(worst, pen < 2 ? 46 : 30) << pen;
     }
-    EXPECT_LE(sum / count, 4);
-    RecordProperty("mean_error", std::to_string(sum / count));
-    RecordProperty("worst", std::to_string(worst));
 }
 
 TEST(Raster, AStrokeOfManyShortWideLinesIsTheirUnion) {
@@ -202,7 +201,8 @@ TEST(Raster, AStrokeOfManyShortWideLinesIsTheirUnion) {
                     distance = std::min(distance, distance_to_line({x + 0.5, y + 0.5}, points[k - 1], points[k]));
                 }
                 const double expected = 255 * std::clamp(pen / 2 + 0.5 - distance, 0.0, 1.0);
-                ASSERT_NEAR(255 - image.at(x, y), expected, 1.6) << i << ": " << x << ' ' << y;
+                // A slanting edge departs from this by up to 11.
+                ASSERT_NEAR(255 - image.at(x, y), expected, 14) << i << ": " << x << ' ' << y;
             }
         }
     }
@@ -210,15 +210,17 @@ TEST(Raster, AStrokeOfManyShortWideLinesIsTheirUnion) {
 
 TEST(Raster, TheInkOfAHilbertCurveIsItsArea) {
     const int side = 128;
-    const Points points = hilbert_points(side, 8, 4.3);
-    int turns = 0;
-    for (std::size_t i = 2; i < points.size(); ++i) {
-        turns += points[i] - points[i - 1] != points[i - 1] - points[i - 2];
+    for (const double offset : {4.0, 4.3}) {
+        const Points points = hilbert_points(side, 8, offset);
+        int turns = 0;
+        for (std::size_t i = 2; i < points.size(); ++i) {
+            turns += points[i] - points[i - 1] != points[i - 1] - points[i - 2];
+        }
+        // Bars of 8 x 2; a bend has a unit square twice and a quarter of a disc more; the ends are half discs.
+        const double exact = 16.0 * (side * side - 1) + turns * (std::numbers::pi / 4 - 1) + std::numbers::pi;
+        const Image image = render(pixel_print(1024, 1024, 2), [&](PathSink& sink) { stroke(sink, points); });
+        EXPECT_NEAR(image.ink() / exact, 1, offset == 4.0 ? 0.001 : 0.006);
     }
-    // Bars of 8 x 2; a bend has a unit square twice and a quarter of a disc more; the ends are half discs.
-    const double exact = 16.0 * (side * side - 1) + turns * (std::numbers::pi / 4 - 1) + std::numbers::pi;
-    const Image image = render(pixel_print(1024, 1024, 2), [&](PathSink& sink) { stroke(sink, points); });
-    EXPECT_NEAR(image.ink() / exact, 1, 0.003);
 }
 
 TEST(Raster, HairlinesKeepTheirInk) {
@@ -266,17 +268,18 @@ TEST(Raster, DotsAndDiscs) {
         return render(pixel_print(60, 60, pen), drawing).ink();
     };
     const auto dot = [](PathSink& sink) { stroke(sink, {{30.2, 30.4}, {30.2, 30.4}}); };
-    EXPECT_NEAR(area(dot, 6), 9 * std::numbers::pi, 0.3);
+    EXPECT_NEAR(area(dot, 6), 9 * std::numbers::pi, 0.1);
+    EXPECT_NEAR(area(dot, 1.2), 0.36 * std::numbers::pi, 0.1);
     EXPECT_NEAR(area(dot, 0.5), std::numbers::pi / 16, 0.01);
-    EXPECT_NEAR(area([](PathSink& sink) { sink.disc({30, 30}, 0, Pen{}); }, 5), 25 * std::numbers::pi, 0.5);
-    EXPECT_NEAR(area([](PathSink& sink) { sink.disc({30.1, 30.7}, 20, Pen{}); }, 5), 400 * std::numbers::pi, 1);
+    EXPECT_NEAR(area([](PathSink& sink) { sink.disc({30, 30}, 0, Pen{}); }, 5), 25 * std::numbers::pi, 0.1);
+    EXPECT_NEAR(area([](PathSink& sink) { sink.disc({30.1, 30.7}, 20, Pen{}); }, 5), 400 * std::numbers::pi, 0.5);
     // In the middle of a stroke and after nothing but a move of no length: no dot of the pen.
     EXPECT_EQ(area([](PathSink& sink) { stroke(sink, {{-40, -40}, {-40, -40}}); }, 5), 0);
     // A huge disc of which the page sees a straight edge.
     const Image edge = render(pixel_print(40, 300, 1), [](PathSink& sink) {
         sink.disc({20 - 1e4, 150}, 1e4, Pen{});
     });
-    EXPECT_NEAR(edge.ink(), 20 * 300, 30);
+    EXPECT_NEAR(edge.ink(), 20 * 300 - 112.5, 2);  // the arc is 1.1 pixels high
     EXPECT_EQ(edge.at(17, 150), 0);
     EXPECT_EQ(edge.at(22, 150), 255);
 }
@@ -463,7 +466,7 @@ TEST(Raster, StrokeNoneLeavesFillsOnly) {
 TEST(Raster, LinesFarOutsideLeaveThePageAlone) {
     const Image image = render(pixel_print(100, 400, 2), [](PathSink& sink) {
         stroke(sink, {{-1e9, 200}, {1e9, 200}, {1e9, 1e9}, {1e9, 100}, {-1e9, 100}});
-        stroke(sink, {{50, -1e300}, {50, 1e300}});
+        stroke(sink, {{50, -1e11}, {50, 1e11}});
         stroke(sink, {{NAN, 3}, {20, 20}});
         stroke(sink, {{-50, -50}, {-10, 1e8}});
     });
@@ -730,8 +733,7 @@ TEST(ImageFile, AlphaIsStraightInPngAssociatedAndLinearInExrAndPaperInJpeg) {
                    "--dumpdata '" + path.string() + "'")
             .text;
     };
-    EXPECT_NE(dump("png").find("0.737254910 0.000000000 1.000000000 0.400000006"), std::string::npos)
-        << dump("png").substr(0, 300);
+    EXPECT_NE(dump("png").find("188 0 255 102"), std::string::npos) << dump("png").substr(0, 300);
     // 188 of sRGB is 0.5029 of linear light.
     EXPECT_NE(dump("exr").find("0.20117"), std::string::npos) << dump("exr").substr(0, 300);
     EXPECT_NE(dump("exr").find("0.39990"), std::string::npos) << dump("exr").substr(0, 300);
@@ -745,6 +747,8 @@ TEST(ImageFile, TheSameImageIsTheSameFile) {
         ImageSpec spec = image_spec(format, 200, 300, 3);
         write_image(folder / "one", spec, pixels);
         spec.threads = 4;
+        if (format == "tif" || format == "exr")
+            std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // no time of day
         write_image(folder / "two", spec, pixels);
         EXPECT_EQ(contents(folder / "one"), contents(folder / "two")) << format;
     }
@@ -775,7 +779,7 @@ TEST(ImageFile, WhatIsNoImageIsNotReadAndNoFolderIsAnError) {
     EXPECT_THROW(open_image(folder / "x.gif", image_spec("gif", 8, 8, 1)), std::runtime_error);
 }
 
-TEST(ImageFile, ALongTextDoesNotBreakAJpeg) {
+TEST(ImageFile, ALongTextIsKeptWholeOrNotAtAll) {
     const ScratchFolder folder;
     for (const std::string format : {"png", "tif", "jpg", "exr"}) {
         ImageSpec spec = image_spec(format, 64, 64, 1);
@@ -784,7 +788,8 @@ TEST(ImageFile, ALongTextDoesNotBreakAJpeg) {
         const auto text = read_image_text(folder / "picture");
         ASSERT_TRUE(text) << format;
         EXPECT_EQ(text->software, spec.software);
-        EXPECT_EQ(text->description, format == "jpg" ? "" : spec.description) << format;
+        EXPECT_TRUE(text->description == (format == "jpg" || format == "tif" ? "" : spec.description))
+            << format << ' ' << text->description.size();
     }
 }
 
