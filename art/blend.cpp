@@ -86,14 +86,15 @@ void blend_pixels(std::uint8_t* pixels, const std::uint8_t* mask, int count, Col
     }
 }
 
+// These clear the mask behind them. Most of a page is bare: there they only look at the mask.
 template <int channels>
-void blend_row(std::uint8_t* pixels, const std::uint8_t* mask, int width, Colour colour) {
-    // Most of a page is bare: skip it eight pixels at a time.
+void blend_row(std::uint8_t* pixels, std::uint8_t* mask, int width, Colour colour) {
     for (int column = 0; column < width; column += 8) {
         std::uint64_t eight;
         std::memcpy(&eight, mask + column, 8);
         if (eight == 0) continue;
         blend_pixels<channels>(pixels + column * channels, mask + column, std::min(8, width - column), colour);
+        std::memset(mask + column, 0, 8);
     }
 }
 
@@ -131,18 +132,19 @@ SIKKU_AVX2 inline __m128i scaled(__m128i mask, unsigned alpha) {
 }
 
 // Both return the first column they left undone.
-SIKKU_AVX2 int blend_grey_avx2(std::uint8_t* pixels, const std::uint8_t* mask, int width, Colour colour) {
+SIKKU_AVX2 int blend_grey_avx2(std::uint8_t* pixels, std::uint8_t* mask, int width, Colour colour) {
     const __m256i above = _mm256_set1_epi16(colour.red);
     int column = 0;
     for (; column + 16 <= width; column += 16) {
         const __m128i coverage = load(mask + column);
         if (_mm_testz_si128(coverage, coverage)) continue;
+        store(mask + column, _mm_setzero_si128());
         store(pixels + column, mix(load(pixels + column), above, scaled(coverage, colour.alpha)));
     }
     return column;
 }
 
-SIKKU_AVX2 int blend_rgb_avx2(std::uint8_t* pixels, const std::uint8_t* mask, int width, Colour colour) {
+SIKKU_AVX2 int blend_rgb_avx2(std::uint8_t* pixels, std::uint8_t* mask, int width, Colour colour) {
     // 16 pixels are 48 bytes, three vectors: byte i belongs to pixel i / 3 and channel i % 3.
     alignas(16) std::uint8_t which[48];
     alignas(16) std::uint8_t paint[48];
@@ -158,6 +160,7 @@ SIKKU_AVX2 int blend_rgb_avx2(std::uint8_t* pixels, const std::uint8_t* mask, in
     for (; column + 16 <= width; column += 16) {
         const __m128i coverage = load(mask + column);
         if (_mm_testz_si128(coverage, coverage)) continue;
+        store(mask + column, _mm_setzero_si128());
         const __m128i alpha = scaled(coverage, colour.alpha);
         std::uint8_t* at = pixels + column * 3;
         store(at, mix(load(at), above0, _mm_shuffle_epi8(alpha, which0)));
@@ -258,7 +261,7 @@ void Canvas::blend(Mask& mask, Colour colour) {
         if (channels_ == 1) blend_row<1>(pixels, coverage + done, width_ - done, colour);
         if (channels_ == 3) blend_row<3>(pixels, coverage + done, width_ - done, colour);
         if (channels_ == 4) blend_row<4>(pixels, coverage + done, width_ - done, colour);
-        std::memset(coverage, 0, static_cast<std::size_t>(mask.stride));
+        std::memset(coverage + width_, 0, mask_padding);
     }
 }
 

@@ -11,21 +11,27 @@
 namespace sikku {
 
 struct ImageSpec {
-    std::string format;         ///< `png`, `tif`, `jpg` or `exr`
+    std::string format;  ///< `png`, `tif`, `jpg` or `exr`
     int width = 0, height = 0;
-    int channels = 3;           ///< 1, 3 or 4
+    int channels = 3;  ///< 1, 3 or 4
     double dpi = 300.0;
     int threads = 1;
-    std::string title;          ///< Title where the format has one
-    std::string description;    ///< ImageDescription
-    std::string software;       ///< Software
+    std::string title;        ///< Title where the format has one
+    std::string description;  ///< ImageDescription
+    std::string software;     ///< Software
 };
 
-/// One raster file being written; rows from top to bottom, 8 bits a channel. Failures are std::runtime_error.
+/// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures are
+/// std::runtime_error; a full disk is one at the latest when the file is closed. The same rows make the same bytes.
+///
+/// PNG and TIFF keep the pixels; JPEG (quality 95) has no alpha and lies on white; EXR is 16-bit linear light with
+/// associated alpha. JPEG and TIFF leave out texts over 60,000 bytes, which could not be read back whole.
 class ImageWriter {
 public:
     virtual ~ImageWriter() = default;
+    /// In calls of a multiple of 32 rows, but for the last, TIFF compresses them in parallel.
     virtual void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) = 0;
+    /// Completes the file. Without it the file is of no use.
     virtual void close() = 0;
 };
 

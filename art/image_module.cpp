@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 #include <stdexcept>
 #include <system_error>
@@ -120,6 +121,27 @@ private:
     std::mutex mutex_;
 };
 
+/// A stream into a CheckedFile, for libjpeg by way of OpenImageIO: other proxies it serves from memory, with the
+/// whole file at the end. Failures are kept for CheckedFile::finish(), as libjpeg would end the program.
+class CheckedStream {
+public:
+    explicit CheckedStream(CheckedFile& file)
+        : stream_(::fopencookie(&file, "w", {nullptr, write, nullptr, nullptr}), &std::fclose) {
+        if (!stream_) throw std::runtime_error("no memory for a stream");
+        proxy_.emplace(stream_.get(), OIIO::Filesystem::IOProxy::Write);
+    }
+    OIIO::Filesystem::IOProxy* proxy() { return &*proxy_; }
+
+private:
+    static ::ssize_t write(void* file, const char* data, std::size_t size) {
+        static_cast<CheckedFile*>(file)->write(data, size);
+        return static_cast<::ssize_t>(size);
+    }
+
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_;
+    std::optional<OIIO::Filesystem::IOFile> proxy_;
+};
+
 /// 8-bit sRGB as linear light, IEC 61966-2-1.
 std::array<float, 256> linear_light() {
     std::array<float, 256> table{};
@@ -129,6 +151,9 @@ std::array<float, 256> linear_light() {
     }
     return table;
 }
+
+// libjpeg ends the program for more.
+constexpr int most_jpeg_pixels = 65'500;
 
 class FileWriter final : public ImageWriter {
 public:
@@ -143,6 +168,7 @@ private:
 
     ImageSpec spec_;
     CheckedFile file_;
+    std::optional<CheckedStream> stream_;
     std::unique_ptr<OIIO::ImageOutput> output_;
     std::vector<std::uint8_t> flattened_;
     std::vector<float> linear_;
@@ -155,6 +181,9 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
                exr = spec.format == "exr";
     if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown image format: " + spec.format);
+    if (jpeg && std::max(spec.width, spec.height) > most_jpeg_pixels) {
+        throw std::runtime_error("a JPEG has at most " + std::to_string(most_jpeg_pixels) + " pixels a side");
+    }
     // Debian's OpenImageIO would tell the terminal what it thinks of attributes.
     OIIO::attribute("debug", 0);
     // TIFF compresses its strips in parallel only if the pool is larger than this.
@@ -162,7 +191,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     OIIO::attribute("exr_threads", std::max(spec.threads, 1));
     output_ = OIIO::ImageOutput::create(png ? "png" : tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
     if (!output_) throw std::runtime_error(OIIO::geterror());
-    if (!output_->supports("ioproxy") || !output_->set_ioproxy(&file_)) {
+    if (jpeg) stream_.emplace(file_);
+    if (!output_->supports("ioproxy") || !output_->set_ioproxy(jpeg ? stream_->proxy() : &file_)) {
         throw std::runtime_error("this OpenImageIO cannot write " + spec.format + " through a proxy");
     }
 
@@ -252,6 +282,7 @@ void FileWriter::rows(int first_row, int rows, std::span<const std::uint8_t> pix
 void FileWriter::close() {
     if (!output_->close()) fail();
     output_.reset();
+    stream_.reset();
     file_.finish();
 }
 

@@ -5,6 +5,7 @@
 #include "art/stroke.h"
 
 #include <oneapi/tbb/concurrent_queue.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -20,6 +21,10 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
 
 namespace sikku {
 namespace {
@@ -344,12 +349,15 @@ private:
                 matrix_[0].y * point.x + matrix_[1].y * point.y + matrix_[2].y};
     }
     static std::int32_t quantised(double pixels) {
-        // To nearest; the offset makes truncation the floor.
-        constexpr double offset = 1 << 22;
-        return static_cast<std::int32_t>(static_cast<std::int64_t>((pixels + offset) * subpixels + 0.5) -
-                                         (std::int64_t{1} << (22 + subpixel_bits)));
+#if defined(__x86_64__)
+        return _mm_cvtsd_si32(_mm_set_sd(pixels * subpixels));  // what lrint does, without the call
+#else
+        return static_cast<std::int32_t>(std::lrint(pixels * subpixels));
+#endif
     }
-    static SubPoint quantised(glm::dvec2 pixels) { return {quantised(pixels.x), quantised(pixels.y)}; }
+    static SubPoint quantised(glm::dvec2 pixels) {
+        return {quantised(pixels.x), quantised(pixels.y)};
+    }
 
     Nib nib(std::vector<Layer>& layers, const std::vector<std::size_t>& slots, std::size_t index, double width);
     Nib line_nib(const Pen& pen);
@@ -737,6 +745,10 @@ void BandRaster::render(int threads, const RowSink& rows) {
         deliver(*job.workplace, job.band);
         idle.push(job.workplace);
     });
+    // More threads than cores are only had, and without a warning on the terminal, if they are allowed here, too.
+    const oneapi::tbb::global_control allowed(
+        oneapi::tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(std::max(threads, oneapi::tbb::info::default_concurrency())));
     oneapi::tbb::task_arena arena(threads);
     arena.execute(
         [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), bands & draw & hand_on); });

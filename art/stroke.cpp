@@ -26,8 +26,9 @@ inline std::uint8_t coverage(const Capsule& c, float u_row, float v_row, int col
     const float v = v_row - x * c.uy;
     const float along = std::max(std::fabs(u) - c.half, 0.0f);
     const float inside = c.radius - std::sqrt(along * along + v * v);
-    float value = inside * c.slope + 128.0f;
+    float value = inside;
     if constexpr (soft) {
+        value = inside * c.slope + 128.0f;
         const float bend = std::max(c.soft - std::fabs(std::fabs(inside) - c.middle), 0.0f);
         value = std::min(std::max(value, 0.5f), 255.5f) - std::copysign(bend * bend * c.parabola, inside);
     }
@@ -66,8 +67,9 @@ inline __m128i coverage_sse2(const Capsule& c, __m128 u_row, __m128 v_row, __m12
     const __m128 along = _mm_max_ps(_mm_sub_ps(_mm_andnot_ps(sign, u), _mm_set1_ps(c.half)), _mm_setzero_ps());
     const __m128 distance = _mm_sqrt_ps(_mm_add_ps(_mm_mul_ps(along, along), _mm_mul_ps(v, v)));
     const __m128 inside = _mm_sub_ps(_mm_set1_ps(c.radius), distance);
-    __m128 value = _mm_add_ps(_mm_mul_ps(inside, _mm_set1_ps(c.slope)), _mm_set1_ps(128.0f));
+    __m128 value = inside;
     if constexpr (soft) {
+        value = _mm_add_ps(_mm_mul_ps(inside, _mm_set1_ps(c.slope)), _mm_set1_ps(128.0f));
         const __m128 off = _mm_andnot_ps(sign, _mm_sub_ps(_mm_andnot_ps(sign, inside), _mm_set1_ps(c.middle)));
         const __m128 bend = _mm_max_ps(_mm_sub_ps(_mm_set1_ps(c.soft), off), _mm_setzero_ps());
         const __m128 change = _mm_mul_ps(_mm_mul_ps(bend, bend), _mm_set1_ps(c.parabola));
@@ -116,8 +118,9 @@ SIKKU_AVX2 inline __m128i coverage_avx2(const Capsule& c, __m256 u_row, __m256 v
         _mm256_max_ps(_mm256_sub_ps(_mm256_andnot_ps(sign, u), _mm256_set1_ps(c.half)), _mm256_setzero_ps());
     const __m256 distance = _mm256_sqrt_ps(_mm256_add_ps(_mm256_mul_ps(along, along), _mm256_mul_ps(v, v)));
     const __m256 inside = _mm256_sub_ps(_mm256_set1_ps(c.radius), distance);
-    __m256 value = _mm256_add_ps(_mm256_mul_ps(inside, _mm256_set1_ps(c.slope)), _mm256_set1_ps(128.0f));
+    __m256 value = inside;
     if constexpr (soft) {
+        value = _mm256_add_ps(_mm256_mul_ps(inside, _mm256_set1_ps(c.slope)), _mm256_set1_ps(128.0f));
         const __m256 off =
             _mm256_andnot_ps(sign, _mm256_sub_ps(_mm256_andnot_ps(sign, inside), _mm256_set1_ps(c.middle)));
         const __m256 bend = _mm256_max_ps(_mm256_sub_ps(_mm256_set1_ps(c.soft), off), _mm256_setzero_ps());
@@ -325,8 +328,8 @@ void Stroker::draw(const Segment& segment) {
         capsule.soft = 255 * 0.5f * segment.short_side;
         capsule.parabola = capsule.slope / (2 * 255 * segment.short_side);
     } else {
-        capsule.slope = 1;
-        capsule.middle = capsule.soft = capsule.parabola = 0;
+        capsule.radius += 128;
+        capsule.slope = capsule.middle = capsule.soft = capsule.parabola = 0;
     }
     const Kernels& kernels = soft ? soft_ : hard_;
     const int columns = x1 - x0 + 1, rows = y1 - y0 + 1;

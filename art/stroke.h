@@ -61,7 +61,9 @@ public:
         // How the area of a pixel on one side of the edge grows with the distance of its centre: by `slope`, but
         // softly at both ends, a parabola `soft` to either side of where the slope would end, `middle` from the edge.
         float slope, middle, soft;
-        float parabola;  ///< 0 for lines along rows or columns, which have no soft ends
+        float parabola;
+        // Lines along rows or columns have no soft ends and a slope of 1: for them `radius` is 128 more instead, half
+        // a pixel and what rounds, and the rest is not looked at.
     };
     /// Pixels [first, end) of a row, counted from the first pixel.
     struct Span {

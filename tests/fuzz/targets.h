@@ -157,9 +157,9 @@ inline void compare(const Fold& fold, const Survey& survey, const Lattice& latti
     const auto same = [&](const std::array<Quantity, 4>& box, const Bounds& bounds, const char* name) {
         const std::array<double, 4> other = {bounds.low.x, bounds.low.y, bounds.high.x, bounds.high.y};
         for (std::size_t i = 0; i < 4; ++i) {
-            require(agree(box[i].value, other[i], scale),
-                    std::string("fold and turtle disagree on ") + name + ": " + std::to_string(box[i].value) +
-                        " and " + std::to_string(other[i]));
+            require(agree(box[i].value, other[i], scale), std::string("fold and turtle disagree on ") + name + ": " +
+                                                              std::to_string(box[i].value) + " and " +
+                                                              std::to_string(other[i]));
         }
     };
     same(fold.box, survey.box, "the box");
@@ -168,9 +168,9 @@ inline void compare(const Fold& fold, const Survey& survey, const Lattice& latti
     require(agree(fold.end[0].value, survey.end.x, scale) && agree(fold.end[1].value, survey.end.y, scale),
             "fold and turtle disagree on the end");
     const double gap = std::fabs(fold.heading - survey.heading);
-    require(std::min(gap, 360 - gap) <= 1e-6, "fold and turtle disagree on the heading: " +
-                                                  std::to_string(fold.heading) + " and " +
-                                                  std::to_string(survey.heading));
+    require(std::min(gap, 360 - gap) <= 1e-6,
+            "fold and turtle disagree on the heading: " + std::to_string(fold.heading) + " and " +
+                std::to_string(survey.heading));
     require(fold.depth == survey.depth, "fold and turtle disagree on the depth");
     if (lattice.rank > 0) require(fold.closed == survey.closed, "fold and turtle disagree on closedness");
 }
@@ -267,7 +267,8 @@ inline void try_derivation(std::string_view bytes) {
             counting->finish();
             StrictPathSink strict;
             SplineSink spline(strict, census.closed);
-            const auto turtle = Turtle::drawing(grammar, moves_draw ? static_cast<PathSink&>(spline) : strict, moves_draw);
+            const auto turtle =
+                Turtle::drawing(grammar, moves_draw ? static_cast<PathSink&>(spline) : strict, moves_draw);
             turtle->symbols({interpreted, -1});
             turtle->finish();
             require(!strict.is_open(), "the last stroke is not ended");

@@ -1,0 +1,539 @@
+// tests/bad_input_test.cpp: whatever is handed to the program, it answers or refuses, soon, in little memory.
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sikku {
+namespace {
+
+constexpr double most_seconds = sanitized ? 20 : 1;
+constexpr long most_kilobytes = sanitized ? 4'000'000 : 200 * 1024;
+
+std::string repeated(std::string_view text, std::size_t times) {
+    std::string result;
+    result.reserve(text.size() * times);
+    for (std::size_t i = 0; i < times; ++i) result += text;
+    return result;
+}
+
+/// Feeds `text` again and again, in blocks, so that this process stays small.
+void feed_repeated(const Feed& feed, std::string_view text, std::size_t times) {
+    const std::size_t in_block = std::min<std::size_t>(times, 65'536 / text.size() + 1);
+    const std::string block = repeated(text, in_block);
+    for (; times >= in_block; times -= in_block) {
+        if (!feed(block)) return;
+    }
+    feed(repeated(text, times));
+}
+
+/// Ended by itself, soon, in little memory, and its message is text that a terminal can show.
+void expect_sane(const Outcome& outcome) {
+    EXPECT_TRUE(outcome.status >= 0 && outcome.status <= 2)
+        << outcome.status << " " << outcome.errors.substr(0, 1000);
+    EXPECT_LT(outcome.seconds, most_seconds);
+    EXPECT_LT(outcome.peak, most_kilobytes);
+    EXPECT_LT(outcome.errors.size(), 30'000U) << "a message is short whatever it is about";
+    for (const char byte : outcome.errors) {
+        ASSERT_TRUE(byte == '\n' || (static_cast<unsigned char>(byte) >= 0x20 && byte != 0x7F))
+            << "a control character in a message: " << outcome.errors.substr(0, 1000);
+    }
+}
+
+void expect_refused(const Outcome& outcome, int status, std::string_view message) {
+    expect_sane(outcome);
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_TRUE(has(outcome.errors, message));
+    EXPECT_EQ(outcome.output, "");
+}
+
+Outcome piped(std::string text, std::vector<std::string> arguments = {}, const char* command = "measure") {
+    arguments.insert(arguments.begin(), {command, "-"});
+    return run(arguments, {.input = std::move(text)});
+}
+
+void expect_mistake(std::string text, std::string_view message, std::vector<std::string> arguments = {}) {
+    SCOPED_TRACE(text.substr(0, 200));
+    expect_refused(piped(std::move(text), std::move(arguments)), 2, message);
+}
+
+void expect_answer(std::string text, std::string_view part, std::vector<std::string> arguments = {}) {
+    SCOPED_TRACE(text.substr(0, 200));
+    arguments.emplace_back("--json");
+    const Outcome outcome = piped(std::move(text), std::move(arguments));
+    expect_sane(outcome);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors.substr(0, 1000);
+    EXPECT_TRUE(has(outcome.output, part));
+}
+
+Outcome drawn(std::string text, std::vector<std::string> arguments = {}, const char* name = "x.svg") {
+    const TemporaryFolder folder;
+    arguments.insert(arguments.begin(), {"draw", "-", "-o", folder.file(name)});
+    const Outcome outcome = run(arguments, {.input = std::move(text)});
+    EXPECT_EQ(folder.names().size(), outcome.status == 0 ? 1U : 0U) << "a print appears whole or not at all";
+    if (outcome.status == 0) {
+        const std::string print = contents_of(folder.file(name));
+        EXPECT_EQ(print.find("nan"), std::string::npos);
+        EXPECT_EQ(print.find("inf\""), std::string::npos);
+        EXPECT_EQ(print.find("inf "), std::string::npos);
+    }
+    return outcome;
+}
+
+// --- files that are no patterns -----------------------------------------------------------------------------------
+
+TEST(BadInput, Empty) {
+    expect_mistake("", "-:1:1: there is no 'axiom:'");
+    expect_mistake("\n\n", "there is no 'axiom:'");
+    expect_mistake("F --> FF\n", "there is no 'axiom:'");
+    expect_mistake("axiom:\n", "-:1:1: ");
+}
+
+TEST(BadInput, Binary) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 10; ++i) {
+        std::string bytes;
+        for (int k = 0; k < 3000; ++k) bytes += static_cast<char>(random());
+        expect_mistake(bytes, "no pattern file");
+    }
+    expect_mistake(std::string("axiom: F\0F\n", 11), "-:1:9: a NUL byte");
+    expect_mistake(std::string(100'000, '\0'), "-:1:1: a NUL byte");
+    expect_mistake("axiom: F\xC0\x80", "-:1:9: a byte that is no UTF-8");
+    expect_mistake("axiom: F\xED\xA0\x80", "-:1:9: a byte that is no UTF-8");
+    expect_mistake("axiom: F\xF5\x80\x80\x80", "-:1:9: a byte that is no UTF-8");
+    expect_mistake(std::string("\xFF\xFE"
+                               "a\0x\0",
+                               6),
+                   "-:1:1: a byte that is no UTF-8");
+}
+
+TEST(BadInput, MessagesAreUtf8WhateverTheFileIs) {
+    for (const std::string bytes :
+         {"\xED\xA0\x80", "\xF5\x80\x80\x80", "\xFC\x8C\x8B\x8D", "\xF0\x80\x80\x80", "\xC3"}) {
+        const Outcome outcome = piped("axiom: F" + bytes + "F\n");
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.errors.find(bytes), std::string::npos) << outcome.errors;
+    }
+}
+
+TEST(BadInput, OneGigabyteOfOneLine) {
+    for (const char* command : {"measure", "derive", "check", "show"}) {
+        SCOPED_TRACE(command);
+        const Outcome outcome =
+            run({command, "-"}, {.feed = [](const Feed& feed) { feed_repeated(feed, "a", std::size_t{1} << 30); }});
+        expect_sane(outcome);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_TRUE(has(outcome.errors + outcome.output.substr(0, 1000), "64 MB"));
+    }
+    const TemporaryFolder folder;
+    const std::string sparse = folder.write("sparse.lsys", "axiom: F\n");
+    std::filesystem::resize_file(sparse, std::uintmax_t{1} << 30);
+    expect_refused(run({"measure", sparse}), 2, "64 MB");
+    expect_refused(run({"draw", sparse, "-o", folder.file("x.svg")}), 2, "64 MB");
+}
+
+TEST(BadInput, ManyLines) {
+    const auto lines = [](std::string_view line, std::size_t times) {
+        const Outcome outcome =
+            run({"measure", "-"}, {.feed = [&](const Feed& feed) { feed_repeated(feed, line, times); }});
+        expect_sane(outcome);
+        EXPECT_EQ(outcome.status, 2);
+    };
+    lines("\n", 60'000'000);
+    lines(" ", 60'000'000);
+    lines("x\n", 1'000'000);
+    lines(":\n", 1'000'000);
+    lines("k: 1\n", 1'000'000);
+    lines("F --> FF\n", 1'000'000);
+    lines("x < F > y --> FF\n", 300'000);
+    lines("axiom: F \\\n", 1'000'000);
+    lines("A < ", 1'000'000);
+    lines("-->(", 1'000'000);
+}
+
+TEST(BadInput, AFolder) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "x.lsys");
+    for (const char* command : {"measure", "derive", "check", "show"}) {
+        expect_refused(run({command, folder.file("x.lsys")}), 2, "is a folder");
+    }
+    expect_refused(run({"draw", folder.file("x.lsys"), "-o", folder.file("x.svg")}), 2, "is a folder");
+}
+
+// --- text that is well read ---------------------------------------------------------------------------------------
+
+TEST(BadInput, LineEndsAndMarks) {
+    for (const char* text : {"axiom: F+F\r\nF --> FF\r\n",
+                             "\xEF\xBB\xBF"
+                             "axiom: F+F\nF --> FF",
+                             "axiom: F+F \\\r\n\r\nF --> FF\r\n",
+                             "\xEF\xBB\xBF"
+                             "axiom: F+F\r\nF --> FF"}) {
+        const Outcome outcome = piped(text, {"-n", "1"}, "derive");
+        EXPECT_EQ(outcome.output, "FF+FF\n") << outcome.errors;
+        EXPECT_EQ(outcome.status, 0);
+    }
+}
+
+TEST(BadInput, SymbolsBeyondAscii) {
+    const Outcome outcome = piped("axiom: FåF日本\nå --> F😀\n", {"-n", "1"}, "derive");
+    EXPECT_EQ(outcome.output, "FF😀F日本\n") << outcome.errors;
+    expect_mistake("axiom: F−F", "-:1:9: '−' is no symbol: write '-'");
+    expect_mistake("axiom: åF→F", "-:1:10: ");
+    expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is no arrow here: write '-->'");
+    expect_mistake("axiom: F\x1B[31mF", "-:1:9: a control character");
+    expect_mistake("axiom: F\n\x1B[31mfoo: 3\n", "-:2:1: ");
+    expect_mistake("axiom: F\xC2\x85", "-:1:9: a control character");
+}
+
+// --- keys and productions -----------------------------------------------------------------------------------------
+
+TEST(BadInput, KeysAndValues) {
+    expect_mistake("axim: F\n", "-:1:1: nobody knows the key 'axim'; did you mean 'axiom'?");
+    expect_mistake("axiom: F\naxiom: F\n", "-:2:1: 'axiom:' is given twice");
+    for (const char* value : {"0", "-1", "1e3", "abc", "", "9223372036854775808", "nan", "inf"}) {
+        expect_mistake("axiom: F\nangle factor: " + std::string(value), "-:2:");
+    }
+    for (const char* key : {"heading: ", "angle increment: "}) {
+        for (const char* value : {"inf", "nan", "1e400", "1/0", "0/0", "360/0", "1e300/1e-300", "x", ""}) {
+            expect_mistake("axiom: F\n" + (key + std::string(value)), "-:2:");
+        }
+        for (const char* value : {"1e308", "-1e308", "1e-320", "-0", "1e300/1e300", "360/7"}) {
+            expect_answer("axiom: F+F\n" + (key + std::string(value)), "\"drawn\": 2");
+        }
+    }
+    for (const char* line : {"derivation length: nan",
+                             "derivation length: -1",
+                             "derivation length: 1.5",
+                             "derivation length: 99999999999999999999",
+                             "seed: -1",
+                             "scale factor: nan",
+                             "scale factor: 0",
+                             "scale factor: inf",
+                             "stroke: nanmm",
+                             "stroke: inf mm",
+                             "stroke: 1e308mm",
+                             "stroke: -1mm",
+                             "stroke: 0mm",
+                             "stroke: nan step",
+                             "palette:",
+                             "turn: up",
+                             "ignore: a,b",
+                             "line: bent",
+                             "schedule:",
+                             "schedule: nowhere",
+                             "table :",
+                             "variant v: x",
+                             "F",
+                             "--> F",
+                             "* --> F",
+                             "F --> G --> H",
+                             "/* open",
+                             "define",
+                             "define a =",
+                             "define 1a = 2"}) {
+        expect_mistake("axiom: F\n" + std::string(line), "-:2:");
+    }
+    expect_mistake("axiom: F\nforward: F\nmove: F", "-:3:7: 'F' is listed under both");
+    expect_mistake("axiom: F\ntable a:\ntable b:", "-:3:7: several tables need a 'schedule:'");
+    expect_mistake("axiom: X\nderivation length: 5\ntable a:\nX --> F\ntable b:\nX --> f\nschedule: a b\n",
+                   "-:7:11: the schedule holds 2 steps, the derivation length is 5");
+}
+
+TEST(BadInput, Brackets) {
+    // Unbalanced productions are fine if the word balances.
+    expect_answer("axiom: XY\nX --> [F\nY --> ]F\nderivation length: 1\n", "\"drawn\": 2");
+    for (const char* json : {"--json", "--quiet"}) {
+        expect_mistake("axiom: X]\nX --> [F\n", "symbol 2 of the word: ']' without '['", {json});
+        expect_mistake("axiom: F+[F", "symbol 3 of the word: this '[' is not closed", {json});
+        expect_mistake("axiom: F+{F", "symbol 3 of the word: this '{' is not closed", {json});
+        expect_mistake("axiom: F+}F", "symbol 3 of the word: '}' without '{'", {json});
+    }
+    expect_mistake("axiom: X\nX --> F[X\n", "symbol 4 of the word: this '[' is not closed", {"-n", "2"});
+    expect_refused(drawn("axiom: F]F"), 2, "symbol 2 of the word");
+    expect_refused(drawn("axiom: F{F"), 2, "symbol 2 of the word");
+}
+
+TEST(BadInput, DeepBrackets) {
+    const std::size_t millions = 3'000'000;
+    expect_sane(piped("axiom: " + std::string(millions, '[') + std::string(millions, ']')));
+    expect_mistake("axiom: " + std::string(millions, '['), "symbol ");
+    expect_sane(piped("axiom: " + std::string(millions, '{') + std::string(millions, '}')));
+    expect_sane(drawn("axiom: F" + repeated("[+", millions) + "F" + std::string(millions, ']')));
+    expect_answer("axiom: X\nX --> [X]F\n", "\"depth\": 1000000", {"-n", "1000000"});
+    expect_sane(drawn("axiom: X\nX --> F[X]\n", {"-n", "1000000"}));
+    const Outcome deep = run({"measure", "-"}, {.feed = [](const Feed& feed) {
+                                 feed("axiom: ");
+                                 feed_repeated(feed, "[", 20'000'000);
+                             }});
+    expect_refused(deep, 2, "symbol ");
+}
+
+TEST(BadInput, ManyProductions) {
+    std::string text = "axiom: F\nsymbols:";
+    for (int i = 0; i < 100'000; ++i) text += " a" + std::to_string(i);
+    text += '\n';
+    for (int i = 0; i + 1 < 100'000; ++i) {
+        text += "a" + std::to_string(i) + " --> a" + std::to_string(i + 1) + " F\n";
+    }
+    expect_answer(text, "\"drawn\": 1", {"-n", "100"});
+    // A million, of which all but 20,000 are mistakes.
+    const Outcome million = run({"measure", "-"}, {.feed = [](const Feed& feed) {
+                                    feed("axiom: F\n");
+                                    std::string block;
+                                    for (int i = 0; i < 20'000; ++i) {
+                                        const int point = 0x4E00 + i;
+                                        block += static_cast<char>(0xE0 | (point >> 12));
+                                        block += static_cast<char>(0x80 | ((point >> 6) & 63));
+                                        block += static_cast<char>(0x80 | (point & 63));
+                                        block += " --> FF\n";
+                                    }
+                                    for (int i = 0; i < 50; ++i) feed(block);
+                                }});
+    expect_refused(million, 2, "can never apply");
+}
+
+TEST(BadInput, ManyTablesVariantsDefinesKeys) {
+    std::string tables = "axiom: X\nderivation length: 3\n";
+    std::string schedule = "schedule:";
+    std::string variants = "axiom: F\n";
+    std::string defines = "axiom: F(a0)\n";
+    std::string keys = "axiom: F\n";
+    for (int i = 0; i < 30'000; ++i) {
+        const std::string number = std::to_string(i);
+        tables += "table t" + number + ":\nX --> X\n";
+        schedule += " t" + number;
+        variants += "variant v" + number + ": heading = 1\n";
+        defines += "define a" + number + " = a" + std::to_string(i + 1) + "+1\n";
+        keys += "k" + number + ": 1\n";
+    }
+    expect_answer(tables + schedule, "\"symbols\": 1");
+    expect_answer(variants, "\"symbols\": 1");
+    expect_answer(defines + "define a30000 = 1\n", "\"length\": 30001.0");
+    expect_mistake(defines + "define a30000 = a0\n", "is defined by itself");
+    expect_mistake(keys, "nobody knows the key 'k0'");
+}
+
+TEST(BadInput, ScheduleOfManyItems) {
+    const std::string head = "axiom: X\nderivation length: 100000\ntable a:\nX --> XF\ntable b:\nX --> fX\n";
+    expect_answer(head + "schedule: " + repeated("a b ", 50'000), "\"drawn\": 50000");
+    expect_answer(head + "schedule: " + repeated("a*(n/n) b*1 ", 50'000), "\"drawn\": 50000");
+    expect_mistake(head + "schedule: " + repeated("a b ", 49'999), "the schedule holds 99998 steps");
+    expect_mistake(head + "schedule: a*(0/0) b*(n)", "not a number");
+    expect_answer(head + "schedule: a*(-5) b*(1e300)", "\"drawn\": 0");
+}
+
+TEST(BadInput, CyclicDefines) {
+    expect_mistake("define a = b\ndefine b = c\ndefine c = a\naxiom: F(a)\n", "is defined by itself");
+    expect_mistake("define a = a\naxiom: F(a)\n", "-:1:8: 'a' is defined by itself");
+}
+
+TEST(BadInput, DeepExpressions) {
+    for (const std::size_t depth : {10'000UL, 1'000'000UL}) {
+        const std::string open(depth, '(');
+        const std::string close(depth, ')');
+        expect_answer("axiom: F(" + open + "2" + close + ")", "\"length\": 2.0");
+        expect_mistake("axiom: F(" + open + "2)", "is not closed");
+        expect_answer("define a = " + open + "2" + close + "\naxiom: F(a)\n", "\"length\": 2.0");
+        expect_answer("define a = " + std::string(depth, '-') + "2\naxiom: F(a)\n", "\"length\": 2.0");
+        expect_answer("define a = " + repeated("1^", depth) + "2\naxiom: F(a)\n", "\"length\": 1.0");
+        expect_answer("define a = " + repeated("max(1,", depth) + "2" + close + "\naxiom: F(a)\n", "\"length\": 2.0");
+    }
+    const std::size_t deeper = 2'000'000;
+    expect_mistake("axiom: F(" + std::string(deeper, '(') + "1" + std::string(deeper, ')') + ")", "nest deeper than");
+}
+
+TEST(BadInput, LongTokens) {
+    const std::string token(10'000'000, 'a');
+    expect_mistake(token + ": 3\naxiom: F\n", "-:1:1: nobody knows the key");
+    expect_mistake(token + "\naxiom: F\n", "-:1:1: ");
+    expect_mistake("axiom: F(" + token + ")\n", "is not defined");
+    expect_mistake("axiom: F(" + token + "(1))\n", "there is no function");
+    expect_mistake("axiom: F\nschedule: " + token, "there is no table");
+    expect_mistake("axiom: F\nline: " + token, "-:2:7: ");
+    expect_mistake("axiom: F\nstroke: " + token, "-:2:9: ");
+    expect_mistake("axiom: F\npalette: " + token, "-:2:10: ");
+    expect_mistake("axiom: F\ndefine " + token + "- = 3", "-:2:8: ");
+    expect_mistake("axiom: F\nvariant " + token + ": x", "expected 'key = value'");
+    expect_mistake("axiom: F(" + std::string(1'000'000, '9') + ")", "-:1:10: ");
+    expect_answer("axiom: F(0." + std::string(1'000'000, '9') + ")", "\"length\": 1.0");
+    expect_mistake("axiom: F\ndefine " + token + " = x", "is not defined");
+    expect_sane(piped("symbols: " + repeated("ab", 30'000) + "c\naxiom: " + repeated("ab", 30'000)));
+    expect_refused(run({"measure", std::string(100'000, 'a')}), 2, "");
+    expect_refused(run({"measure", "hilbert", "--set", std::string(100'000, 'a') + "=1"}), 2, "--set");
+    expect_refused(run({"measure", "hilbert", "--variant", std::string(100'000, 'a')}), 2, "--variant");
+}
+
+TEST(BadInput, ALargeAxiom) {
+    const auto axiom = [](std::string_view ending) {
+        return run({"measure", "-", "--json"}, {.feed = [&](const Feed& feed) {
+                       feed("axiom: ");
+                       feed_repeated(feed, "FG", 30'000'000);
+                       feed(ending);
+                   }});
+    };
+    // It may be read or refused; a mistake in it is refused as soon as any other.
+    const Outcome outcome = axiom("\n");
+    EXPECT_TRUE(outcome.status == 0 ? has(outcome.output, "\"drawn\": 30000000")
+                                    : ::testing::AssertionResult(outcome.status == 2));
+    EXPECT_LT(outcome.seconds, 10 * most_seconds);
+    EXPECT_LT(outcome.peak, 4 * most_kilobytes);
+    expect_refused(axiom("(\n"), 2, "-:1:60000008: ");
+}
+
+// --- numbers in words ---------------------------------------------------------------------------------------------
+
+TEST(BadInput, ParametersOfEverySize) {
+    for (const char* word :
+         {"F(1/0)", "F(0/0)", "F+(1/0)F", "F(log(-1))", "F;(1/0)F", "F,(0/0)F", "F@O(1/0)F", "F#(1/0)F"}) {
+        expect_mistake("axiom: " + std::string(word), "its parameter is not finite");
+        expect_refused(drawn("axiom: " + std::string(word)), 2, "its parameter is not finite");
+    }
+    for (const char* word : {"F(1e308)",
+                             "F(1e308)F(1e308)",
+                             "F(1e308)+F(1e308)F",
+                             "F(1e200)+F(1e200)",
+                             "F(-1)",
+                             "F(1e-320)+F(1e-320)",
+                             "+(1e300)F",
+                             "F+(1e-300)F",
+                             "F;(1e20)F",
+                             "F;(-1e20)F",
+                             "@O(-1)F",
+                             "F@O(1e308)",
+                             "#(1e308)F",
+                             "#(-1)F",
+                             "#(0)F",
+                             "{F(1e308)+F(1e308)+F}",
+                             "F(0)",
+                             "F(0)+F(0)",
+                             "@.",
+                             "@O",
+                             "@O(0)",
+                             "F(9e18)F(9e18)F(9e18)",
+                             "F(4611686018427387904)F(4611686018427387904)",
+                             "F(1e18)+F(0.3)",
+                             "-(1e17)F",
+                             "F(1,2,3)",
+                             "[[[F]]]",
+                             "f"}) {
+        for (const char* more :
+             {"", "\nline: spline", "\nangle factor: 7", "\nangle increment: 12.345", "\nstroke: 0.2 step"}) {
+            const std::string text = "axiom: " + (word + std::string(more));
+            SCOPED_TRACE(text);
+            const Outcome told = piped(text, {"--json"});
+            expect_sane(told);
+            EXPECT_EQ(told.status, 0) << told.errors;
+            expect_sane(drawn(text));
+            expect_sane(drawn(text, {}, "x.pdf"));
+            expect_sane(drawn(text, {"--step", "1mm"}));
+        }
+    }
+    expect_sane(drawn("axiom: " + std::string(5000, '#') + "F"));
+    expect_sane(drawn("axiom: " + std::string(5000, '!') + "F"));
+    expect_sane(drawn("axiom: " + std::string(100'000, ';') + "F"));
+    for (const char* word : {"F()", "F(1,)", "F(x)", "F(1", "F)", "F (1)", "@", "@(1)", "a(b", "F(sin)", "F(sin())",
+                             "F(max(1))", "F(1 2)", "F(1+)", "F(1e)", "F(0x10)", "F(1e99999)"}) {
+        expect_mistake("axiom: " + std::string(word), "-:1:");
+    }
+}
+
+// --- growth -------------------------------------------------------------------------------------------------------
+
+TEST(BadInput, Growth) {
+    expect_answer("axiom: F\nF --> F\n", "\"drawn\": 1", {"-n", "1000000000"});
+    expect_answer("axiom: F+A\nF --> G\nG --> F\nA -->\n", "\"symbols\": 2", {"-n", "1000000000"});
+    for (const char* rule : {"A --> AA", "A --> BA", "A --> F[A]", "A --> BAB\nB --> BB"}) {
+        const std::string text = "axiom: A\n" + std::string(rule) + "\n";
+        expect_refused(piped(text, {"-n", "1000000000"}), 1, "1000000000");
+        expect_refused(piped(text, {"-n", "1000000000"}, "derive"), 1, "1000000000");
+        expect_refused(drawn(text, {"-n", "1000000000"}), 1, "1000000000");
+        expect_refused(piped(text, {"-n", "9223372036854775807"}), 1, "9223372036854775807");
+        expect_sane(piped(text, {"-n", "1000000"}));
+    }
+    expect_refused(drawn("axiom: A\nA --> AFA\n", {"-n", "1000000"}), 1, "about 10^301030");
+    // Many symbols over many steps are refused as soon as few are.
+    std::string ring = "axiom: a0\nsymbols:";
+    std::string rules;
+    for (int i = 0; i < 1000; ++i) {
+        ring += " a" + std::to_string(i);
+        rules += "a" + std::to_string(i) + " --> a" + std::to_string((i + 1) % 1000) + " F\n";
+    }
+    expect_sane(drawn(ring + "\n" + rules, {"-n", "300000", "--budget", "100000"}));
+    expect_sane(piped(ring + "\n" + rules, {"-n", "300000"}));
+    // With contexts, the word itself has to stay within the budget.
+    expect_refused(drawn("axiom: AB\nA < B --> AB\nB --> BB\n", {"-n", "1000", "--budget", "1e5"}), 1, "");
+}
+
+TEST(BadInput, SpiralsOfEveryAngle) {
+    for (const char* angle : {"90", "36", "360/7", "12.345", "1e-5", "360/1000003", "0", "180"}) {
+        expect_answer("axiom: A\nA --> F+A\nangle increment: " + std::string(angle) + "\n", "\"drawn\": 20000",
+                      {"-n", "20000"});
+    }
+    expect_sane(piped("axiom: A\nA --> F+A\nangle increment: 12.345\n", {"-n", "1000000"}));
+}
+
+// --- options ------------------------------------------------------------------------------------------------------
+
+TEST(BadInput, OutputsThatCannotBe) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "folder.svg");
+    const auto to = [&](const std::string& output) {
+        return run({"draw", "hilbert", "-o", output}, {.folder = folder.path()});
+    };
+    expect_refused(to("missing/x.svg"), 1, "missing/x.svg");
+    expect_refused(to("/proc/x.svg"), 1, "/proc/x.svg");
+    expect_refused(to("folder.svg"), 1, "folder.svg");
+    expect_refused(to(std::string(5000, 'a') + ".svg"), 1, "name too long");
+    for (const char* name : {"x", "x.unknown", ".svg", "", "x.svg/", "x.png.", "/dev/stdout"}) {
+        expect_refused(to(name), 2, "-o");
+    }
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"folder.svg"});
+    EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "folder.svg"));
+}
+
+TEST(BadInput, PagesAndLengths) {
+    const TemporaryFolder folder;
+    const auto with = [&](const std::string& option, const std::string& value) {
+        SCOPED_TRACE(option + " " + value);
+        expect_refused(run({"draw", "hilbert", "-o", folder.file("x.svg"), option, value}), 2, option);
+    };
+    for (const char* size : {"0mm", "0x0mm", "0x300mm", "10kmx10km", "10km", "10000000x10000000mm", "-5x5mm",
+                             "nanxnanmm", "infxinfmm", "1e400x1mm", "A9", "", "x", "mm", "10001x1mm", "0.5x5mm"}) {
+        with("--size", size);
+    }
+    for (const char* step : {"nan", "inf", "nanmm", "-1mm", "0", "0mm", "1e308mm", "", "mm", "5km"}) {
+        with("--step", step);
+    }
+    for (const char* margin : {"nan", "-1mm", "105mm", "200mm", "inf", ""}) with("--margin", margin);
+    for (const char* value : {"nan", "inf", "x"}) with("--rotate", value);
+    for (const char* value : {"nan", "inf", "0", "-1", "1e9", "x"}) with("--dpi", value);
+    for (const char* value : {"nan", "-1", "0", "x"}) with("--budget", value);
+    for (const char* value : {"-1", "99999", "x", "1.5"}) with("--jobs", value);
+    EXPECT_TRUE(folder.names().empty());
+    expect_refused(run({"draw", "hilbert", "-o", folder.file("x.png"), "--size", "10x10m", "--dpi", "9999"}), 2, "");
+    expect_refused(run({"draw", "hilbert", "-o", folder.file("x.png"), "--size", "10000x10000mm", "--dpi", "9999"}),
+                   2, "pixels");
+    for (const char* value : {"1e308", "-1e308", "1e-308"}) {
+        expect_sane(run({"draw", "hilbert", "-o", folder.file("x.svg"), "--rotate", value}));
+    }
+    expect_sane(run({"draw", "hilbert", "-o", folder.file("x.svg"), "--step", "1e-308mm"}));
+    expect_sane(run({"draw", "hilbert", "-o", folder.file("x.svg"), "--size", "1x10000mm", "--margin", "0mm"}));
+}
+
+TEST(BadInput, Settings) {
+    for (const char* setting : {"x", "=", "=5", "axiom", ""}) {
+        expect_refused(run({"measure", "hilbert", "--set", setting}), 2, "expected KEY=VALUE");
+    }
+    for (const char* setting : {"n=5", "a=b=c", "axiom=", "derivation length=-1", "derivation length=nan", "seed=x",
+                                "stroke=", "axiom=F\nF", "axiom=F)", "heading=inf", "\xFF=1", "axiom=\xFF"}) {
+        SCOPED_TRACE(setting);
+        expect_refused(run({"measure", "hilbert", "--set", setting}), 2, "--set:1:");
+    }
+    expect_refused(run({"measure", "hilbert", "-n", "-1"}), 2, "-1");
+    expect_refused(run({"measure", "hilbert", "-n", "1000000000"}), 1, "1000000000");
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,625 @@
+// tests/cli_test.cpp: the program as its user meets it: commands, exit statuses, outputs, signals.
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+namespace sikku {
+namespace {
+
+// --- JSON ---------------------------------------------------------------------------------------------------------
+
+/// A value of JSON, as far as `measure --json` needs it. Numbers keep their spelling.
+struct Json {
+    enum class Type { null, boolean, number, string, array, object } type = Type::null;
+    std::string text;  ///< of a number, string or boolean
+    std::vector<Json> items;
+    std::vector<std::pair<std::string, Json>> members;  ///< in order
+
+    const Json& operator[](std::string_view key) const {
+        for (const auto& [name, value] : members) {
+            if (name == key) return value;
+        }
+        throw std::runtime_error("no key " + std::string(key));
+    }
+    double value() const { return std::stod(text); }
+};
+
+class JsonReader {
+public:
+    explicit JsonReader(std::string_view text) : text_(text) {}
+    Json read() {
+        Json result = value();
+        blanks();
+        if (at_ != text_.size()) fail("something follows");
+        return result;
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw std::runtime_error("JSON, byte " + std::to_string(at_) + ": " + what);
+    }
+    void blanks() {
+        while (at_ < text_.size() && std::string_view(" \n\r\t").find(text_[at_]) != std::string_view::npos) ++at_;
+    }
+    bool take(char byte) {
+        blanks();
+        if (at_ >= text_.size() || text_[at_] != byte) return false;
+        ++at_;
+        return true;
+    }
+    void need(char byte) {
+        if (!take(byte)) fail(std::string("expected ") + byte);
+    }
+    std::string string() {
+        need('"');
+        std::string result;
+        for (;;) {
+            if (at_ >= text_.size()) fail("an open string");
+            const char byte = text_[at_++];
+            if (byte == '"') return result;
+            if (static_cast<unsigned char>(byte) < 0x20) fail("a control character in a string");
+            if (byte != '\\') {
+                result += byte;
+                continue;
+            }
+            const char escape = text_[at_++];
+            if (escape == 'u') {
+                result += static_cast<char>(std::stoi(std::string(text_.substr(at_, 4)), nullptr, 16));
+                at_ += 4;
+            } else {
+                result += escape == 'n' ? '\n' : escape == 't' ? '\t' : escape;
+            }
+        }
+    }
+    Json value() {
+        blanks();
+        Json result;
+        if (at_ < text_.size() && text_[at_] == '"') {
+            result.type = Json::Type::string;
+            result.text = string();
+        } else if (take('{')) {
+            result.type = Json::Type::object;
+            if (take('}')) return result;
+            do {
+                blanks();
+                std::string key = string();
+                need(':');
+                result.members.emplace_back(std::move(key), value());
+            } while (take(','));
+            need('}');
+        } else if (take('[')) {
+            result.type = Json::Type::array;
+            if (take(']')) return result;
+            do result.items.push_back(value());
+            while (take(','));
+            need(']');
+        } else {
+            const std::size_t begin = at_;
+            while (at_ < text_.size() && std::string_view(",]} \n").find(text_[at_]) == std::string_view::npos) ++at_;
+            result.text = text_.substr(begin, at_ - begin);
+            if (result.text == "null") return result;
+            if (result.text == "true" || result.text == "false") {
+                result.type = Json::Type::boolean;
+                return result;
+            }
+            result.type = Json::Type::number;
+            double number = 0;
+            const auto [end, error] =
+                std::from_chars(result.text.data(), result.text.data() + result.text.size(), number);
+            if (error != std::errc() || end != result.text.data() + result.text.size()) fail("no number");
+        }
+        return result;
+    }
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+Json measured(const std::vector<std::string>& arguments, const std::string& input = "") {
+    std::vector<std::string> all = {"measure", "--json"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(all, {.input = input});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    if (outcome.status != 0) return {};
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << "one line";
+    return JsonReader(outcome.output).read();
+}
+
+std::string derived(const std::string& pattern, std::vector<std::string> arguments = {}) {
+    arguments.insert(arguments.begin(), {"derive", "-"});
+    const Outcome outcome = run(arguments, {.input = pattern});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return outcome.output;
+}
+
+void expect_failure(const Outcome& outcome, int status, std::string_view message) {
+    EXPECT_EQ(outcome.status, status) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, message));
+    EXPECT_EQ(outcome.output, "");
+}
+
+// --- help, usage, names -------------------------------------------------------------------------------------------
+
+TEST(Program, EveryCommandHasHelpWithExamples) {
+    const Outcome all = run({"--help"});
+    EXPECT_EQ(all.status, 0);
+    for (const char* command : {"draw", "derive", "measure", "patterns", "show", "check", "completion"}) {
+        EXPECT_TRUE(has(all.output, command));
+        const Outcome help = run({command, "--help"});
+        EXPECT_EQ(help.status, 0) << command;
+        EXPECT_TRUE(has(help.output, "Examples:\n  sikku " + std::string(command))) << command;
+        EXPECT_EQ(help.errors, "") << command;
+    }
+    EXPECT_EQ(run({"--version"}).output.substr(0, 6), "sikku ");
+}
+
+TEST(Program, WrongUsageIsTwo) {
+    const std::vector<std::vector<std::string>> wrong = {{},
+                                                         {"paint", "hilbert"},
+                                                         {"measure"},
+                                                         {"measure", "hilbert", "more"},
+                                                         {"measure", "hilbert", "--nonsense"},
+                                                         {"measure", "hilbert", "-n", "x"},
+                                                         {"measure", "hilbert", "-n", "-1"},
+                                                         {"measure", "hilbert", "-n", "1.5"},
+                                                         {"measure", "hilbert", "-n", "9223372036854775808"},
+                                                         {"measure", "hilbert", "--set", "x"},
+                                                         {"measure", "hilbert", "--set", "=1"},
+                                                         {"measure", "hilbert", "--set", "nonsense=1"},
+                                                         {"measure", "hilbert", "--variant", "nonsense"},
+                                                         {"draw", "hilbert"},
+                                                         {"draw", "hilbert", "-o", "x.unknown"},
+                                                         {"draw", "hilbert", "-o", "x.svg", "--fit", "--step", "5mm"},
+                                                         {"completion", "fish"},
+                                                         {"patterns", "nonsense"},
+                                                         {"show"},
+                                                         {"check"}};
+    const TemporaryFolder folder;
+    for (const auto& arguments : wrong) {
+        const Outcome outcome = run(arguments, {.folder = folder.path()});
+        std::string line = "sikku";
+        for (const std::string& argument : arguments) line += " " + argument;
+        EXPECT_EQ(outcome.status, 2) << line << "\n" << outcome.errors;
+        EXPECT_NE(outcome.errors, "") << line;
+        EXPECT_EQ(outcome.output, "") << line;
+    }
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Program, UnknownCommandsAreNamed) {
+    EXPECT_TRUE(has(run({"paint", "hilbert"}).errors, "paint"));
+}
+
+TEST(Program, NamesNearToKnownOnesAreSuggested) {
+    expect_failure(run({"measure", "hilbrt"}), 2, "did you mean 'hilbert'");
+    expect_failure(run({"measure", "snake-kolan"}), 2, "did you mean 'snake-kolam'");
+    expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
+    expect_failure(run({"measure", "-"}, {.input = "axim: F"}), 2, "did you mean 'axiom'");
+    expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
+}
+
+TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("wrong.lsys", "axiom: F\nnonsense: 1\nF --> F)G\n");
+    const Outcome outcome = run({"measure", file});
+    expect_failure(outcome, 2, file + ":2:1: ");
+    EXPECT_TRUE(has(outcome.errors, file + ":3:8: ')' without '('\nF --> F)G\n       ^\n"));
+    // check prints the same, on standard output.
+    const Outcome checked = run({"check", file});
+    EXPECT_EQ(checked.status, 2);
+    EXPECT_TRUE(has(checked.output, file + ":3:8: "));
+    EXPECT_EQ(run({"check", "hilbert", "snake-kolam"}).output, "");
+}
+
+TEST(Program, EveryPatternThatComesAlongPassesItsCheck) {
+    const Outcome names = run({"patterns", "--names"});
+    std::vector<std::string> arguments = {"check"};
+    std::string name;
+    for (const char byte : names.output) {
+        if (byte != '\n') {
+            name += byte;
+            continue;
+        }
+        arguments.push_back(name);
+        name.clear();
+    }
+    EXPECT_GT(arguments.size(), 50U);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, "");
+    for (const char* kind : {"kolams", "tilings", "curves", "plants", "words"}) {
+        EXPECT_TRUE(has(run({"patterns"}).output, std::string(kind) + "\n"));
+        EXPECT_EQ(run({"patterns", kind}).status, 0);
+    }
+}
+
+TEST(Program, PatternsAreFoundFromAnywhere) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(run({"measure", "hilbert"}, {.folder = folder.path()}).status, 0);
+    EXPECT_EQ(run({"measure", "hilbert"}, {.folder = "/"}).status, 0);
+    // Through a link to the program, too, and through PATH.
+    std::filesystem::create_symlink(SIKKU_PROGRAM, folder.path() / "linked");
+    EXPECT_EQ(run({"measure", "hilbert"}, {.program = folder.file("linked")}).status, 0);
+    const std::string bin = std::filesystem::path(SIKKU_PROGRAM).parent_path().string();
+    EXPECT_EQ(run({"measure", "hilbert"}, {.environment = {{"PATH", bin}}, .program = "sikku"}).status, 0);
+}
+
+TEST(Program, PathsNamesAndStandardInput) {
+    const TemporaryFolder folder;
+    folder.write("own.lsys", "title: Own\naxiom: F");
+    folder.write("hilbert", "title: A file called hilbert\naxiom: F");
+    const auto title = [&](const std::string& pattern) {
+        return run({"measure", pattern}, {.folder = folder.path()}).output;
+    };
+    EXPECT_TRUE(has(title("own.lsys"), "Own, n = 0"));
+    EXPECT_TRUE(has(title("./own.lsys"), "Own, n = 0"));
+    EXPECT_TRUE(has(title("hilbert"), "A file called hilbert")) << "a file goes before a name";
+    std::filesystem::remove(folder.path() / "hilbert");
+    std::filesystem::create_directory(folder.path() / "hilbert");
+    EXPECT_TRUE(has(title("hilbert"), "Hilbert curve")) << "a folder is no pattern";
+    EXPECT_TRUE(has(run({"measure", "-"}, {.input = "title: Piped\naxiom: F"}).output, "Piped, n = 0"));
+    expect_failure(run({"measure", "missing.lsys"}), 2, "missing.lsys");
+    expect_failure(run({"measure", folder.path().string()}), 2, "is a folder");
+}
+
+// --- settings -----------------------------------------------------------------------------------------------------
+
+TEST(Program, FileIsOverriddenByVariantBySetByN) {
+    const std::string text =
+        "derivation length: 1\ndefine r = 1\naxiom: F(r)\nF --> F\nvariant v: derivation length = 2, r = 2\n";
+    const auto n_and_length = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> all = {"-"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Json json = measured(all, text);
+        return json["n"].text + " " + json["length"].text;
+    };
+    EXPECT_EQ(n_and_length({}), "1 1.0");
+    EXPECT_EQ(n_and_length({"--variant", "v"}), "2 2.0");
+    EXPECT_EQ(n_and_length({"--variant", "v", "--set", "derivation length=3"}), "3 2.0");
+    EXPECT_EQ(n_and_length({"--variant", "v", "--set", "r=5", "--set", "Derivation  Length=3"}), "3 5.0");
+    EXPECT_EQ(n_and_length({"-n", "4", "--variant", "v", "--set", "derivation length=3"}), "4 2.0");
+    expect_failure(run({"measure", "-", "--variant", "w"}, {.input = text}), 2, "--variant");
+    EXPECT_EQ(measured({"hilbert", "-n", "2", "--set", "axiom=F=F", "--set", "ignore=="})["n"].text, "2");
+}
+
+// --- measure ------------------------------------------------------------------------------------------------------
+
+TEST(Program, MeasureKeepsItsContract) {
+    const Outcome outcome = run({"measure", "snake-kolam", "--json"});
+    ASSERT_EQ(outcome.status, 0);
+    const Json json = JsonReader(outcome.output).read();
+    const std::vector<std::string> keys = {"title", "n",   "symbols", "counts",  "drawn",  "moves", "length",
+                                           "box",   "ink", "end",     "heading", "closed", "depth", "derived"};
+    ASSERT_EQ(json.members.size(), keys.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(json.members[i].first, keys[i]);
+    EXPECT_EQ(outcome.output.substr(0, outcome.output.find("\"box\"")),
+              "{\"title\": \"Snake kolam\", \"n\": 4, \"symbols\": 3239, \"counts\": {\"+\": 683, \"-\": 680, "
+              "\"X\": 512, \"f\": 1364}, \"drawn\": 0, \"moves\": 1364, \"length\": 0.0, ");
+    EXPECT_TRUE(has(outcome.output, "\"box\": [0, 0, 31, 31], \"ink\": null, \"end\": [0, 0], \"heading\": "));
+    EXPECT_TRUE(has(outcome.output, "\"closed\": true, \"depth\": 0, \"derived\": false}\n"));
+    using Type = Json::Type;
+    EXPECT_EQ(json["title"].type, Type::string);
+    EXPECT_EQ(json["counts"].type, Type::object);
+    EXPECT_EQ(json["length"].text, "0.0");
+    EXPECT_EQ(json["heading"].type, Type::number);
+    EXPECT_GE(json["heading"].value(), 0);
+    EXPECT_LT(json["heading"].value(), 360);
+    EXPECT_EQ(json["closed"].type, Type::boolean);
+    double sum = 0;
+    std::string last;
+    for (const auto& [letter, count] : json["counts"].members) {
+        EXPECT_EQ(count.type, Type::number);
+        EXPECT_LT(last, letter) << "sorted";
+        last = letter;
+        sum += count.value();
+    }
+    EXPECT_EQ(sum, json["symbols"].value());
+}
+
+TEST(Program, MeasureTellsBigNumbersAsStrings) {
+    const Json big = measured({"hilbert", "-n", "60"});
+    EXPECT_EQ(big["drawn"].type, Json::Type::string);
+    EXPECT_EQ(big["drawn"].text, "1329227995784915872903807060280344575");  // 4^60 - 1
+    EXPECT_EQ(big["box"].items.size(), 4U);
+    EXPECT_EQ(big["box"].items[0].text, "-1152921504606846975");  // 1 - 2^60
+    EXPECT_EQ(big["box"].items[0].type, Json::Type::string);
+    EXPECT_EQ(big["derived"].text, "false");
+    // 2^53 - 1 is the last number, 2^53 the first string.
+    const std::string doubling = "axiom: A\nA --> AA\n";
+    EXPECT_EQ(measured({"-", "-n", "52"}, doubling)["symbols"].type, Json::Type::number);
+    EXPECT_EQ(measured({"-", "-n", "53"}, doubling)["symbols"].type, Json::Type::string);
+    EXPECT_EQ(measured({"-", "-n", "53"}, doubling)["symbols"].text, "9007199254740992");
+    EXPECT_EQ(measured({"-", "-n", "40000"}, doubling)["symbols"].text, "about 10^12041");
+}
+
+TEST(Program, MeasureInventsNoSegments) {
+    // However long the word: A draws nothing.
+    const Json json = measured({"-", "-n", "40000"}, "axiom: A\nA --> AA\n");
+    EXPECT_EQ(json["drawn"].text, "0");
+    EXPECT_EQ(json["moves"].text, "0");
+    EXPECT_EQ(json["length"].text, "0.0");
+}
+
+TEST(Program, MeasureTellsNumbersBeyondDoubles) {
+    const Json json = measured({"-"}, "axiom: F(1e308)F(1e308)\n");
+    EXPECT_EQ(json["length"].type, Json::Type::string);
+    EXPECT_EQ(json["box"].items.at(3).type, Json::Type::string);
+}
+
+TEST(Program, MeasureOfOneSegment) {
+    const Json json = measured({"-"}, "title: \"a\\b\taxiom\naxiom: [F(2.5)]\n");
+    EXPECT_EQ(json["title"].text, "\"a\\b\taxiom");
+    EXPECT_EQ(json["length"].text, "2.5");
+    ASSERT_EQ(json["ink"].type, Json::Type::array);
+    EXPECT_EQ(json["ink"].items.at(3).text, "2.5");
+    EXPECT_EQ(json["depth"].text, "1");
+    EXPECT_EQ(json["end"].items.at(1).text, "0");
+    EXPECT_EQ(json["counts"]["F"].text, "1");
+    EXPECT_EQ(measured({"-"}, "axiom: AB\nA < B --> F\nderivation length: 1\n")["derived"].text, "true");
+    // symbols and counts are told before, the rest after the interpretation.
+    const Json interpreted = measured({"-"}, "axiom: X\ninterpret:\nX --> FF\n");
+    EXPECT_EQ(interpreted["symbols"].text, "1");
+    EXPECT_EQ(interpreted["counts"].members.size(), 1U);
+    EXPECT_EQ(interpreted["drawn"].text, "2");
+}
+
+// --- derive -------------------------------------------------------------------------------------------------------
+
+TEST(Program, DerivePrintsTheWordAndOneNewline) {
+    EXPECT_EQ(derived("axiom: a\na --> ab\nb --> a\n", {"-n", "5"}), "abaababaabaab\n");
+    EXPECT_EQ(derived("axiom:   F + F  \n"), "F+F\n");
+    EXPECT_EQ(derived("axiom: A\nA --> *\n", {"-n", "1"}), "\n");
+    EXPECT_EQ(derived("symbols: ar al\naxiom: ar al+al\n"), "ar al + al\n");
+    EXPECT_EQ(derived("symbols: ab\naxiom: a bab\n"), "a b ab\n");
+    EXPECT_EQ(derived("axiom: A(1,0.50)F(1/3)+(-60)@O(1e30)\n"), "A(1,0.5)F(0.3333333333333333)+(-60)@O(1e+30)\n");
+    EXPECT_EQ(derived("axiom: X\ninterpret:\nX --> FF\n"), "X\n");
+    EXPECT_EQ(derived("axiom: X\ninterpret:\nX --> FF\n", {"--interpreted"}), "FF\n");
+}
+
+TEST(Program, DerivedWordsReadBack) {
+    const std::vector<std::string> heads = {"", "symbols: Fl Fr ab\n", "symbols: a aa aaa\n"};
+    for (const std::string& head : heads) {
+        const std::string word = derived(head + "axiom: Fl F l Fr(0.1,1e-300)A(1)rF a b aba a a a @O(2)F\n");
+        EXPECT_EQ(derived(head + "axiom: " + word), word);
+    }
+}
+
+TEST(Program, DeriveToAPipeThatIsClosedOrADiskThatIsFull) {
+    const Outcome full = run({"derive", "hilbert", "-n", "9"}, {.output = "/dev/full"});
+    EXPECT_EQ(full.status, 1);
+    EXPECT_NE(full.errors, "");
+    const Outcome measured_full = run({"measure", "hilbert"}, {.output = "/dev/full"});
+    EXPECT_EQ(measured_full.status, 1);
+    EXPECT_NE(measured_full.errors, "");
+    EXPECT_EQ(run({"-c", "\"$0\" derive koch-island -n 8 | head -c 100", SIKKU_PROGRAM}, {.program = "bash"}).status,
+              0);
+}
+
+// --- show ---------------------------------------------------------------------------------------------------------
+
+TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
+    const std::string text = run({"show", "snake-kolam"}).output;
+    EXPECT_EQ(text, contents_of(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/kolams/snake-kolam.lsys"));
+    const TemporaryFolder folder;
+    for (const char* name : {"print.svg", "print.png"}) {
+        ASSERT_EQ(run({"draw", "snake-kolam", "--dpi", "50", "-o", folder.file(name)}).status, 0) << name;
+        const Outcome shown = run({"show", folder.file(name)});
+        EXPECT_EQ(shown.status, 0) << shown.errors;
+        EXPECT_EQ(shown.output, text) << name;
+        EXPECT_TRUE(has(shown.errors, "made with sikku"));
+        EXPECT_EQ(run({"show", "--quiet", folder.file(name)}).errors, "");
+    }
+    // A missing file is said to be missing.
+    EXPECT_TRUE(has(run({"show", folder.file("missing.svg")}).errors, "No such file"));
+    EXPECT_TRUE(has(run({"show", folder.file("missing.png")}).errors, "No such file"));
+    EXPECT_EQ(run({"show", folder.write("other.svg", "<svg/>")}).status, 1);
+}
+
+// --- draw ---------------------------------------------------------------------------------------------------------
+
+TEST(Program, DrawWritesEveryKind) {
+    const TemporaryFolder folder;
+    const std::vector<std::pair<std::string, std::string>> kinds = {
+        {"a.svg", "<?xml"}, {"a.SVG", "<?xml"}, {"a.pdf", "%PDF-"},    {"a.png", "\x89PNG"},
+        {"a.tif", "II*"},   {"a.tiff", "II*"},  {"a.jpg", "\xFF\xD8"}, {"a.exr", "\x76\x2F\x31\x01"}};
+    for (const auto& [name, head] : kinds) {
+        const Outcome outcome = run({"draw", "hilbert", "-o", folder.file(name), "--dpi", "40"});
+        EXPECT_EQ(outcome.status, 0) << name << outcome.errors;
+        EXPECT_EQ(outcome.output + outcome.errors, "") << name;
+        EXPECT_EQ(contents_of(folder.file(name)).substr(0, head.size()), head) << name;
+    }
+    EXPECT_EQ(folder.names().size(), kinds.size()) << "nothing is left beside the prints";
+}
+
+TEST(Program, TheSameBytesEveryTime) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<std::pair<std::string, std::string>>> worlds = {
+        {},
+        {{"LC_ALL", "de_DE.UTF-8"}, {"LANG", "de_DE.UTF-8"}},
+        {{"LC_ALL", "C"}, {"TZ", "Asia/Kolkata"}, {"SOURCE_DATE_EPOCH", "1"}}};
+    for (const char* ending : {".svg", ".pdf", ".png", ".tif", ".jpg"}) {
+        std::set<std::string> seen;
+        for (std::size_t i = 0; i < worlds.size(); ++i) {
+            const std::string file = folder.file(std::to_string(i) + ending);
+            const Outcome outcome = run({"draw", "plant-d", "-o", file, "--dpi", "50", "-j", std::to_string(i)},
+                                        {.environment = worlds[i]});
+            ASSERT_EQ(outcome.status, 0) << outcome.errors;
+            seen.insert(contents_of(file));
+        }
+        EXPECT_EQ(seen.size(), 1U) << ending;
+    }
+    for (const auto& command : std::vector<std::vector<std::string>>{
+             {"measure", "plant-d"}, {"measure", "--json", "plant-d"}, {"derive", "plant-d"}, {"patterns"}}) {
+        std::set<std::string> seen;
+        for (const auto& world : worlds) seen.insert(run(command, {.environment = world}).output);
+        EXPECT_EQ(seen.size(), 1U) << command.front();
+    }
+}
+
+TEST(Program, GrowthThatCannotBePaidForIsRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run({"draw", "hilbert", "-n", "40", "-o", folder.file("x.svg")});
+    expect_failure(outcome, 1, "4029752732048763915687251");
+    EXPECT_TRUE(has(outcome.errors, "largest derivation length that fits is 12"));
+    EXPECT_LT(outcome.seconds, sanitized ? 2 : 0.2);
+    const Outcome huge = run({"draw", "hilbert", "-n", "40000", "-o", folder.file("x.svg")});
+    expect_failure(huge, 1, "about 10^24082");
+    EXPECT_LT(huge.seconds, sanitized ? 5 : 0.5);
+    const Outcome small = run({"draw", "hilbert", "--budget", "1000", "-o", folder.file("x.svg")});
+    expect_failure(small, 1, "largest derivation length that fits is 4");
+    EXPECT_EQ(run({"draw", "hilbert", "-n", "4", "--budget", "1000", "-o", folder.file("y.svg")}).status, 0);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"y.svg"});
+    // A pipe has no budget.
+    EXPECT_EQ(
+        run({"-c", "\"$0\" derive hilbert -n 40 | head -c 100000000 | wc -c", SIKKU_PROGRAM}, {.program = "bash"})
+            .output,
+        "100000000\n");
+}
+
+TEST(Program, WhatWasThereSurvivesAFailure) {
+    const TemporaryFolder folder;
+    const auto keeps = [&](const std::vector<std::string>& arguments, int status, Surroundings surroundings = {}) {
+        const std::string file = folder.write("print.svg", "what was there");
+        std::vector<std::string> all = {"draw", "-o", file};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = run(all, std::move(surroundings));
+        EXPECT_EQ(outcome.status, status) << outcome.errors;
+        EXPECT_NE(outcome.errors, "");
+        EXPECT_EQ(contents_of(file), "what was there");
+        EXPECT_EQ(folder.names(), std::vector<std::string>{"print.svg"});
+    };
+    keeps({"hilbert", "-n", "40"}, 1);
+    keeps({"-"}, 2, {.input = "axiom: F]"});
+    keeps({"-"}, 2, {.input = "axiom: FF@O(1/0)"});
+    keeps({"-"}, 1, {.input = "axiom: A"});
+    keeps({"-"}, 2, {.input = "axiom: F --> F"});
+    keeps({"hilbert", "--size", "0x0mm"}, 2);
+    // A disk that is full after 100 kB.
+    keeps({"hilbert", "-n", "9"}, 1, {.file_size = 100'000});
+    // A folder that cannot be written to, and one that is not there.
+    EXPECT_EQ(run({"draw", "hilbert", "-o", folder.file("missing/print.svg")}).status, 1);
+    EXPECT_EQ(run({"draw", "hilbert", "-o", "/proc/print.svg"}).status, 1);
+}
+
+TEST(Program, AFullDiskLeavesNoFileOfAnyKind) {
+    for (const char* name : {"a.svg", "a.pdf", "a.png", "a.tif"}) {
+        const TemporaryFolder folder;
+        const Outcome outcome =
+            run({"draw", "hilbert", "-n", "9", "--dpi", "300", "-o", folder.file(name)}, {.file_size = 20'000});
+        EXPECT_EQ(outcome.status, 1) << name << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, folder.file(name))) << "the message names the file";
+        EXPECT_TRUE(folder.names().empty()) << name;
+    }
+}
+
+TEST(Program, ModesAndLinksAreKept) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("print.svg", "old");
+    std::filesystem::permissions(file, std::filesystem::perms(0640));
+    std::filesystem::create_symlink("print.svg", folder.path() / "link.svg");
+    ASSERT_EQ(run({"draw", "hilbert", "-o", folder.file("link.svg")}).status, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.svg"));
+    EXPECT_EQ(contents_of(file).substr(0, 5), "<?xml");
+    EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms(0640));
+}
+
+void interrupt_in_mid_work(int signal, const char* name) {
+    const TemporaryFolder folder;
+    Child child({"draw", "koch-island", "-n", "10", "--budget", "1e15", "-o", name}, {.folder = folder.path()});
+    for (int i = 0; i < 2000 && folder.names().empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ASSERT_FALSE(folder.names().empty()) << "it never began to write";
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    child.send(signal);
+    const auto sent = std::chrono::steady_clock::now();
+    const Outcome outcome = child.wait();
+    EXPECT_LT(std::chrono::steady_clock::now() - sent, std::chrono::seconds(5));
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_LT(outcome.status, 128 + SIGKILL + 1) << "ended by itself";
+    EXPECT_TRUE(has(outcome.errors, "interrupted"));
+    EXPECT_TRUE(folder.names().empty()) << folder.names().front();
+}
+
+TEST(Program, ControlCLeavesNothing) {
+    interrupt_in_mid_work(SIGINT, "print.svg");
+    interrupt_in_mid_work(SIGTERM, "print.svg");
+    interrupt_in_mid_work(SIGINT, "print.pdf");
+}
+
+TEST(Program, ControlCLeavesWhatWasThere) {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("print.svg", "what was there");
+    Child child({"draw", "koch-island", "-n", "10", "--budget", "1e15", "-o", file});
+    for (int i = 0; i < 2000 && folder.names().size() < 2; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    child.send(SIGINT);
+    EXPECT_NE(child.wait().status, 0);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"print.svg"});
+    EXPECT_EQ(contents_of(file), "what was there");
+}
+
+TEST(Program, NoProgressIntoAPipe) {
+    const Outcome outcome =
+        run({"-c", "\"$0\" derive hilbert -n 10 > /dev/null", SIKKU_PROGRAM}, {.program = "bash"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.errors, "");
+}
+
+TEST(Program, WarningsAreToldUnlessQuiet) {
+    const std::string text = "axiom: F // F\n";
+    EXPECT_TRUE(has(run({"derive", "-"}, {.input = text}).errors, "-:1:10: warning: "));
+    EXPECT_EQ(run({"derive", "-", "--quiet"}, {.input = text}).errors, "");
+    EXPECT_EQ(run({"-q", "derive", "-"}, {.input = text}).errors, "");
+    EXPECT_EQ(run({"check", "-"}, {.input = text}).status, 0) << "a warning is no mistake";
+    const TemporaryFolder folder;
+    const Outcome cut = run({"draw", "hilbert", "--step", "5cm", "-o", folder.file("a.svg")});
+    EXPECT_EQ(cut.status, 0);
+    EXPECT_TRUE(has(cut.errors, "warning: the drawing is"));
+}
+
+// --- completion ---------------------------------------------------------------------------------------------------
+
+std::set<std::string> completed(const std::vector<std::string>& words) {
+    std::string line = "source <(\"$0\" completion bash); COMP_WORDS=(";
+    for (const std::string& word : words) line += "'" + word + "' ";
+    line += "); COMP_CWORD=" + std::to_string(words.size() - 1) + "; _sikku; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const std::string bin = std::filesystem::path(SIKKU_PROGRAM).parent_path().string();
+    const TemporaryFolder folder;
+    folder.write("snake-file.lsys", "axiom: F");
+    const Outcome outcome =
+        run({"-c", line, SIKKU_PROGRAM},
+            {.folder = folder.path(), .environment = {{"PATH", bin + ":" + getenv("PATH")}}, .program = "bash"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.errors, "");
+    std::set<std::string> found;
+    std::string word;
+    for (const char byte : outcome.output) {
+        if (byte != '\n') {
+            word += byte;
+            continue;
+        }
+        if (!word.empty()) found.insert(word);
+        word.clear();
+    }
+    return found;
+}
+
+TEST(Program, CompletionLoadsAndCompletes) {
+    EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
+    EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
+    EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
+    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--set", "--size", "--step", "--steps"}));
+    const auto patterns = completed({"sikku", "draw", "snake"});
+    EXPECT_TRUE(patterns.contains("snake-kolam"));
+    EXPECT_TRUE(patterns.contains("snake-file.lsys"));
+}
+
+}  // namespace
+}  // namespace sikku

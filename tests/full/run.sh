@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# What needs heavy tools: the fuzz targets for a minute each (clang), an SVG through Inkscape.
+# usage: tests/full/run.sh PROGRAM
+set -euo pipefail
+[ $# -eq 1 ] || { echo "usage: tests/full/run.sh PROGRAM" >&2; exit 2; }
+program=$(realpath "$1")
+cd "$(dirname "$0")/../.."
+seconds=${FUZZ_SECONDS:-60}
+
+if command -v clang++ > /dev/null; then
+    mkdir -p build
+    cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
+    cmake --build --preset fuzz -j "$(nproc)" --target pattern_fuzz derivation_fuzz
+    for target in pattern_fuzz derivation_fuzz; do
+        corpus=build/fuzz/corpus-$target
+        mkdir -p "$corpus"
+        echo "fuzzing: $target for $seconds s"
+        # What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
+        build/fuzz/bin/"$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
+            -dict=tests/fuzz/words.dict -artifact_prefix="build/fuzz/$target-" \
+            "$corpus" tests/corpus/good tests/corpus/bad patterns/*/ > "build/fuzz/$target.log" 2>&1 ||
+            { tail -n 60 "build/fuzz/$target.log"; echo "$target failed: see build/fuzz/"; exit 1; }
+        tail -n 1 "build/fuzz/$target.log"
+    done
+else
+    echo "skipped: fuzzing (clang is not installed)"
+fi
+
+if command -v inkscape > /dev/null; then
+    folder=$(mktemp -d)
+    trap 'rm -rf "$folder"' EXIT
+    for pattern in snake-kolam bag-of-candies hexagonal-tiling; do
+        "$program" draw "$pattern" --size 100x100mm -o "$folder/$pattern.svg"
+        inkscape "$folder/$pattern.svg" --export-dpi=96 --export-filename="$folder/$pattern.png" 2> "$folder/log" ||
+            { cat "$folder/log"; echo "inkscape cannot export $pattern.svg"; exit 1; }
+        # 100 mm at 96 dpi are 378 pixels; bytes 16 to 23 of a PNG are its width and height.
+        size=$(od -An -t u1 -j 16 -N 8 "$folder/$pattern.png" | tr -s ' ')
+        [ "$size" = " 0 0 1 122 0 0 1 122" ] || { echo "inkscape made $pattern.png of size$size"; exit 1; }
+        echo "inkscape: $pattern.svg is 378 x 378 pixels"
+    done
+else
+    echo "skipped: export through Inkscape (it is not installed)"
+fi

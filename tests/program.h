@@ -1,0 +1,207 @@
+// tests/program.h: runs the program as a child process, as a user's shell would.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+/// Takes bytes for standard input; false once nobody reads any more.
+using Feed = std::function<bool(std::string_view bytes)>;
+
+/// What the program is started with.
+struct Surroundings {
+    std::string input = {};
+    std::function<void(const Feed&)> feed = {};  ///< instead of `input`, where that would be large
+    std::filesystem::path folder = {};           ///< working directory
+    std::vector<std::pair<std::string, std::string>> environment = {};
+    std::optional<rlim_t> file_size = {};  ///< most bytes a file may get: a disk that is full
+    std::string output = {};               ///< standard output goes to this file
+    std::string program = SIKKU_PROGRAM;
+    unsigned seconds = 30;  ///< then it is killed
+};
+
+/// What became of it.
+struct Outcome {
+    int status = -1;  ///< exit status; 128 + n if signal n ended it
+    std::string output;
+    std::string errors;
+    double seconds = 0.0;  ///< processor time
+    long peak = 0;         ///< kilobytes
+};
+
+/// A running program.
+class Child {
+public:
+    explicit Child(const std::vector<std::string>& arguments, Surroundings surroundings = {})
+        : surroundings_(std::move(surroundings)) {
+        // A child that ends early must not take the test with it.
+        std::signal(SIGPIPE, SIG_IGN);
+        output_ = memfd_create("output", MFD_CLOEXEC);
+        errors_ = memfd_create("errors", MFD_CLOEXEC);
+        int ends[2] = {-1, -1};
+        if (pipe2(ends, O_CLOEXEC) != 0) std::abort();
+        std::vector<std::string> words = {surroundings_.program};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        process_ = fork();
+        if (process_ == 0) {
+            if (!surroundings_.folder.empty() && chdir(surroundings_.folder.c_str()) != 0) _exit(126);
+            const int standard_output =
+                surroundings_.output.empty() ? output_ : open(surroundings_.output.c_str(), O_WRONLY);
+            dup2(ends[0], STDIN_FILENO);
+            dup2(standard_output, STDOUT_FILENO);
+            dup2(errors_, STDERR_FILENO);
+            for (const auto& [name, value] : surroundings_.environment) setenv(name.c_str(), value.c_str(), 1);
+            std::signal(SIGPIPE, SIG_DFL);
+            if (surroundings_.file_size) {
+                const rlimit limit{*surroundings_.file_size, *surroundings_.file_size};
+                std::signal(SIGXFSZ, SIG_IGN);
+                setrlimit(RLIMIT_FSIZE, &limit);
+            }
+            alarm(surroundings_.seconds);
+            execvp(pointers[0], pointers.data());
+            _exit(127);
+        }
+        close(ends[0]);
+        input_ = ends[1];
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    ~Child() {
+        if (process_ > 0) {
+            kill(process_, SIGKILL);
+            waitpid(process_, nullptr, 0);
+        }
+        for (const int descriptor : {input_, output_, errors_}) {
+            if (descriptor >= 0) close(descriptor);
+        }
+    }
+
+    void send(int signal) const { kill(process_, signal); }
+
+    /// Hands over standard input and waits for the end.
+    Outcome wait() {
+        const Feed feed = [this](std::string_view bytes) {
+            while (!bytes.empty()) {
+                const ssize_t written = write(input_, bytes.data(), bytes.size());
+                if (written <= 0) return false;
+                bytes.remove_prefix(static_cast<std::size_t>(written));
+            }
+            return true;
+        };
+        if (surroundings_.feed) {
+            surroundings_.feed(feed);
+        } else {
+            feed(surroundings_.input);
+        }
+        close(input_);
+        input_ = -1;
+        int state = 0;
+        rusage usage = {};
+        wait4(process_, &state, 0, &usage);
+        process_ = -1;
+        Outcome outcome;
+        outcome.status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+        outcome.output = contents(output_);
+        outcome.errors = contents(errors_);
+        const auto time = [](const timeval& value) {
+            return static_cast<double>(value.tv_sec) + 1e-6 * static_cast<double>(value.tv_usec);
+        };
+        outcome.seconds = time(usage.ru_utime) + time(usage.ru_stime);
+        outcome.peak = usage.ru_maxrss;
+        return outcome;
+    }
+
+private:
+    static std::string contents(int descriptor) {
+        std::string text;
+        char block[4096];
+        off_t at = 0;
+        for (ssize_t got = 0; (got = pread(descriptor, block, sizeof block, at)) > 0; at += got) {
+            text.append(block, static_cast<std::size_t>(got));
+        }
+        return text;
+    }
+
+    Surroundings surroundings_;
+    pid_t process_ = -1;
+    int input_ = -1;
+    int output_ = -1;
+    int errors_ = -1;
+};
+
+inline Outcome run(const std::vector<std::string>& arguments, Surroundings surroundings = {}) {
+    return Child(arguments, std::move(surroundings)).wait();
+}
+
+/// A folder of its own, removed in the end.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "sikku-test-XXXXXX").string();
+        if (!mkdtemp(name.data())) std::abort();
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code error;
+        std::filesystem::remove_all(path_, error);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+    std::string write(const std::string& name, std::string_view text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+        return file(name);
+    }
+    std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+            names.push_back(entry.path().filename().string());
+        }
+        return names;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string contents_of(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline ::testing::AssertionResult has(const std::string& text, std::string_view part) {
+    if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << "no '" << part << "' in: " << text.substr(0, 2000);
+}
+
+}  // namespace sikku
