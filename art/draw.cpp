@@ -206,7 +206,8 @@ std::string image_format(PrintFormat format) {
     }
 }
 
-void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& options, OutputFile& output) {
+void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& options, OutputFile& output,
+                 const std::filesystem::path& file) {
     const auto raster = make_raster(print);
     drawer.read(*raster);
     const PixelSize size = pixel_size(print.page, print.dpi);
@@ -220,12 +221,20 @@ void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& op
     spec.title = print.title;
     spec.description = print.pattern;
     spec.software = print.made;
-    const auto image = open_image(output.temporary(), spec);
+    // What the library says of a failure does not name the file.
+    const auto named = [&](auto&& write) {
+        try {
+            return write();
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
+        }
+    };
+    const auto image = named([&] { return open_image(output.temporary(), spec); });
     raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
         if (options.watch) options.watch(0);
-        image->rows(first_row, rows, pixels);
+        named([&] { image->rows(first_row, rows, pixels); });
     });
-    image->close();
+    named([&] { image->close(); });
 }
 
 }  // namespace
@@ -264,7 +273,7 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, c
             break;
         }
         default:
-            draw_pixels(drawer, print, options, output);
+            draw_pixels(drawer, print, options, output, file);
             break;
     }
     output.commit();

@@ -17,7 +17,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_bytes = (std::size_t{64} << 20) + 1;  // one more than a pattern may have
+constexpr std::size_t most_bytes = most_pattern_bytes + 1;  // enough to see that it is too long
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -53,12 +53,20 @@ void add_pattern_options(CLI::App& command, PatternOptions& options) {
         .add_option("PATTERN", options.pattern,
                     "A pattern file, the name of one that comes along, or - for standard input")
         ->required();
-    command.add_option("-n,--steps", options.steps, "Derivation length, instead of the pattern's")
-        ->check(CLI::Range(std::int64_t{0}, INT64_MAX));
+    command.add_option("-n,--steps", options.steps, "Derivation length, instead of the pattern's")->type_name("N");
     command.add_option("--set", options.settings, "KEY=VALUE: another value for a key or a define of the pattern")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command.add_option("--variant", options.variant, "One of the pattern's variants");
+}
+
+void add_budget_option(CLI::App& command, double& budget) {
+    command.add_option("--budget", budget, "Most nodes of the derivation that are visited")
+        ->check([](const std::string& text) {
+            double value = 0;
+            return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
+        })
+        ->capture_default_str();
 }
 
 std::vector<KnownPattern> known_patterns() {
@@ -115,7 +123,7 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
         }
         settings.push_back({"--set", text.substr(0, equals), text.substr(equals + 1)});
     }
-    if (options.steps) settings.push_back({"-n", "derivation length", fmt::format("{}", *options.steps)});
+    if (!options.steps.empty()) settings.push_back({"-n", "derivation length", options.steps});
     PatternText text = read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     LoadedPattern loaded;

@@ -31,11 +31,14 @@ bool interrupted();
 /// Options of every command that takes a pattern.
 struct PatternOptions {
     std::string pattern;
-    std::optional<std::int64_t> steps;
+    std::string steps;
     std::vector<std::string> settings;
     std::string variant;
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
+
+/// `--budget`, with its default of 200 million nodes.
+void add_budget_option(CLI::App& command, double& budget);
 
 /// A pattern read, overridden and compiled; warnings were told on standard error.
 struct LoadedPattern {

@@ -17,7 +17,7 @@ struct Options {
     bool landscape = false;
     std::string margin = "10mm";
     bool fit = false;
-    std::string step;
+    std::optional<std::string> step;
     double rotate = 0.0;
     bool mirror = false;
     double dpi = 300.0;
@@ -82,10 +82,10 @@ void run(const Options& options, bool quiet) {
     drawing.format = *format;
     drawing.placement.rotate = options.rotate;
     drawing.placement.mirror = options.mirror;
-    if (!options.step.empty()) {
-        drawing.placement.step = length("--step", options.step, options.dpi);
+    if (options.step) {
+        drawing.placement.step = length("--step", *options.step, options.dpi);
         if (!(*drawing.placement.step > 0 && *drawing.placement.step <= 10'000)) {
-            throw UsageError(fmt::format("--step {}: a step is above 0 and at most 10 m long", options.step));
+            throw UsageError(fmt::format("--step {}: a step is above 0 and at most 10 m long", *options.step));
         }
     }
     drawing.threads = options.threads;
@@ -96,7 +96,7 @@ void run(const Options& options, bool quiet) {
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
     diagnostics.throw_if_errors();
     print.title = loaded.pattern.text("title");
-    print.pattern = loaded.pattern.source->text;
+    print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
     if (loaded.grammar.whole_word_steps() > 0) {
         drawing.budget = std::min(drawing.budget, static_cast<double>(memory_budget()));
@@ -133,9 +133,7 @@ void add_draw(CLI::App& app, bool& quiet) {
     command->add_flag("--mirror", options->mirror, "Left and right exchanged, before --rotate");
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
         ->capture_default_str();
-    command->add_option("--budget", options->budget, "Most nodes of the derivation that are visited")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    add_budget_option(*command, options->budget);
     command->add_option("-j,--jobs", options->threads, "Threads for pictures; 0: one for each core")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();

@@ -30,8 +30,21 @@ void catch_signals() {
 }
 
 int fail(int status, const char* message) {
-    fmt::print(stderr, "sikku: {}\n", message);
+    fmt::print(stderr, "sikku: {}\n", sikku::printable(message, 2000));
     return status;
+}
+
+/// CLI11 alone would only say that a command is missing.
+void require_command(const CLI::App& app, const std::string& wanted) {
+    std::vector<std::string_view> names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+        if (names.back() == wanted) return;
+    }
+    const std::string_view near = sikku::nearest(wanted, names);
+    throw sikku::UsageError(
+        fmt::format("there is no command '{}'{}", sikku::printable(wanted, 80),
+                    near.empty() ? "; `sikku --help` lists them" : fmt::format("; did you mean '{}'?", near)));
 }
 
 }  // namespace
@@ -59,6 +72,7 @@ int main(int argc, char** argv) {
     add_completion(app);
     app.footer("`sikku COMMAND --help` tells more, with examples.");
     try {
+        if (argc > 1 && argv[1][0] != '-') require_command(app, argv[1]);
         app.parse(argc, argv);
         if (std::fflush(stdout) != 0) return fail(1, "standard output cannot be written");
         return 0;

@@ -79,7 +79,7 @@ std::string plain(const std::array<Quantity, Size>& list) {
 }
 
 std::string prose(const std::string& title, const Measurement& m) {
-    std::string text = fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : title, m.n);
+    std::string text = fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), m.n);
     const auto line = [&](std::string_view name, const std::string& value) {
         text += fmt::format("{:<9}{}\n", name, value);
     };
@@ -115,9 +115,7 @@ void add_measure(CLI::App& app, bool& quiet) {
     auto budget = std::make_shared<double>(200e6);
     add_pattern_options(*command, *options);
     command->add_flag("--json", *as_json, "One line of JSON, for programs");
-    command->add_option("--budget", *budget, "Most nodes visited where the word has to be walked")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    add_budget_option(*command, *budget);
     command->footer(
         "In unit steps of the turtle, which starts at 0 0. Systems without contexts are not derived:\n"
         "order 60 costs as little as order 6.\n\n"

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 
 namespace sikku {
 namespace {
@@ -39,21 +41,31 @@ void list_patterns(const std::string& kind, bool names_only) {
         throw UsageError(kind.empty() ? "no patterns were found" : fmt::format("there are no patterns '{}'", kind));
 }
 
+bool is_picture(const std::string& name) {
+    constexpr std::array<std::string_view, 6> endings = {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"};
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](std::string_view ending) { return ends_with_caseless(name, ending); });
+}
+
 void show(const std::string& what, bool quiet) {
     Provenance found;
+    const bool is_print = ends_with_caseless(what, ".svg") || is_picture(what);
+    if (std::error_code error; is_print && !std::filesystem::exists(what, error)) {
+        throw UsageError(what + ": no such file");
+    }
     if (ends_with_caseless(what, ".svg")) {
         const auto provenance = svg_provenance(what);
         if (!provenance) throw std::runtime_error(what + ": this is no SVG of sikku's");
         found = *provenance;
-    } else if (ends_with_caseless(what, ".png") || ends_with_caseless(what, ".tif") ||
-               ends_with_caseless(what, ".tiff") || ends_with_caseless(what, ".jpg") ||
-               ends_with_caseless(what, ".jpeg") || ends_with_caseless(what, ".exr")) {
+    } else if (is_picture(what)) {
         const auto text = read_image_text(what);
         if (!text) throw std::runtime_error(what + ": this cannot be read as an image");
         if (text->description.empty()) throw std::runtime_error(what + ": this image holds no pattern");
         found = {text->description, text->software};
     } else {
-        found.pattern = read_pattern_text(what).text;
+        PatternText text = read_pattern_text(what);
+        if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
+        found.pattern = std::move(text.text);
     }
     std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
     if (!found.made.empty() && !quiet) fmt::print(stderr, "made with {}\n", found.made);

@@ -21,13 +21,15 @@ bool is_blank(char byte) {
 }
 
 /// Comments, continued line ends, carriage returns before a line end and a byte order mark become blanks, so that
-/// offsets stay those of the file.
-std::string clean(const std::string& text) {
-    std::string cleaned = text;
+/// offsets stay those of the file. `open_comment`: where a comment without end begins.
+std::string clean(const std::string& text, std::size_t& open_comment) {
+    std::string cleaned;  // a copy from the first change on
     const auto blank = [&](std::size_t begin, std::size_t end) {
+        if (cleaned.empty()) cleaned = text;
         std::fill(cleaned.begin() + static_cast<std::ptrdiff_t>(begin),
                   cleaned.begin() + static_cast<std::ptrdiff_t>(end), ' ');
     };
+    const auto at_byte = [&](std::size_t i) { return cleaned.empty() ? text[i] : cleaned[i]; };
     std::size_t at = 0;
     if (text.starts_with("\xEF\xBB\xBF")) {
         blank(0, 3);
@@ -39,30 +41,31 @@ std::string clean(const std::string& text) {
         if (byte == '\n') {
             std::size_t last = at;
             if (last > 0 && text[last - 1] == '\r') blank(--last, at);
-            if (last >= 2 && cleaned[last - 1] == '\\' && is_blank(cleaned[last - 2])) {
+            if (last >= 2 && at_byte(last - 1) == '\\' && is_blank(at_byte(last - 2))) {
                 blank(last - 1, at + 1);
             } else {
                 only_blanks = true;
             }
             ++at;
         } else if (byte == '/' && text.compare(at, 2, "//") == 0 && only_blanks) {
-            std::size_t end = text.find('\n', at);
-            if (end == std::string::npos) end = text.size();
+            const std::size_t end = std::min(text.find('\n', at), text.size());
             blank(at, end);
             at = end;
         } else if (byte == '/' && text.compare(at, 2, "/*") == 0) {
             const std::size_t close = text.find("*/", at + 2);
-            const std::size_t end = close == std::string::npos ? text.size() : close + 2;
-            // An unterminated comment is left as it is, so that the parser meets and reports it.
-            if (close == std::string::npos) break;
-            blank(at, end);
-            at = end;
+            if (close == std::string::npos) {
+                open_comment = at;
+                blank(at, text.size());
+                break;
+            }
+            blank(at, close + 2);
+            at = close + 2;
         } else {
             if (!is_blank(byte)) only_blanks = false;
             ++at;
         }
     }
-    if (cleaned.ends_with('\r')) cleaned.back() = ' ';
+    if (text.ends_with('\r')) blank(text.size() - 1, text.size());
     return cleaned;
 }
 
@@ -80,24 +83,24 @@ std::string excerpt(const std::string& text, std::size_t at) {
     std::string line;
     std::string caret;
     int columns = 0;
+    if (begin == 0 && text.starts_with("\xEF\xBB\xBF")) begin = 3;
     for (std::size_t i = begin; i < text.size() && text[i] != '\n' && columns < 80;) {
+        // A column is a byte that continues nothing, with what continues it: as place() counts.
         std::size_t end = i + 1;
         while (end < text.size() && is_continuation(text[end])) ++end;
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t needed = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
-        if (text[i] == '\r') {
-            i = end;
-            continue;
+        if (text[i] != '\r') {
+            const std::string_view point = std::string_view(text).substr(i, end - i);
+            const auto lead = static_cast<unsigned char>(text[i]);
+            if (lead == '\t') {
+                line += ' ';
+            } else if (lead < 0x20 || lead == 0x7F || utf8_length(point) != point.size()) {
+                line += '?';
+            } else {
+                line += point;
+            }
+            if (i < at) caret += ' ';
+            ++columns;
         }
-        if (lead == '\t') {
-            line += ' ';
-        } else if (lead < 0x20 || lead == 0x7F || needed != end - i) {
-            line += '?';
-        } else {
-            line.append(text, i, end - i);
-        }
-        if (i < at) caret += ' ';
-        ++columns;
         i = end;
     }
     return line + '\n' + caret + '^';
@@ -116,26 +119,26 @@ std::string text_of(const std::vector<Diagnostic>& list, std::size_t errors) {
 }  // namespace
 
 Source::Source(std::string given_name, std::string given_text)
-    : name(std::move(given_name)), text(std::move(given_text)), cleaned(clean(text)) {}
+    : name_(std::move(given_name)), text_(std::move(given_text)), cleaned_(clean(text_, open_comment_)) {}
 
 Place Source::place(std::size_t at) const {
-    at = std::min(at, text.size());
-    const auto begin = text.begin();
+    at = std::min(at, text_.size());
+    const auto begin = text_.begin();
     const auto here = begin + static_cast<std::ptrdiff_t>(at);
-    const std::size_t newline = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+    const std::size_t newline = at == 0 ? std::string::npos : text_.rfind('\n', at - 1);
     std::size_t line_begin = newline == std::string::npos ? 0 : newline + 1;
-    if (line_begin == 0 && text.starts_with("\xEF\xBB\xBF") && at >= 3) line_begin = 3;
+    if (line_begin == 0 && text_.starts_with("\xEF\xBB\xBF") && at >= 3) line_begin = 3;
     const auto columns = std::count_if(begin + static_cast<std::ptrdiff_t>(line_begin), here,
                                        [](char byte) { return !is_continuation(byte); });
     return {static_cast<int>(std::count(begin, here, '\n')) + 1, static_cast<int>(columns) + 1};
 }
 
 std::string_view Span::view() const {
-    return source ? std::string_view(source->cleaned).substr(at, length) : std::string_view();
+    return source ? source->cleaned().substr(at, length) : std::string_view();
 }
 
 Span Span::part(std::size_t begin, std::size_t count) const {
-    begin = std::min(begin, length);
+    begin = std::min<std::size_t>(begin, length);
     return {source, at + begin, std::min(count, length - begin)};
 }
 
@@ -153,15 +156,15 @@ std::string Diagnostic::text() const {
                        excerpt);
 }
 
-void Diagnostics::add(const Span& where, std::string message, bool warning) {
+void Diagnostics::add(const Span& where, const std::string& message, bool warning) {
     if (!warning && ++errors_ > most_errors) return;
     if (warning && list_.size() >= 2 * most_errors) return;
     if (!where.source) {
-        list_.push_back({"", {}, std::move(message), "", warning});
+        list_.push_back({"", {}, printable(message), "", warning});
         return;
     }
-    list_.push_back({where.source->name, where.source->place(where.at), std::move(message),
-                     excerpt(where.source->text, where.at), warning});
+    list_.push_back({printable(where.source->name()), where.source->place(where.at), printable(message),
+                     excerpt(where.source->text(), where.at), warning});
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
@@ -201,6 +204,49 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
         }
     }
     return best;
+}
+
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return 1;
+    const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+    if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if (!is_continuation(text[i])) return 0;
+    }
+    const unsigned second = byte(1);
+    const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+    const bool beyond = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
+    return overlong || beyond ? 0 : length;
+}
+
+std::string printable(std::string_view text, std::size_t most) {
+    std::string result;
+    const auto append = [&](std::size_t begin, std::size_t end) {
+        while (begin < end) {
+            const std::size_t length = utf8_length(text.substr(begin));
+            const auto byte = static_cast<unsigned char>(text[begin]);
+            const bool control = byte < 0x20 || byte == 0x7F ||
+                                 (length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[begin + 1]) < 0xA0);
+            if (length == 0 || (control && byte != '\n')) {
+                result += '?';
+            } else {
+                result += text.substr(begin, length);
+            }
+            begin += std::max<std::size_t>(length, 1);
+        }
+    };
+    if (text.size() <= most) {
+        append(0, text.size());
+    } else {
+        std::size_t tail = text.size() - most / 2;
+        while (tail < text.size() && is_continuation(text[tail])) ++tail;
+        append(0, most / 2);
+        result += " … ";
+        append(tail, text.size());
+    }
+    return result;
 }
 
 bool read_number(std::string_view text, double& value) {

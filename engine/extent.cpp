@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace sikku {
@@ -81,8 +82,23 @@ Fold as_fold(const Survey& survey) {
     return fold;
 }
 
-Quantity about(double log10) {
-    return {std::pow(10.0, log10), fmt::format("about 10^{:.0f}", std::floor(log10))};
+/// The number of those symbols of a word that `counted` picks, of a word too long to be counted exactly.
+template <class Counted>
+Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted) {
+    double value = 0;
+    double largest = -std::numeric_limits<double>::infinity();
+    double parts = 0;
+    for (std::size_t i = 0; i < forecast.rough_counts.size(); ++i) {
+        const double times = counted(grammar.symbols()[i].command);
+        if (times == 0 || forecast.rough_counts[i] == 0) continue;
+        value += times * forecast.rough_counts[i];
+        const double log10 = forecast.log10_counts[i] + std::log10(times);
+        parts =
+            log10 > largest ? parts * std::pow(10.0, largest - log10) + 1 : parts + std::pow(10.0, log10 - largest);
+        largest = std::max(largest, log10);
+    }
+    if (value < 0x1p53) return {value, ""};
+    return {value, fmt::format("about 10^{:.0f}", std::floor(largest + std::log10(parts)))};
 }
 
 }  // namespace
@@ -99,8 +115,16 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     if (plain) {
         const auto interpreted = forecast(grammar, true);
         if (!plain->counts || !interpreted->counts) {
-            result.symbols = about(plain->log10_length);
-            result.drawn = result.moves = result.length = about(interpreted->log10_length);
+            const auto one_if = [](bool wanted) { return wanted ? 1.0 : 0.0; };
+            const auto draws = [](const Command& command) { return command.action == Action::draw; };
+            const auto moves = [&](const Command& command) {
+                return draws(command) || command.action == Action::move;
+            };
+            result.symbols = about(grammar, *plain, [](const Command&) { return 1.0; });
+            result.drawn = about(grammar, *interpreted, [&](const Command& c) { return one_if(draws(c)); });
+            result.moves = about(grammar, *interpreted, [&](const Command& c) { return one_if(moves(c)); });
+            result.length =
+                about(grammar, *interpreted, [&](const Command& c) { return draws(c) ? std::fabs(c.value) : 0.0; });
             return result;
         }
         tell_counts(grammar, *plain->counts, result);

@@ -13,11 +13,13 @@ namespace {
 
 constexpr double most_work = 3e7;
 constexpr std::size_t most_frames = 4096;
+constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, placed in all
+constexpr double farthest = 1e300;                 // of coordinates in doubles
 
 __extension__ using Int128 = __int128;
 
 struct Overflow {};  // 64 bits do not suffice
-struct TooMuch {};   // brackets are left open over too many levels
+struct TooMuch {};   // to be composed
 
 // --- sines in any precision ----------------------------------------------------------------------------------------
 
@@ -338,7 +340,7 @@ public:
             }
         }
         Element whole = empty();
-        whole.frames.front().box.push_back(space_.vertex(space_.zero()));
+        whole.frames.front().box.corners.push_back(space_.vertex(space_.zero()));
         for (const Symbol symbol : grammar_.axiom()) append(whole, *level[symbol]);
         reduce(whole);
         return result(whole);
@@ -350,10 +352,14 @@ private:
         typename Space::Point at;
         typename Space::Heading heading;
     };
+    struct Hull {
+        std::vector<Vertex> corners;
+        std::size_t limit = 512;  // above it, the corners are made convex again
+    };
     /// What is seen until the next ']' that the part does not open itself.
     struct Frame {
-        std::vector<Vertex> box;  // positions stepped to
-        std::vector<Vertex> ink;  // ends of segments drawn; unused if every step draws
+        Hull box;  // positions stepped to
+        Hull ink;  // ends of segments drawn; unused if every step draws
     };
     struct Open {
         Placed state;
@@ -389,10 +395,10 @@ private:
             case Action::draw:
             case Action::move:
                 element.end.at = space_.step(symbol);
-                element.frames[0].box.push_back(space_.vertex(element.end.at));
+                element.frames[0].box.corners.push_back(space_.vertex(element.end.at));
                 element.draws = grammar_.symbols()[symbol].command.action == Action::draw;
                 if (element.draws && has_moves_) {
-                    element.frames[0].ink = {space_.vertex(space_.zero()), space_.vertex(element.end.at)};
+                    element.frames[0].ink.corners = {space_.vertex(space_.zero()), space_.vertex(element.end.at)};
                 }
                 break;
             case Action::turn:
@@ -420,7 +426,7 @@ private:
     }
 
     /// Replaces each symbol's effect by that of its successor. False if the table changes nothing.
-    bool apply(const Table& table, Level& level) const {
+    bool apply(const Table& table, Level& level) {
         Level next = level;
         bool changed = false;
         for (const Symbol symbol : needed_) {
@@ -440,7 +446,7 @@ private:
         return changed;
     }
 
-    void append(Element& element, const Element& part) const {
+    void append(Element& element, const Element& part) {
         Placed here = element.end;
         place(element.frames.back(), part.frames.front(), here);
         for (std::size_t i = 1; i < part.frames.size(); ++i) {
@@ -474,14 +480,17 @@ private:
         return {space_.move(here.at, part.at, here.heading), space_.add(here.heading, part.heading)};
     }
 
-    void place(Frame& frame, const Frame& part, const Placed& here) const {
+    void place(Frame& frame, const Frame& part, const Placed& here) {
         place(frame.box, part.box, here);
         place(frame.ink, part.ink, here);
     }
-    void place(std::vector<Vertex>& hull, const std::vector<Vertex>& part, const Placed& here) const {
-        for (const Vertex& vertex : part)
-            hull.push_back(space_.vertex(space_.move(here.at, vertex.at, here.heading)));
-        if (hull.size() > 512) make_convex(hull);
+    void place(Hull& hull, const Hull& part, const Placed& here) {
+        placed_corners_ += part.corners.size();
+        if (placed_corners_ > most_corners) throw TooMuch();
+        for (const Vertex& vertex : part.corners) {
+            hull.corners.push_back(space_.vertex(space_.move(here.at, vertex.at, here.heading)));
+        }
+        if (hull.corners.size() > hull.limit) make_convex(hull);
     }
 
     void reduce(Element& element) const {
@@ -492,7 +501,8 @@ private:
     }
 
     /// The convex hull, anticlockwise: Andrew's monotone chain.
-    void make_convex(std::vector<Vertex>& points) const {
+    void make_convex(Hull& wanted) const {
+        std::vector<Vertex>& points = wanted.corners;
         const auto key = [](const Vertex& vertex) {
             if constexpr (std::is_same_v<Space, PlaneSpace>) {
                 return std::pair(vertex.at.x, vertex.at.y);
@@ -517,6 +527,7 @@ private:
         for (std::size_t i = points.size() - 1; i > 0; --i) add(points[i - 1], lower);
         hull.pop_back();
         points.swap(hull);
+        wanted.limit = std::max<std::size_t>(512, 2 * points.size());
     }
 
     Fold result(const Element& whole) const {
@@ -528,15 +539,20 @@ private:
             throw WordError(fmt::format("symbol {} of the word: this '[' is not closed",
                                         Integer(whole.open.back().position + 1).str()));
         }
-        if (whole.braces_low < 0) throw WordError("the word has a '}' without '{'");
-        if (whole.braces_net != 0) throw WordError("the word has a '{' that is not closed");
+        // Where the brace stands, a walk tells.
+        if (whole.braces_low < 0 || whole.braces_net != 0) throw TooMuch();
         const typename Space::Embedding embedding(space_);
         const Frame& frame = whole.frames.front();
         Fold fold;
-        fold.box = embedding.box(frame.box);
-        for (const Vertex& vertex : frame.box) fold.box_hull.push_back(embedding.approximate(vertex.at));
+        fold.box = embedding.box(frame.box.corners);
+        if constexpr (std::is_same_v<Space, PlaneSpace>) {
+            for (const Quantity& side : fold.box) {
+                if (!(std::fabs(side.value) < farthest)) throw TooMuch();
+            }
+        }
+        for (const Vertex& vertex : frame.box.corners) fold.box_hull.push_back(embedding.approximate(vertex.at));
         if (whole.draws) {
-            const auto& ink = has_moves_ ? frame.ink : frame.box;
+            const auto& ink = has_moves_ ? frame.ink.corners : frame.box.corners;
             fold.ink = embedding.box(ink);
             for (const Vertex& vertex : ink) fold.ink_hull.push_back(embedding.approximate(vertex.at));
         }
@@ -553,6 +569,7 @@ private:
     const Grammar& grammar_;
     std::vector<Symbol> needed_;
     bool has_moves_ = false;
+    std::uint64_t placed_corners_ = 0;
 };
 
 template <int Rank>

@@ -36,7 +36,8 @@ struct Fold {
 /// Composes the effect of each (symbol, steps to go) from those of its successor. Exact wherever the lattice of the
 /// grammar is: in 64 bits, and in as many as it takes beyond. Nothing is derived.
 /// Nullopt if productions look at neighbours, if the composition itself would be too much (about 10^7 compositions of
-/// numbers of 64 bits), or if brackets are left open over more than 4096 levels.
+/// numbers of 64 bits, 5 x 10^6 corners of hulls), if brackets are left open over more than 4096 levels, if braces do
+/// not balance, or if doubles do not hold the coordinates.
 /// @throws WordError for brackets that do not balance in the word
 /// Cost: O(symbols x steps) compositions, each of the size of the hulls (usually below 30 corners).
 std::optional<Fold> fold(const Grammar& grammar);

@@ -9,7 +9,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 1e9;  // table entries looked at
+constexpr double most_work = 5e7;  // table entries looked at
 
 /// A table's productions as (successor symbol, multiplicity), and who has one.
 struct Sparse {
@@ -79,7 +79,7 @@ struct Steps {
 /// table stays small; before that, nothing is known to be empty.
 class Emptiness {
 public:
-    Emptiness(const Steps& steps, std::size_t symbols) : symbols_(symbols) {
+    Emptiness(const Steps& steps, std::size_t symbols) {
         bool any = false;
         for (const Sparse& table : steps.tables) {
             any = any || std::find(table.length.begin(), table.length.end(), 0U) != table.length.end();
@@ -108,7 +108,6 @@ public:
     }
 
 private:
-    std::size_t symbols_;
     std::vector<std::vector<char>> rows_;
 };
 
@@ -192,7 +191,11 @@ Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     }
     Forecast result;
     result.log10_length = sum_log10(counts);
-    for (const Scaled& count : counts) nodes.add(count, 1);
+    for (const Scaled& count : counts) {
+        nodes.add(count, 1);
+        result.rough_counts.push_back(count.as_double());
+        result.log10_counts.push_back(count.log10());
+    }
     result.nodes = nodes.as_double();
     return result;
 }
@@ -230,7 +233,47 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
     return result;
 }
 
+namespace {
+
+/// With one table in every step, one pass from the last step upwards tells the cost of every derivation length.
+std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interpreted, double budget) {
+    const Steps steps(grammar, interpreted);
+    const std::size_t symbols = grammar.symbols().size();
+    std::vector<double> nodes(symbols, 1.0);  // 0: nothing comes of the symbol
+    std::vector<double> next = nodes;
+    const auto level = [&](const Sparse& table) {
+        for (const Symbol symbol : steps.symbols) {
+            if (!table.has[symbol]) {
+                next[symbol] = nodes[symbol];
+                continue;
+            }
+            double sum = 0;
+            for (std::uint32_t i = table.begin[symbol]; i < table.begin[symbol + 1]; ++i) {
+                sum += table.terms[i].times * nodes[table.terms[i].symbol];
+            }
+            next[symbol] = sum > 0 && table.length[symbol] != 1 ? sum + 1 : sum;
+        }
+        nodes.swap(next);
+    };
+    const auto fits = [&] {
+        double sum = 0;
+        for (const Symbol symbol : grammar.axiom()) sum += nodes[symbol];
+        return sum <= budget;
+    };
+    if (interpreted && grammar.interpretation()) level(steps.tables.back());
+    std::int64_t largest = fits() ? 0 : -1;
+    for (std::int64_t n = 1; n <= grammar.steps(); ++n) {
+        level(steps.tables.front());
+        if (!fits()) break;
+        largest = n;
+    }
+    return largest;
+}
+
+}  // namespace
+
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget) {
+    if (grammar.tables().size() == 1) return largest_affordable_of_one_table(grammar, interpreted, budget);
     const auto fits = [&](std::int64_t steps) {
         const auto shorter = grammar.with_steps(steps);
         return shorter && rough_forecast(*shorter, Steps(*shorter, interpreted)).nodes <= budget;

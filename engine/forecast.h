@@ -22,6 +22,9 @@ struct Forecast {
     /// the word; subwords known to be empty are not visited. May be infinite.
     double nodes = 0.0;
     double log10_length = 0.0;  ///< of the word; -infinity if it is empty
+    /// Of each symbol in the word, to 15 digits: its number (infinity if a double does not hold it), and log10 of it.
+    std::vector<double> rough_counts;
+    std::vector<double> log10_counts;
     /// Exact number of each symbol in the word, unless the word's length has over 10^4 digits.
     std::optional<std::vector<Integer>> counts;
 
@@ -31,7 +34,7 @@ struct Forecast {
 
 /// Nullopt if productions look at neighbours: then nothing short of deriving tells.
 /// @param interpreted  of the word after `interpret:`
-/// Cost: O(steps x size of the tables); BudgetError if even that is too much (about 10^9).
+/// Cost: O(steps x size of the tables); BudgetError if even that is too much (5 x 10^7).
 std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 
 /// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.

@@ -17,6 +17,9 @@
 namespace sikku {
 namespace {
 
+constexpr std::size_t longest_allowed_name = 64;
+constexpr std::size_t deepest_nesting = std::size_t{1} << 20;
+constexpr std::size_t large_word = std::size_t{1} << 22;      // bytes
 constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
@@ -90,7 +93,6 @@ std::size_t code_point_length(char lead) {
 struct Grammar::ScheduleItem {
     std::uint32_t table = 0;
     Expression count;
-    Span count_at;
 };
 
 class GrammarCompiler {
@@ -150,6 +152,10 @@ private:
                                    comma == std::string_view::npos
                                        ? "a name is letters and digits, beginning with a letter"
                                        : "names are separated by blanks, not by commas");
+                return;
+            }
+            if (name.size() > longest_allowed_name) {
+                diagnostics_.error(key->value.part(begin), "a name has at most 64 characters");
                 return;
             }
             if (!name_set_.insert(std::string(name)).second) {
@@ -343,6 +349,18 @@ private:
         Word result;
         const std::string_view text = span.view();
         if (text == "*" || text == "\xCE\xB5") return result;  // ε
+        // A large word is looked through before memory is spent on it.
+        if (text.size() > large_word && !read_word(span, place, [](Symbol) {})) return std::nullopt;
+        result.reserve(text.size() > large_word ? text.size() : 0);
+        if (!read_word(span, place, [&](Symbol symbol) { result.push_back(symbol); })) return std::nullopt;
+        return result;
+    }
+
+    /// Hands each symbol to `take`; false after the first mistake.
+    template <class Take>
+    bool read_word(const Span& span, Place place, Take take) {
+        const std::string_view text = span.view();
+        std::array<std::size_t, 2> open{};  // brackets, braces
         std::size_t at = 0;
         while (true) {
             bool blank_before = false;
@@ -350,24 +368,45 @@ private:
                 ++at;
                 blank_before = true;
             }
-            if (at >= text.size()) return result;
+            if (at >= text.size()) return true;
             const std::size_t begin = at;
             bool is_name = false;
-            if (!symbol_at(span, text, at, is_name, blank_before)) return std::nullopt;
-            std::string letter(text.substr(begin, at - begin));
+            if (!symbol_at(span, text, at, is_name, blank_before)) return false;
+            const std::string_view letter = text.substr(begin, at - begin);
+            const bool plain = letter.size() == 1 && (at >= text.size() || text[at] != '(');
+            if (plain) {
+                const char sign = letter.front();
+                if (sign == '[' || sign == '{') {
+                    if (++open[sign == '[' ? 0 : 1] > deepest_nesting) {
+                        diagnostics_.error(span.part(begin), "brackets nest deeper than 1,048,576");
+                        return false;
+                    }
+                } else if (sign == ']' || sign == '}') {
+                    std::size_t& depth = open[sign == ']' ? 0 : 1];
+                    if (depth > 0) --depth;
+                }
+                // Most symbols are single letters that were met before.
+                Symbol& known = plain_symbols_[static_cast<unsigned char>(sign)];
+                if (known != no_symbol && sign != '%') {
+                    take(known);
+                    continue;
+                }
+            }
             std::vector<double> arguments;
             if (at < text.size() && text[at] == '(') {
                 if (place != Place::axiom_or_successor) {
                     diagnostics_.error(span.part(at), "formal parameters are not supported yet");
-                    return std::nullopt;
+                    return false;
                 }
-                if (!read_arguments(span, text, at, arguments)) return std::nullopt;
+                if (!read_arguments(span, text, at, arguments)) return false;
             }
             if (letter == "%" && place != Place::list) {
                 diagnostics_.error(span.part(begin), "the cut symbol '%' is not supported yet");
-                return std::nullopt;
+                return false;
             }
-            result.push_back(intern(std::move(letter), is_name, std::move(arguments)));
+            const Symbol symbol = intern(std::string(letter), is_name, std::move(arguments));
+            if (plain) plain_symbols_[static_cast<unsigned char>(letter.front())] = symbol;
+            take(symbol);
         }
     }
 
@@ -659,6 +698,13 @@ private:
 
     std::optional<std::vector<Grammar::ScheduleItem>> schedule_items(const Key& key) {
         std::vector<Grammar::ScheduleItem> items;
+        static const Source once("1", "1");
+        std::vector<std::string_view> names;
+        std::unordered_map<std::string_view, std::uint32_t> index;
+        for (const TableText& table : pattern_.tables) {
+            index.emplace(table.name.view(), static_cast<std::uint32_t>(names.size()));
+            names.push_back(table.name.view());
+        }
         const Span& value = key.value;
         const std::string_view text = value.view();
         const auto skip = [&](std::size_t at) {
@@ -671,15 +717,10 @@ private:
                 ++at;
             const std::string_view name = text.substr(begin, at - begin);
             Grammar::ScheduleItem item;
-            bool known = false;
-            std::vector<std::string_view> names;
-            for (std::size_t i = 0; i < pattern_.tables.size(); ++i) {
-                names.push_back(pattern_.tables[i].name.view());
-                if (names.back() != name) continue;
-                item.table = static_cast<std::uint32_t>(i);
-                known = true;
-            }
-            if (!known) {
+            const auto known = index.find(name);
+            if (known != index.end()) {
+                item.table = known->second;
+            } else {
                 const std::string_view near = nearest(name, names);
                 diagnostics_.error(value.part(begin),
                                    name.empty() ? std::string("expected the name of a table")
@@ -688,7 +729,7 @@ private:
                                        : fmt::format("there is no table '{}'; did you mean '{}'?", name, near));
                 return std::nullopt;
             }
-            Span count = Span{std::make_shared<const Source>("1", "1"), 0, 1};
+            Span count(&once, 0, 1);
             if (const std::size_t star = skip(at); star < text.size() && text[star] == '*') {
                 const std::size_t first = skip(star + 1);
                 at = first;
@@ -722,7 +763,6 @@ private:
                 diagnostics_);
             if (!compiled) return std::nullopt;
             item.count = *compiled;
-            item.count_at = count;
             items.push_back(std::move(item));
         }
         if (items.empty()) {
@@ -776,6 +816,12 @@ private:
     std::set<std::string, std::less<>> name_set_;
     std::size_t longest_name_ = 0;
     std::map<std::string_view, double> defines_;
+    static constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
+    std::array<Symbol, 256> plain_symbols_ = [] {
+        std::array<Symbol, 256> symbols{};
+        symbols.fill(no_symbol);
+        return symbols;
+    }();  // of single letters without parameters
     std::unordered_map<std::string, Symbol> symbol_index_;
     std::unordered_map<std::string, std::uint32_t> letter_index_;
     Angle increment_;

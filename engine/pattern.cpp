@@ -9,7 +9,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
 
 constexpr std::array<std::string_view, 17> engine_keys = {
@@ -34,25 +33,11 @@ std::string folded(std::string_view name) {
     return result;
 }
 
-/// The first byte that is no valid UTF-8 or a control character that no text has, or npos.
+/// The first byte that is NUL or no valid UTF-8, or npos.
 std::size_t first_bad_byte(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        if (lead < 0x80) {
-            if (lead == 0) return i;
-            ++i;
-            continue;
-        }
-        const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-        if (lead < 0xC2 || lead > 0xF4 || i + length > text.size()) return i;
-        for (std::size_t k = 1; k < length; ++k) {
-            if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
-        }
-        const auto second = static_cast<unsigned char>(text[i + 1]);
-        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
-            (lead == 0xF4 && second > 0x8F)) {
-            return i;
-        }
+        const std::size_t length = text[i] == 0 ? 0 : utf8_length(text.substr(i));
+        if (length == 0) return i;
         i += length;
     }
     return std::string_view::npos;
@@ -85,10 +70,10 @@ public:
     Parser(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
 
     void run() {
-        const std::string& text = pattern_.source->cleaned;
+        const std::string_view text = pattern_.source->cleaned();
         for (std::size_t at = 0; at < text.size();) {
             std::size_t end = text.find('\n', at);
-            if (end == std::string::npos) end = text.size();
+            if (end == std::string_view::npos) end = text.size();
             line(Span{pattern_.source, at, end - at}.trimmed());
             at = end + 1;
         }
@@ -104,9 +89,6 @@ private:
         const std::string key = colon == std::string_view::npos ? "" : folded(text.substr(0, colon));
         if (key == "title" || key == "source" || key == "description") return add_key(whole, key, colon);
         if (!nesting_is_sane(whole)) return;
-        if (const std::size_t comment = text.find("/*"); comment != std::string_view::npos) {
-            return diagnostics_.error(whole.part(comment), "this comment has no end: expected '*/'");
-        }
         warn_of_late_comment(whole);
         if (const std::size_t arrow = find_outside(text, "-->"); arrow != std::string_view::npos) {
             return production(whole, arrow);
@@ -216,10 +198,8 @@ private:
     void variant(const Span& whole, std::size_t colon) {
         const Span name = whole.part(7, colon - 7).trimmed();
         if (name.empty()) return diagnostics_.error(whole, "expected the variant's name: 'variant NAME:'");
-        for (const Variant& other : pattern_.variants) {
-            if (other.name.view() == name.view()) {
-                return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
-            }
+        if (!variant_names_.insert(std::string(name.view())).second) {
+            return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
         }
         Variant result{name, {}};
         const Span list = whole.part(colon + 1).trimmed();
@@ -306,6 +286,7 @@ private:
     std::set<std::string, std::less<>> key_names_;
     std::set<std::string, std::less<>> define_names_;
     std::set<std::string, std::less<>> table_names_;
+    std::set<std::string, std::less<>> variant_names_;
 };
 
 void override_one(Pattern& pattern, std::string_view name, const Span& name_at, const Span& value) {
@@ -321,7 +302,8 @@ void override_one(Pattern& pattern, std::string_view name, const Span& name_at, 
         std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
     for (const auto& [one, other] : exclusive) {
         if (key != one && key != other) continue;
-        std::erase_if(pattern.keys, [&](const Key& present) { return present.name == (key == one ? other : one); });
+        std::erase_if(pattern.keys,
+                      [excluded = key == one ? other : one](const Key& present) { return present.name == excluded; });
     }
     for (Key& present : pattern.keys) {
         if (present.name == key) {
@@ -349,20 +331,25 @@ std::string Pattern::text(std::string_view name) const {
 
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics) {
     Pattern pattern;
-    if (text.size() > most_bytes) {
-        text.resize(most_bytes);
+    if (text.size() > most_pattern_bytes) {
+        text.resize(most_pattern_bytes);
         while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
         const auto source = std::make_shared<const Source>(std::move(name), std::move(text));
-        diagnostics.unreadable({source, source->text.size(), 0}, "a pattern file is at most 64 MB");
+        diagnostics.unreadable({source, source->text().size(), 0}, "a pattern file is at most 64 MB");
         pattern.source = source;
         return pattern;
     }
     const std::size_t bad = first_bad_byte(text);
     pattern.source = std::make_shared<const Source>(std::move(name), std::move(text));
     if (bad != std::string::npos) {
-        diagnostics.unreadable({pattern.source, bad, 1}, pattern.source->text[bad] == 0
+        diagnostics.unreadable({pattern.source, bad, 1}, pattern.source->text()[bad] == 0
                                                              ? "a NUL byte: this is no pattern file"
                                                              : "a byte that is no UTF-8: this is no pattern file");
+        return pattern;
+    }
+    if (pattern.source->open_comment() != std::string::npos) {
+        diagnostics.unreadable({pattern.source, pattern.source->open_comment(), 2},
+                               "this comment has no end: expected '*/'");
         return pattern;
     }
     Parser(pattern, diagnostics).run();
@@ -382,6 +369,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                 list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
             }
             const auto source = std::make_shared<const Source>("--variant", std::string(variant));
+            pattern.overrides.push_back(source);
             diagnostics.error({source, 0, variant.size()}, known.empty()
                                                                ? "this pattern has no variants"
                                                                : fmt::format("no such variant; there are: {}", list));
@@ -393,8 +381,10 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
     }
     for (const Setting& setting : settings) {
         const auto source = std::make_shared<const Source>(setting.origin, setting.key + "=" + setting.value);
-        const Span whole{source, 0, source->text.size()};
-        if (first_bad_byte(source->text) != std::string_view::npos || source->text.find('\n') != std::string::npos) {
+        pattern.overrides.push_back(source);
+        const Span whole{source, 0, source->text().size()};
+        if (first_bad_byte(source->text()) != std::string_view::npos ||
+            source->text().find('\n') != std::string::npos) {
             diagnostics.error(whole, "a setting is one line of UTF-8");
             continue;
         }

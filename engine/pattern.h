@@ -53,9 +53,11 @@ struct Setting {
     std::string value;
 };
 
-/// What a pattern file states. Keys hold the final values, overrides applied, in the order of the file.
+/// What a pattern file states; its Spans live as long as it does. Keys hold the final values, overrides applied, in
+/// the order of the file.
 struct Pattern {
     SourcePointer source;
+    std::vector<SourcePointer> overrides;  ///< what overriding values were cut from
     std::vector<Key> keys;
     std::vector<Define> defines;
     std::vector<ProductionText> common;  ///< productions before the first table
@@ -68,6 +70,9 @@ struct Pattern {
     /// The value of a free-text key (`title`, `source`, `description`), or empty.
     std::string text(std::string_view name) const;
 };
+
+/// A longer text is no pattern file.
+constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 
 /// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
 /// Refuses over 64 MB, NUL bytes and what is no UTF-8. Cost: linear.

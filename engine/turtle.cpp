@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t deepest = std::size_t{1} << 24;
+constexpr std::size_t deepest = std::size_t{1} << 20;
 constexpr std::size_t points_in_block = 1024;
 
 /// Positions in Z[zeta], headings modulo k.
@@ -232,7 +232,7 @@ private:
             case Action::push:
                 if (stack_.size() >= deepest) {
                     throw WordError(
-                        fmt::format("symbol {} of the word: brackets nest deeper than 16,777,216", position_));
+                        fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
                 }
                 if (moves_draw_) lift();
                 stack_.push_back({state_, position_});
@@ -249,7 +249,7 @@ private:
             case Action::polygon_begin:
                 if (polygons_.size() >= deepest) {
                     throw WordError(
-                        fmt::format("symbol {} of the word: braces nest deeper than 16,777,216", position_));
+                        fmt::format("symbol {} of the word: braces nest deeper than 1,048,576", position_));
                 }
                 polygons_.push_back({{walker_.point(state_.place)}, position_});
                 break;

@@ -29,7 +29,7 @@ struct Survey {
 };
 
 /// A turtle in the plane. Symbols of the third dimension are passed over.
-/// Unbalanced brackets or braces in the word, steps that are not finite, and nesting over 2^24 are a WordError that
+/// Unbalanced brackets or braces in the word, steps that are not finite, and nesting over 2^20 are a WordError that
 /// names the symbol's position.
 /// Source: Prusinkiewicz & Hanan 1989, sections 2.1 and 3.1.
 class Turtle : public SymbolSink {

@@ -422,13 +422,13 @@ inline System random_system(unsigned seed, const Kind& kind) {
     for (std::size_t t = 0; t < kind.tables; ++t) {
         std::vector<Rule> rules;
         for (const std::string& letter : kind.letters) {
-            if (!dice.once_in(4)) rules.push_back(rule_for(letter, 0));
+            if (letter.find('(') == std::string::npos && !dice.once_in(4)) rules.push_back(rule_for(letter, 0));
         }
         if (kind.brackets == Kind::Brackets::loose) {
             rules.push_back(rule_for("L", 1));
             rules.push_back(rule_for("R", -1));
         }
-        if (kind.signs.size() > 1 && dice.once_in(3)) {
+        if (kind.signs.size() > 1 && kind.signs[1].size() == 1 && dice.once_in(3)) {
             rules.push_back({{}, {kind.signs[0]}, {}, {kind.signs[1]}});
             rules.push_back({{}, {kind.signs[1]}, {}, {kind.signs[0]}});
         }
@@ -463,7 +463,7 @@ inline System random_system(unsigned seed, const Kind& kind) {
     }
     if (kind.interpreted) {
         for (const std::string& letter : kind.letters) {
-            if (dice.once_in(2)) system.interpretation.push_back(rule_for(letter, 0));
+            if (letter.find('(') == std::string::npos && dice.once_in(2)) system.interpretation.push_back(rule_for(letter, 0));
         }
     }
     if (kind.contexts && dice.once_in(2)) {
