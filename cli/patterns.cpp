@@ -51,7 +51,7 @@ void show(const std::string& what, bool quiet) {
     Provenance found;
     const bool is_print = ends_with_caseless(what, ".svg") || is_picture(what);
     if (std::error_code error; is_print && !std::filesystem::exists(what, error)) {
-        throw UsageError(what + ": no such file");
+        throw UsageError(what + ": No such file or directory");
     }
     if (ends_with_caseless(what, ".svg")) {
         const auto provenance = svg_provenance(what);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace sikku {
@@ -136,11 +137,53 @@ private:
     Word arena_;
 };
 
+/// Long chains of units (b --> c, c --> b) under one table, taken in strides of powers of two.
+class UnitChains {
+public:
+    UnitChains(const Table& table, std::size_t symbols, std::int64_t longest) {
+        std::vector<Symbol> one(symbols);
+        for (Symbol symbol = 0; symbol < symbols; ++symbol) {
+            const Word* successor = table.successor(symbol);
+            one[symbol] = !successor ? symbol : successor->size() == 1 ? successor->front() : none;
+        }
+        strides_.push_back(std::move(one));
+        while (std::int64_t{2} << (strides_.size() - 1) <= longest) {
+            const std::vector<Symbol>& half = strides_.back();
+            std::vector<Symbol> whole(symbols);
+            for (Symbol symbol = 0; symbol < symbols; ++symbol) {
+                whole[symbol] = half[symbol] == none ? none : half[half[symbol]];
+            }
+            strides_.push_back(std::move(whole));
+        }
+    }
+
+    /// Rewrites `symbol` up to `steps` times while its successor is a unit; returns how often.
+    std::int64_t follow(Symbol& symbol, std::int64_t steps) const {
+        std::int64_t taken = 0;
+        for (std::size_t k = strides_.size(); k > 0; --k) {
+            const std::int64_t stride = std::int64_t{1} << (k - 1);
+            while (steps - taken >= stride && strides_[k - 1][symbol] != none) {
+                symbol = strides_[k - 1][symbol];
+                taken += stride;
+            }
+        }
+        return taken;
+    }
+
+private:
+    static constexpr Symbol none = std::numeric_limits<Symbol>::max();
+    std::vector<std::vector<Symbol>> strides_;
+};
+
 /// Depth-first expansion of `word` through `levels`.
 class Streamer {
 public:
     Streamer(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink)
-        : levels_(levels), blocks_(grammar, levels, options.block_memory), watch_(options.watch), sink_(sink) {
+        : symbols_(grammar.symbols().size()),
+          levels_(levels),
+          blocks_(grammar, levels, options.block_memory),
+          watch_(options.watch),
+          sink_(sink) {
         pending_.reserve(longest_run);
     }
 
@@ -174,8 +217,15 @@ private:
 
     /// Follows unit successors without a frame for each.
     void descend(Symbol symbol, std::int64_t level) {
-        while (level > 0) {
-            const Word* successor = levels_.table(level).successor(symbol);
+        for (int steps = 0; level > 0; ++steps) {
+            const Table& table = levels_.table(level);
+            if (steps >= long_chain) {
+                level -= chains(table).follow(symbol, level - levels_.stretch_begin(level));
+                steps = 0;
+                if (level == 0) break;
+                if (&levels_.table(level) != &table) continue;
+            }
+            const Word* successor = table.successor(symbol);
             --level;
             if (!successor) {
                 if (stays_below(symbol, level)) break;
@@ -191,6 +241,12 @@ private:
             }
         }
         gather(std::span(&symbol, 1));
+    }
+
+    const UnitChains& chains(const Table& table) {
+        const auto found = chains_.find(&table);
+        if (found != chains_.end()) return found->second;
+        return chains_.try_emplace(&table, table, symbols_, levels_.count()).first->second;
     }
 
     /// A symbol that no table rewrites below `level` stays for good.
@@ -222,7 +278,11 @@ private:
         pending_.clear();
     }
 
+    static constexpr int long_chain = 64;
+
+    std::size_t symbols_;
     const Levels& levels_;
+    std::map<const Table*, UnitChains> chains_;  // made when a long chain is met
     Blocks blocks_;
     const std::function<void(std::uint64_t)>& watch_;
     SymbolSink& sink_;

@@ -187,15 +187,21 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string_view candidate : known) {
+        // Optimal string alignment: neighbours exchanged count as one slip.
+        std::vector<std::size_t> earlier(candidate.size() + 1);
+        std::vector<std::size_t> above(candidate.size() + 1);
         std::vector<std::size_t> row(candidate.size() + 1);
         for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
         for (std::size_t i = 1; i <= word.size(); ++i) {
-            std::size_t diagonal = row[0];
+            earlier.swap(above);
+            above.swap(row);
             row[0] = i;
             for (std::size_t j = 1; j < row.size(); ++j) {
-                const std::size_t substituted = diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1);
-                diagonal = row[j];
-                row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+                row[j] = std::min(
+                    {above[j - 1] + (word[i - 1] == candidate[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
+                if (i > 1 && j > 1 && word[i - 1] == candidate[j - 2] && word[i - 2] == candidate[j - 1]) {
+                    row[j] = std::min(row[j], earlier[j - 2] + 1);
+                }
             }
         }
         if (row.back() < best_distance) {

@@ -37,8 +37,8 @@ public:
 private:
     std::string name_;
     std::string text_;
-    std::string cleaned_;  // empty if nothing had to be blanked
-    std::size_t open_comment_ = std::string::npos;
+    std::size_t open_comment_ = std::string::npos;  // before cleaned_, which is made together with it
+    std::string cleaned_;                           // empty if nothing had to be blanked
 };
 using SourcePointer = std::shared_ptr<const Source>;
 
@@ -113,7 +113,7 @@ std::size_t utf8_length(std::string_view text);
 
 /// `text` for a message: control characters and what is no UTF-8 as '?', and at most `most` bytes, the middle left
 /// out.
-std::string printable(std::string_view text, std::size_t most = 300);
+std::string printable(std::string_view text, std::size_t most = 240);
 
 /// The whole of `text` as a finite decimal number in any locale, or false.
 bool read_number(std::string_view text, double& value);

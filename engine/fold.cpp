@@ -14,7 +14,6 @@ namespace {
 constexpr double most_work = 3e7;
 constexpr std::size_t most_frames = 4096;
 constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, placed in all
-constexpr double farthest = 1e300;                 // of coordinates in doubles
 
 __extension__ using Int128 = __int128;
 
@@ -547,7 +546,7 @@ private:
         fold.box = embedding.box(frame.box.corners);
         if constexpr (std::is_same_v<Space, PlaneSpace>) {
             for (const Quantity& side : fold.box) {
-                if (!(std::fabs(side.value) < farthest)) throw TooMuch();
+                if (!std::isfinite(side.value)) throw TooMuch();
             }
         }
         for (const Vertex& vertex : frame.box.corners) fold.box_hull.push_back(embedding.approximate(vertex.at));

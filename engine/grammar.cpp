@@ -18,7 +18,6 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t longest_allowed_name = 64;
-constexpr std::size_t deepest_nesting = std::size_t{1} << 20;
 constexpr std::size_t large_word = std::size_t{1} << 22;      // bytes
 constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
 
@@ -55,6 +54,7 @@ std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::strin
         if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec != std::errc()) {
             return std::nullopt;
         }
+        if (numerator == 0) exponent = 0;
         for (; exponent > 0; --exponent) {
             numerator *= 10;
             if (numerator > largest_term) return std::nullopt;
@@ -360,7 +360,6 @@ private:
     template <class Take>
     bool read_word(const Span& span, Place place, Take take) {
         const std::string_view text = span.view();
-        std::array<std::size_t, 2> open{};  // brackets, braces
         std::size_t at = 0;
         while (true) {
             bool blank_before = false;
@@ -375,19 +374,9 @@ private:
             const std::string_view letter = text.substr(begin, at - begin);
             const bool plain = letter.size() == 1 && (at >= text.size() || text[at] != '(');
             if (plain) {
-                const char sign = letter.front();
-                if (sign == '[' || sign == '{') {
-                    if (++open[sign == '[' ? 0 : 1] > deepest_nesting) {
-                        diagnostics_.error(span.part(begin), "brackets nest deeper than 1,048,576");
-                        return false;
-                    }
-                } else if (sign == ']' || sign == '}') {
-                    std::size_t& depth = open[sign == ']' ? 0 : 1];
-                    if (depth > 0) --depth;
-                }
                 // Most symbols are single letters that were met before.
-                Symbol& known = plain_symbols_[static_cast<unsigned char>(sign)];
-                if (known != no_symbol && sign != '%') {
+                Symbol& known = plain_symbols_[static_cast<unsigned char>(letter.front())];
+                if (known != no_symbol && letter != "%") {
                     take(known);
                     continue;
                 }
@@ -418,7 +407,7 @@ private:
         };
         for (std::size_t length = std::min(longest_name_, text.size() - at); length > 0; --length) {
             if (name_set_.contains(text.substr(at, length))) {
-                is_name = true;
+                is_name = length > 1;
                 at += length;
                 return true;
             }
@@ -537,8 +526,9 @@ private:
             auto left = context(text.left, false);
             auto predecessor = word(text.predecessor, Place::predecessor);
             auto right = context(text.right, true);
+            if (!left || !predecessor || !right) continue;
             auto successor = word(text.successor, Place::axiom_or_successor);
-            if (!left || !predecessor || !right || !successor) continue;
+            if (!successor) continue;
             if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
                 diagnostics_.error(text.predecessor,
                                    "an interpretation replaces one symbol, whatever its neighbours are");
@@ -938,7 +928,12 @@ std::int64_t Grammar::whole_word_steps() const {
 std::string symbol_text(const SymbolInfo& symbol) {
     std::string text = symbol.letter;
     for (std::size_t i = 0; i < symbol.arguments.size(); ++i) {
-        text += fmt::format("{}{}", i == 0 ? '(' : ',', symbol.arguments[i]);
+        const double value = symbol.arguments[i];
+        // What no number can say is said by what gives it.
+        const std::string digits = std::isnan(value)   ? "0/0"
+                                   : std::isinf(value) ? (value > 0 ? "1/0" : "-1/0")
+                                                       : fmt::format("{}", value);
+        text += fmt::format("{}{}", i == 0 ? '(' : ',', digits);
     }
     if (!symbol.arguments.empty()) text += ')';
     return text;

@@ -90,7 +90,7 @@ glm::dvec2 unit_vector(double degrees) {
 
 Lattice make_lattice(const Grammar& grammar) {
     Lattice lattice;
-    lattice.first_heading = grammar.heading().degrees;
+    lattice.first_heading = std::fmod(grammar.heading().degrees, 360.0);
     std::int64_t k = 1;
     std::int64_t denominator = 1;
     bool whole_headings = true;
@@ -108,6 +108,12 @@ Lattice make_lattice(const Grammar& grammar) {
             if (whole_lengths) denominator = std::lcm(denominator, needed);
             whole_lengths = whole_lengths && denominator <= largest_unit;
         }
+    }
+    // Together they may need more than 64 bits.
+    for (const SymbolInfo& symbol : grammar.symbols()) {
+        const Command& command = symbol.command;
+        if (command.action != Action::draw && command.action != Action::move) continue;
+        if (!(std::fabs(command.value) * static_cast<double>(denominator) <= 0x1p40)) whole_lengths = false;
     }
     const std::size_t symbols = grammar.symbols().size();
     if (!whole_headings) return lattice;

@@ -119,7 +119,7 @@ private:
         const std::string_view text = whole.view();
         for (std::size_t i = 0; i < text.size(); ++i) {
             if (text[i] == '(' && ++depth > most_nesting) {
-                diagnostics_.error(whole.part(i), "parentheses nest deeper than 1,048,576");
+                diagnostics_.unreadable(whole.part(i), "parentheses nest deeper than 1,048,576");
                 return false;
             }
             if (text[i] == ')' && depth > 0) --depth;

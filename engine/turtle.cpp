@@ -177,6 +177,8 @@ private:
     };
     struct Polygon {
         std::vector<glm::dvec2> vertices;
+        Place first;
+        Place last;  // of the last vertex
         std::uint64_t position;
     };
     struct Instruction {
@@ -214,7 +216,10 @@ private:
                 lift();
                 walker_.step(state_.place, symbol);
             }
-            if (!polygons_.empty()) polygons_.back().vertices.push_back(walker_.point(state_.place));
+            if (!polygons_.empty()) {
+                polygons_.back().vertices.push_back(walker_.point(state_.place));
+                polygons_.back().last = state_.place;
+            }
         }
     }
 
@@ -251,7 +256,7 @@ private:
                     throw WordError(
                         fmt::format("symbol {} of the word: braces nest deeper than 1,048,576", position_));
                 }
-                polygons_.push_back({{walker_.point(state_.place)}, position_});
+                polygons_.push_back({{walker_.point(state_.place)}, state_.place, state_.place, position_});
                 break;
             case Action::polygon_end:
                 end_polygon();
@@ -287,9 +292,10 @@ private:
 
     void end_polygon() {
         if (polygons_.empty()) throw WordError(fmt::format("symbol {} of the word: '}}' without '{{'", position_));
-        std::vector<glm::dvec2> vertices = std::move(polygons_.back().vertices);
+        Polygon polygon = std::move(polygons_.back());
         polygons_.pop_back();
-        if (vertices.size() > 1 && vertices.front() == vertices.back()) vertices.pop_back();
+        std::vector<glm::dvec2>& vertices = polygon.vertices;
+        if (vertices.size() > 1 && polygon.first.same_place(polygon.last)) vertices.pop_back();
         if (sink_ && vertices.size() >= 3) {
             flush();
             sink_->polygon(vertices, state_.pen);

@@ -307,10 +307,11 @@ TEST(Limits, WholeWordsKeepTheirBudget) {
 }
 
 TEST(Limits, NestingOfMillions) {
-    std::string axiom(2'000'000, '[');
-    axiom += "A" + std::string(2'000'000, ']');
-    EXPECT_EQ(ends_of(grammar_of("axiom: " + axiom + "\nderivation length: 3\nA --> [A]\n")).count, 4'000'007u);
-    EXPECT_EQ(ends_of(grammar_of("axiom: B" + axiom + "\nderivation length: 1\nB < A --> C\n")).count, 4'000'002u);
+    std::string axiom(1'000'000, '[');
+    axiom += "A" + std::string(1'000'000, ']');
+    EXPECT_EQ(ends_of(grammar_of("axiom: " + axiom + "\nderivation length: 3\nA --> [A]\n")).count, 2'000'007u);
+    EXPECT_EQ(ends_of(grammar_of("axiom: B" + axiom + "\nderivation length: 1\nB < A --> C\n")).count, 2'000'002u);
+    EXPECT_EQ(ends_of(grammar_of("axiom: A\nderivation length: 1000000\nA --> [[A]]\n")).count, 4'000'001u);
 }
 
 TEST(Limits, TheWatchSeesEverySymbolAndMayStop) {

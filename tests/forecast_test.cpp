@@ -195,7 +195,7 @@ TEST(RequireAffordable, TellsTheLengthAndTheLargestThatFits) {
     // A schedule that is too short for what would fit.
     const Grammar scheduled = grammar_of(
         "axiom: F\nderivation length: 40\nschedule: a*(n-3) b*3\ntable a:\nF --> FF\ntable b:\nF --> FFF\n");
-    EXPECT_NE(refusal(scheduled, 1000).find("fits is 6"), std::string::npos) << refusal(scheduled, 1000);
+    EXPECT_NE(refusal(scheduled, 1000).find("fits is 7"), std::string::npos) << refusal(scheduled, 1000);
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ TEST(Lattice, TheFirstHeadingTurnsTheDirections) {
                 expect_near(lattice.direction[static_cast<std::size_t>(h)],
                             root(static_cast<long double>(degrees) / 360 + static_cast<long double>(h) / k),
                             heading, 1e-14);
+                if (HasFailure()) return;
             }
         }
     }

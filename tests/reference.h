@@ -177,14 +177,15 @@ inline std::string joined(const Tokens& word) {
 
 inline std::string System::text() const {
     std::string text = keys;
-    text += "derivation length: " + std::to_string(schedule.size()) + "\naxiom: " + joined(axiom) + "\n";
+    text += "derivation length: " + std::to_string(schedule.size()) + "\naxiom: " + joined(axiom) + " \n";
     if (!ignored.empty()) text += "ignore: " + joined({ignored.begin(), ignored.end()}) + "\n";
     const auto write = [&](const std::vector<Rule>& rules) {
         for (const Rule& rule : rules) {
             if (!rule.left.empty()) text += joined(rule.left) + " < ";
             text += joined(rule.predecessor);
             if (!rule.right.empty()) text += " > " + joined(rule.right);
-            text += " --> " + joined(rule.successor) + "\n";
+            // The blank keeps a '\' at the end from continuing the line.
+            text += " --> " + joined(rule.successor) + " \n";
         }
     };
     if (tables.size() == 1) {
