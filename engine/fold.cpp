@@ -12,6 +12,7 @@ namespace sikku {
 namespace {
 
 constexpr double most_work = 3e7;
+constexpr std::size_t longest_axiom = 1'000'000;  // a long word is walked as cheaply as composed
 constexpr std::size_t most_frames = 4096;
 constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, placed in all
 
@@ -614,6 +615,7 @@ std::optional<Fold> fold(const Grammar& grammar) {
     const Lattice lattice = make_lattice(grammar);
     const auto forecasted = forecast(grammar, true);
     const double bits = std::max(0.0, forecasted->log10_length) * 3.33 + 48;
+    if (grammar.axiom().size() > longest_axiom) return std::nullopt;
     if (work_of(grammar, bits) > most_work) return std::nullopt;
     for (const SymbolInfo& symbol : grammar.symbols()) {
         if (!std::isfinite(symbol.command.value) || !std::isfinite(symbol.command.angle.degrees)) return std::nullopt;

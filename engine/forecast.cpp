@@ -117,7 +117,7 @@ struct Scaled {
     std::int64_t exponent = 0;
 
     void add(const Scaled& other, double times) {
-        if (other.value == 0) return;
+        if (other.value == 0 || times == 0) return;
         Scaled term{other.value * times, other.exponent};
         term.normalize();
         if (value == 0 || term.exponent > exponent + 200) {
@@ -172,7 +172,9 @@ Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     const Emptiness emptiness(steps, symbols);
     std::vector<Scaled> counts(symbols);
     std::vector<Scaled> next(symbols);
-    for (const Symbol symbol : grammar.axiom()) counts[symbol].add({1.0, 0}, 1);
+    std::vector<std::uint64_t> occurrences(symbols, 0);
+    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
+    for (std::size_t i = 0; i < symbols; ++i) counts[i].add({1.0, 0}, static_cast<double>(occurrences[i]));
     Scaled nodes;
     std::int64_t left = steps.count;
     for (const auto& [index, count] : steps.runs) {
@@ -216,7 +218,9 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
     if (result.log10_length >= most_digits) return result;
     std::vector<Integer> counts(grammar.symbols().size());
     std::vector<Integer> next(grammar.symbols().size());
-    for (const Symbol symbol : grammar.axiom()) ++counts[symbol];
+    std::vector<std::uint64_t> occurrences(counts.size(), 0);
+    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = occurrences[i];
     for (const auto& [index, count] : steps.runs) {
         for (std::int64_t step = 0; step < count; ++step) {
             advance(steps.tables[index], steps.symbols, counts, next,

@@ -483,7 +483,7 @@ private:
         } else if (key->value.empty()) {
             diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
         } else if (auto axiom = word(key->value, Place::axiom_or_successor)) {
-            grammar_.axiom_ = std::move(*axiom);
+            grammar_.axiom_ = std::make_shared<const Word>(std::move(*axiom));
         }
     }
 
@@ -884,7 +884,7 @@ std::vector<char> Grammar::reachable() const {
             visit(*successor);
         }
     };
-    visit(axiom_);
+    visit(*axiom_);
     while (!pending.empty()) {
         const Symbol symbol = pending.back();
         pending.pop_back();

@@ -4,6 +4,7 @@
 #include "engine/pattern.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -104,7 +105,7 @@ class Grammar {
 public:
     const std::vector<SymbolInfo>& symbols() const { return symbols_; }
     const std::vector<std::string>& letters() const { return letters_; }
-    const Word& axiom() const { return axiom_; }
+    const Word& axiom() const { return *axiom_; }
     const std::vector<Table>& tables() const { return tables_; }
     /// The homomorphism, or null.
     const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
@@ -142,7 +143,7 @@ private:
 
     std::vector<SymbolInfo> symbols_;
     std::vector<std::string> letters_;
-    Word axiom_;
+    std::shared_ptr<const Word> axiom_ = std::make_shared<const Word>();  // shared by copies: it may be large
     std::vector<Table> tables_;
     std::optional<Table> interpretation_;
     std::int64_t steps_ = 0;

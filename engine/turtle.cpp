@@ -97,7 +97,7 @@ public:
         return lattice_.first_heading +
                (lattice_.headings > 0 ? 360.0 * state.heading / lattice_.headings : state.degrees);
     }
-    bool in_range(const State& state) const { return std::fabs(state.at.x) < 1e300 && std::fabs(state.at.y) < 1e300; }
+    bool in_range(const State& state) const { return std::isfinite(state.at.x) && std::isfinite(state.at.y); }
 
 private:
     const Lattice& lattice_;
@@ -217,8 +217,10 @@ private:
                 walker_.step(state_.place, symbol);
             }
             if (!polygons_.empty()) {
-                polygons_.back().vertices.push_back(walker_.point(state_.place));
-                polygons_.back().last = state_.place;
+                Polygon& polygon = polygons_.back();
+                if (polygon.vertices.empty()) polygon.vertices.push_back(walker_.point(polygon.first));
+                polygon.vertices.push_back(walker_.point(state_.place));
+                polygon.last = state_.place;
             }
         }
     }
@@ -256,7 +258,7 @@ private:
                     throw WordError(
                         fmt::format("symbol {} of the word: braces nest deeper than 1,048,576", position_));
                 }
-                polygons_.push_back({{walker_.point(state_.place)}, state_.place, state_.place, position_});
+                polygons_.push_back({{}, state_.place, state_.place, position_});
                 break;
             case Action::polygon_end:
                 end_polygon();

@@ -265,8 +265,9 @@ TEST(Limits, UnitChainsOfAnyLength) {
     EXPECT_EQ(derived_text(shorten(grammar_of(text("9223372036854775807", cycle)))), "BCA");
     EXPECT_EQ(derived_text(shorten(grammar_of(text("1000000000", "axiom: F+F\nF --> F\n")))), "F+F");
     EXPECT_EQ(derived_text(shorten(grammar_of(text("1000000000", "axiom: FGH\nF --> G\nG --> *\n")))), "H");
-    EXPECT_EQ(derived_text(shorten(grammar_of(text("1000000000", "axiom: F\nF --> F\ninterpret:\nF --> GG\n"))), true),
-              "GG");
+    EXPECT_EQ(
+        derived_text(shorten(grammar_of(text("1000000000", "axiom: F\nF --> F\ninterpret:\nF --> GG\n"))), true),
+        "GG");
     const std::string tables = "axiom: ABC\nschedule: s*(n-1) t\ntable s:\nA --> B\nB --> A\ntable t:\nA --> a\n";
     EXPECT_EQ(derived_text(shorten(grammar_of(text("1000000001", tables)))), "aBC");
     EXPECT_EQ(derived_text(shorten(grammar_of(text("1000000000", tables)))), "BaC");

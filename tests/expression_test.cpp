@@ -19,13 +19,9 @@ struct Compiled {
 /// Names a, b and α are constants; x and y formals.
 Compiled compile(const std::string& text) {
     const auto source = std::make_shared<const Source>("test", text);
-    const std::map<std::string, NameMeaning, std::less<>> names = {{"a", {false, 3}},
-                                                                   {"b", {false, 0.5}},
-                                                                   {"\xCE\xB1", {false, 7}},
-                                                                   {"sin", {false, 9}},
-                                                                   {"_1", {false, 11}},
-                                                                   {"x", {true, 0, 0}},
-                                                                   {"y", {true, 0, 1}}};
+    const std::map<std::string, NameMeaning, std::less<>> names = {
+        {"a", {false, 3}},   {"b", {false, 0.5}}, {"\xCE\xB1", {false, 7}}, {"sin", {false, 9}},
+        {"_1", {false, 11}}, {"x", {true, 0, 0}}, {"y", {true, 0, 1}}};
     Diagnostics diagnostics;
     auto expression = Expression::compile(
         Span{source, 0, text.size()},
@@ -264,8 +260,8 @@ private:
 };
 
 TEST(Expression, AgreesWithRecursiveDescent) {
-    const std::vector<std::string> operators = {"+",  "-",  "*",  "/",  "^",  "<", "<=",
-                                                ">", ">=", "==", "!=", "&&", "||"};
+    const std::vector<std::string> operators = {
+        "+", "-", "*", "/", "^", "<", "<=", ">", ">=", "==", "!=", "&&", "||"};
     for (unsigned seed = 0; seed < 2000; ++seed) {
         std::mt19937 dice(seed);
         const std::function<std::string(int)> make = [&](int depth) -> std::string {

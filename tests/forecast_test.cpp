@@ -113,7 +113,8 @@ TEST(Forecast, IsExactHoweverLong) {
 TEST(Forecast, AboveTenThousandDigitsOnlyTheirNumberIsTold) {
     // 10^n symbols
     const auto of = [](int n) {
-        return forecast(grammar_of("axiom: F\nderivation length: " + std::to_string(n) + "\nF --> FFFFFFFFFF\n"), false);
+        return forecast(grammar_of("axiom: F\nderivation length: " + std::to_string(n) + "\nF --> FFFFFFFFFF\n"),
+                        false);
     };
     EXPECT_EQ(of(9999)->length(), "1" + std::string(9999, '0'));
     EXPECT_TRUE(of(9999)->counts);

@@ -106,15 +106,15 @@ TEST(Lattice, LengthsThatAreNotShortDecimalsLeaveIt) {
 
 TEST(Lattice, TheFirstHeadingTurnsTheDirections) {
     for (const char* heading : {"90", "0", "-45", "360/7", "12.345", "1.2345678901234567", "123456789.5", "1e22"}) {
-        const double degrees = std::fmod(grammar_of("axiom: F\nheading: " + std::string(heading) + "\n").heading().degrees,
-                                         360.0);
+        const double degrees =
+            std::fmod(grammar_of("axiom: F\nheading: " + std::string(heading) + "\n").heading().degrees, 360.0);
         for (const int k : {4, 5, 7, 24}) {
             const Lattice lattice = lattice_of("axiom: F+\nheading: " + std::string(heading) +
                                                "\nangle factor: " + std::to_string(k) + "\n");
             for (int h = 0; h < k; ++h) {
                 expect_near(lattice.direction[static_cast<std::size_t>(h)],
-                            root(static_cast<long double>(degrees) / 360 + static_cast<long double>(h) / k),
-                            heading, 1e-14);
+                            root(static_cast<long double>(degrees) / 360 + static_cast<long double>(h) / k), heading,
+                            1e-14);
                 if (HasFailure()) return;
             }
         }

@@ -183,8 +183,8 @@ TEST(Pattern, KeysMayStandAnywhereButOnce) {
 
 TEST(Pattern, UnknownKeysNameTheNearestKnown) {
     expect_mistakes("axiom: F\nangel factor: 4\nStrok: 1mm\nzzz: 1\n", {{{2, 1}, "did you mean 'angle factor'?"},
-                                                                          {{3, 1}, "did you mean 'stroke'?"},
-                                                                          {{4, 1}, "nobody knows the key 'zzz'"}});
+                                                                        {{3, 1}, "did you mean 'stroke'?"},
+                                                                        {{4, 1}, "nobody knows the key 'zzz'"}});
     expect_mistakes("axoim: F\n", {{{1, 1}, "did you mean 'axiom'?"}, {{1, 1}, "no 'axiom:'"}});
     const std::string key = repeated("k", 100'000);
     const auto found = diagnostics_of("axiom: F\n" + key + ": 1\n");
@@ -314,10 +314,10 @@ TEST(Pattern, BytesThatAreNoTextAreRefusedAtTheirPlace) {
     using namespace std::string_literals;
     expect_mistakes("axiom: F\nF --> \0F\nx\n"s, {{{2, 7}, "NUL"}});
     expect_mistakes("\0"s, {{{1, 1}, "NUL"}});
-    for (const char* bad : {"\x80", "\xBF", "\xC0\x80", "\xC1\xBF", "\xC3", "\xC3(", "\xE0\x80\x80", "\xE0\x9F\xBF",
-                            "\xE2\x82", "\xE2\x82(", "\xED\xA0\x80", "\xED\xBF\xBF", "\xF0\x80\x80\x80",
-                            "\xF0\x8F\xBF\xBF", "\xF0\x9F\x8C", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFE",
-                            "\xFF\xBF\xBF\xBF"}) {
+    for (const char* bad :
+         {"\x80", "\xBF", "\xC0\x80", "\xC1\xBF", "\xC3", "\xC3(", "\xE0\x80\x80", "\xE0\x9F\xBF", "\xE2\x82",
+          "\xE2\x82(", "\xED\xA0\x80", "\xED\xBF\xBF", "\xF0\x80\x80\x80", "\xF0\x8F\xBF\xBF", "\xF0\x9F\x8C",
+          "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFE", "\xFF\xBF\xBF\xBF"}) {
         for (const char* after : {"", "F", "\n"}) {
             const std::string text = "axiom: \xCE\xB1" + std::string(bad) + after;
             const auto found = diagnostics_of(text);
@@ -327,8 +327,8 @@ TEST(Pattern, BytesThatAreNoTextAreRefusedAtTheirPlace) {
             EXPECT_TRUE(reference::is_utf8(found[0].text()));
         }
     }
-    for (const char* good : {"\xC2\xA1", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEE\x80\x80", "\xF0\x90\x80\x80",
-                             "\xF4\x8F\xBF\xBF"}) {
+    for (const char* good : {"\xC2\xA1", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEE\x80\x80",
+                             "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"}) {
         EXPECT_TRUE(diagnostics_of("axiom: " + std::string(good) + "\n").empty()) << good;
     }
 }
@@ -393,7 +393,8 @@ TEST(Overrides, FileThenVariantThenSettings) {
     const Pattern set = overridden(text, "v", {{"--set", "derivation  LENGTH", "5"}, {"--set", "r", "3"}});
     EXPECT_EQ(set.text("derivation length"), "5");
     EXPECT_EQ(set.defines[0].value.view(), "3");
-    const Pattern last = overridden(text, "v", {{"--set", "derivation length", "5"}, {"-n", "derivation length", "6"}});
+    const Pattern last =
+        overridden(text, "v", {{"--set", "derivation length", "5"}, {"-n", "derivation length", "6"}});
     EXPECT_EQ(last.text("derivation length"), "6");
 }
 
@@ -434,8 +435,8 @@ TEST(ReadNumber, TakesTheWholeFieldOrNothing) {
         EXPECT_TRUE(read_number(text, value)) << text;
         EXPECT_EQ(value, expected) << text;
     }
-    for (const char* text : {"", "+", "-", ".", "3/2", "1 2", " 1", "1 ", "1,5", "0x10", "inf", "-inf", "nan", "1e400",
-                             "+-5", "++5", "1e", "2abc"}) {
+    for (const char* text : {"", "+", "-", ".", "3/2", "1 2", " 1", "1 ", "1,5", "0x10", "inf", "-inf", "nan",
+                             "1e400", "+-5", "++5", "1e", "2abc"}) {
         EXPECT_FALSE(read_number(text, value)) << text;
     }
 }

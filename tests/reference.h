@@ -113,8 +113,8 @@ public:
         if (run.block >= 0) {  // a number always means the same symbols
             const auto [known, fresh] = blocks.try_emplace(run.block, run.symbols.begin(), run.symbols.end());
             if (!fresh) {
-                EXPECT_TRUE(std::equal(known->second.begin(), known->second.end(), run.symbols.begin(),
-                                       run.symbols.end()));
+                EXPECT_TRUE(
+                    std::equal(known->second.begin(), known->second.end(), run.symbols.begin(), run.symbols.end()));
             }
         }
         longest = std::max(longest, run.symbols.size());
@@ -298,7 +298,8 @@ inline Tokens rewritten(const std::vector<Rule>& rules, const std::set<std::stri
         for (const bool with_context : {true, false}) {
             for (const Rule& rule : rules) {
                 const std::size_t end = at + rule.predecessor.size();
-                if (chosen || (rule.left.empty() && rule.right.empty()) == with_context || end > word.size()) continue;
+                if (chosen || (rule.left.empty() && rule.right.empty()) == with_context || end > word.size())
+                    continue;
                 if (!std::equal(rule.predecessor.begin(), rule.predecessor.end(),
                                 word.begin() + static_cast<std::ptrdiff_t>(at))) {
                     continue;
@@ -464,7 +465,8 @@ inline System random_system(unsigned seed, const Kind& kind) {
     }
     if (kind.interpreted) {
         for (const std::string& letter : kind.letters) {
-            if (letter.find('(') == std::string::npos && dice.once_in(2)) system.interpretation.push_back(rule_for(letter, 0));
+            if (letter.find('(') == std::string::npos && dice.once_in(2))
+                system.interpretation.push_back(rule_for(letter, 0));
         }
     }
     if (kind.contexts && dice.once_in(2)) {
@@ -645,8 +647,11 @@ inline Walk walk(const System& system, const Tokens& word, bool moves_draw = fal
                                : letter == "," ? state.pen.colour - 1
                                                : state.pen.colour + 1;
         } else if (letter == "@O" || letter == "@.") {
-            result.discs.push_back(
-                {here(), letter == "@." ? 0.0 : has_value ? static_cast<double>(value) : 1.0, state.pen});
+            result.discs.push_back({here(),
+                                    letter == "@." ? 0.0
+                                    : has_value    ? static_cast<double>(value)
+                                                   : 1.0,
+                                    state.pen});
         }
     }
     lift();

@@ -1,0 +1,154 @@
+// Every pattern that comes along states in a comment what it measures: `// expect: symbols 3803, drawn 2048, ...`.
+#include "engine/extent.h"
+#include "tests/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace sikku {
+namespace {
+
+std::vector<std::filesystem::path> pattern_files() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(SIKKU_SOURCE_DIR "/patterns")) {
+        if (entry.path().extension() == ".lsys") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string contents(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+/// The words after each name of the `// expect:` line.
+std::map<std::string, std::vector<std::string>> expectations(const std::string& text) {
+    std::map<std::string, std::vector<std::string>> result;
+    constexpr std::string_view mark = "// expect:";
+    const std::size_t at = text.find(mark);
+    if (at == std::string::npos) return result;
+    std::istringstream line(text.substr(at + mark.size(), text.find('\n', at) - at - mark.size()));
+    for (std::string item; std::getline(line, item, ',');) {
+        std::istringstream words(item);
+        std::string name;
+        words >> name;
+        for (std::string word; words >> word;) result[name].push_back(word);
+    }
+    return result;
+}
+
+double number(const std::string& text) {
+    double value = std::nan("");
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
+class Facts : public ::testing::TestWithParam<std::filesystem::path> {};
+
+struct Told {
+    double symbols, drawn, moves;
+    std::array<double, 4> box;
+    bool closed;
+};
+
+void expect_told(const std::map<std::string, std::vector<std::string>>& expected, const Told& found,
+                 const std::string& road) {
+    for (const auto& [name, words] : expected) {
+        if (name == "symbols") {
+            EXPECT_EQ(found.symbols, number(words.at(0))) << road;
+        } else if (name == "drawn") {
+            EXPECT_EQ(found.drawn, number(words.at(0))) << road;
+        } else if (name == "moves") {
+            EXPECT_EQ(found.moves, number(words.at(0))) << road;
+        } else if (name == "box") {
+            ASSERT_EQ(words.size(), 4u);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const double value = number(words[i]);  // printed to six digits
+                EXPECT_NEAR(found.box[i], value, std::max(5.1e-6 * std::fabs(value), 1e-9)) << road << ' ' << i;
+            }
+        } else if (name == "closed") {
+            EXPECT_EQ(found.closed, words.at(0) == "yes") << road;
+        } else {
+            ADD_FAILURE() << "no such expectation: " << name;
+        }
+    }
+}
+
+TEST_P(Facts, AreWhatEveryRoadMeasures) {
+    const std::string text = contents(GetParam());
+    const auto expected = expectations(text);
+    ASSERT_TRUE(expected.contains("symbols") && expected.contains("drawn") && expected.contains("moves"))
+        << "the pattern lacks its `// expect:` line";
+    Diagnostics diagnostics;
+    const Pattern pattern = parse_pattern(GetParam().filename(), text, diagnostics);
+    const Grammar grammar = compile_grammar(pattern, diagnostics);
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) ADD_FAILURE() << diagnostic.text();
+    EXPECT_NE(pattern.text("title"), "");
+    EXPECT_NE(pattern.text("source"), "");
+    ASSERT_FALSE(diagnostics.has_errors());
+
+    const Measurement measured = measure(grammar, 2e8);
+    ASSERT_TRUE(measured.geometry);
+    EXPECT_EQ(measured.derived, grammar.whole_word_steps() > 0);
+    const auto& box = measured.geometry->box;
+    expect_told(expected,
+                {measured.symbols.value,
+                 measured.drawn.value,
+                 measured.moves.value,
+                 {box[0].value, box[1].value, box[2].value, box[3].value},
+                 measured.geometry->closed},
+                "measured");
+
+    reference::Collector plain;
+    derive(grammar, plain);
+    const auto turtle = Turtle::surveying(grammar);
+    DerivationOptions interpreted;
+    interpreted.interpreted = true;
+    derive(grammar, *turtle, interpreted);
+    const Survey survey = turtle->survey();
+    expect_told(expected,
+                {static_cast<double>(plain.word.size()),
+                 static_cast<double>(survey.drawn),
+                 static_cast<double>(survey.moves),
+                 {survey.box.low.x, survey.box.low.y, survey.box.high.x, survey.box.high.y},
+                 survey.closed},
+                "walked");
+    EXPECT_TRUE(reference::same_heading(survey.heading, measured.geometry->heading));
+    EXPECT_EQ(survey.depth, measured.geometry->depth);
+
+    // The slow way, symbol by symbol.
+    const reference::System system = reference::system_of(grammar);
+    const auto word = reference::rewrite_level_by_level(system, false, 1'000'000);
+    ASSERT_TRUE(word);
+    EXPECT_EQ(reference::tokens_of(grammar, plain.word), *word);
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::filesystem::path>& info) {
+    std::string name = info.param.stem().string();
+    for (char& letter : name) {
+        if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+    }
+    return name;
+}
+INSTANTIATE_TEST_SUITE_P(Patterns, Facts, ::testing::ValuesIn(pattern_files()), name_of);
+
+TEST(PatternFiles, EveryKindOfPatternComesAlong) {
+    std::map<std::string, int> kinds;
+    for (const auto& file : pattern_files()) ++kinds[file.parent_path().filename()];
+    for (const char* kind : {"kolams", "tilings", "curves", "plants", "words"}) EXPECT_GT(kinds[kind], 0) << kind;
+}
+
+}  // namespace
+}  // namespace sikku
