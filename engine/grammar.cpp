@@ -70,7 +70,7 @@ std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::strin
 Angle angle_of_degrees(double degrees) {
     std::array<char, 64> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees).ptr;
-    Angle angle{degrees, std::nullopt};
+    Angle angle{std::fmod(degrees, 360.0), std::nullopt};
     if (const auto fraction = decimal_fraction({buffer.data(), end})) {
         if (fraction->second <= largest_term / 360) angle.exact = reduced(fraction->first, fraction->second * 360);
     }
@@ -268,7 +268,7 @@ private:
             diagnostics_.error(value, "expected degrees: a number such as 25.7 or a fraction such as 360/7");
             return std::nullopt;
         }
-        Angle angle{numerator / denominator, std::nullopt};
+        Angle angle{std::fmod(numerator / denominator, 360.0), std::nullopt};
         const auto top = decimal_fraction(over);
         const auto bottom = slash == std::string_view::npos
                                 ? std::optional(std::pair{std::int64_t{1}, std::int64_t{1}})

@@ -77,7 +77,7 @@ void SplineSink::emit_short() {
         controls.insert(controls.end(), 2, controls.back());
     }
     for (std::size_t i = 0; i + 3 < controls.size(); ++i) {
-        const std::size_t segment = is_closed_ ? i % segments + 1 : std::clamp<std::size_t>(i, 1, segments);
+        const std::size_t segment = is_closed_ ? (i + 1) % segments + 1 : std::clamp<std::size_t>(i, 1, segments);
         emit(uniform(controls[i], controls[i + 1], controls[i + 2], controls[i + 3]), recent(segment).pen);
     }
 }

@@ -471,7 +471,7 @@ TEST(FoldExactly, ClosedCurvesOfAnySizeClose) {
                                        {"axiom: F+F+F+F+F+F+F\nangle factor: 7\nF --> FF+F-F\n", true},
                                        {"axiom: F+F+F\nF --> F+F-F-FF+F+F-F\n", false},
                                        {"axiom: F++F++F-f\nangle factor: 6\nF --> F-F++F-F\n", false}}) {
-        for (const int n : {4, 60, 130}) {
+        for (const int n : {4, 45, 70}) {
             const auto found = fold(grammar_of(std::string(text) + "derivation length: " + std::to_string(n) + "\n"));
             ASSERT_TRUE(found) << text;
             EXPECT_EQ(found->closed, closed) << text << n;

@@ -130,4 +130,3 @@ BENCHMARK(pdf_curves)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
-BENCHMARK_MAIN();
