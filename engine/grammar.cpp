@@ -600,18 +600,23 @@ private:
         std::set<std::string> forward = {"F"};
         std::set<std::string> move = {"f"};
         const auto replace = [&](std::string_view name, std::set<std::string>& letters) {
-            const Key* key = pattern_.find(name);
-            if (!key) return;
+            const Key* listed = pattern_.find(name);
+            if (!listed) return;
             letters.clear();
-            if (const auto list = symbol_list(*key)) {
+            if (const auto list = symbol_list(*listed)) {
                 for (const Symbol symbol : *list) letters.insert(grammar_.symbols_[symbol].letter);
             }
         };
         replace("forward", forward);
         replace("move", move);
+        // A letter that is listed is taken from the other list's default.
+        const Key* key = pattern_.find("move");
+        if (!key) std::erase_if(move, [&](const std::string& letter) { return forward.contains(letter); });
+        if (!pattern_.find("forward")) {
+            std::erase_if(forward, [&](const std::string& letter) { return move.contains(letter); });
+        }
         for (const std::string& letter : move) {
             if (!forward.contains(letter)) continue;
-            const Key* key = pattern_.find("move") ? pattern_.find("move") : pattern_.find("forward");
             diagnostics_.error(key->value, fmt::format("'{}' is listed under both 'forward:' and 'move:'", letter));
         }
         grammar_.ignored_.assign(grammar_.symbols_.size(), 0);
