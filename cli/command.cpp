@@ -1,6 +1,7 @@
 #include "cli/command.h"
 
 #include "art/style.h"
+#include "engine/forecast.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -168,6 +169,15 @@ void Progress::show() {
                    std::string(30 - filled, ' '), share * 100, rate / 1e6);
     } else {
         fmt::print(stderr, "\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
+    }
+}
+
+double expected_symbols(const Grammar& grammar, bool interpreted) {
+    try {
+        const auto known = grammar.steps() <= most_steps ? forecast(grammar, interpreted) : std::nullopt;
+        return known ? std::pow(10.0, known->log10_length) : 0.0;
+    } catch (const BudgetError&) {
+        return 0.0;  // too much to forecast is not too much to stream
     }
 }
 

@@ -89,6 +89,9 @@ private:
     double last_;
 };
 
+/// Symbols of the word, for a progress bar; 0 if only deriving tells.
+double expected_symbols(const Grammar& grammar, bool interpreted);
+
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();
 

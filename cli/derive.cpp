@@ -100,7 +100,9 @@ void add_derive(CLI::App& app, bool& quiet) {
     command->callback([options, interpreted, &quiet] {
         const LoadedPattern loaded = load(*options, quiet);
         const Grammar grammar = shorten(loaded.grammar);
-        Progress progress(0, quiet || isatty(STDOUT_FILENO) == 1);
+        // Where the word itself goes to the terminal, a bar would be lost in it.
+        const bool silent = quiet || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 0;
+        Progress progress(silent ? 0 : expected_symbols(grammar, *interpreted), silent);
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;

@@ -101,7 +101,9 @@ void run(const Options& options, bool quiet) {
     if (loaded.grammar.whole_word_steps() > 0) {
         drawing.budget = std::min(drawing.budget, static_cast<double>(memory_budget()));
     }
-    Progress progress(0, quiet);
+    // A spline is read once for its extent and once for the print.
+    const int passes = print.style.line == Line::spline ? 2 : 1;
+    Progress progress(passes * expected_symbols(loaded.grammar, true), quiet);
     drawing.watch = progress.watch();
     const Page page = print.page;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
