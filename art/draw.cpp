@@ -165,7 +165,7 @@ private:
         const auto turtle = Turtle::drawing(grammar_, sink, spline_);
         DerivationOptions derivation;
         derivation.interpreted = true;
-        if (options_.budget < 1.8e19) derivation.budget = static_cast<std::uint64_t>(options_.budget);
+        derivation.budget = whole_word_budget(options_.budget);
         derivation.watch = options_.watch;
         derive(grammar_, *turtle, derivation);
     }

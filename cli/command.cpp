@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -124,7 +125,15 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
         }
         settings.push_back({"--set", text.substr(0, equals), text.substr(equals + 1)});
     }
-    if (!options.steps.empty()) settings.push_back({"-n", "derivation length", options.steps});
+    if (!options.steps.empty()) {
+        std::int64_t steps = 0;
+        const char* end = options.steps.data() + options.steps.size();
+        const auto [stopped, error] = std::from_chars(options.steps.data(), end, steps);
+        if (error != std::errc() || stopped != end || steps < 0) {
+            throw UsageError(fmt::format("-n {}: expected a whole number, 0 or more, below 2^63", options.steps));
+        }
+        settings.push_back({"-n", "derivation length", options.steps});
+    }
     PatternText text = read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     LoadedPattern loaded;

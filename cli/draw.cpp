@@ -48,7 +48,8 @@ Page page_of(const Options& options) {
     if (!(page.width >= 1 && page.height >= 1 && page.width <= most && page.height <= most)) {
         throw UsageError(fmt::format("--size {}: a page is between 1 mm and 10 m wide and high", options.size));
     }
-    if (!(page.margin >= 0 && 2 * page.margin < std::min(page.width, page.height))) {
+    if (page.margin < 0) throw UsageError(fmt::format("--margin {}: a margin is 0 or more", options.margin));
+    if (!(2 * page.margin < std::min(page.width, page.height))) {
         throw UsageError(fmt::format("--margin {}: the margins leave nothing of a page of {:g} x {:g} mm",
                                      options.margin, page.width, page.height));
     }
@@ -98,9 +99,6 @@ void run(const Options& options, bool quiet) {
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
-    if (loaded.grammar.whole_word_steps() > 0) {
-        drawing.budget = std::min(drawing.budget, static_cast<double>(memory_budget()));
-    }
     // A spline is read once for its extent and once for the print.
     const int passes = print.style.line == Line::spline ? 2 : 1;
     Progress progress(passes * expected_symbols(loaded.grammar, true), quiet);

@@ -27,6 +27,9 @@ void catch_signals() {
     action.sa_handler = note_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGHUP, &action, nullptr);
+    // A file that grows over the limit of the shell is an error like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int fail(int status, const char* message) {

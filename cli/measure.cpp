@@ -125,9 +125,7 @@ void add_measure(CLI::App& app, bool& quiet) {
     command->callback([options, as_json, budget, &quiet] {
         const LoadedPattern loaded = load(*options, quiet);
         Progress progress(0, quiet);
-        const double limit = std::min(*budget, static_cast<double>(memory_budget()));
-        const Measurement measured =
-            measure(loaded.grammar, loaded.grammar.whole_word_steps() > 0 ? limit : *budget, progress.watch());
+        const Measurement measured = measure(loaded.grammar, *budget, progress.watch());
         const std::string title = loaded.pattern.text("title");
         fmt::print("{}", *as_json ? json(title, measured) : prose(title, measured));
     });

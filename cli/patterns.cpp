@@ -65,6 +65,9 @@ void show(const std::string& what, bool quiet) {
     } else {
         PatternText text = read_pattern_text(what);
         if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
+        Diagnostics diagnostics;
+        parse_pattern(text.name, text.text, diagnostics);
+        if (diagnostics.is_unreadable()) diagnostics.throw_if_errors();
         found.pattern = std::move(text.text);
     }
     std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
@@ -87,6 +90,7 @@ bool check(const std::string& file) {
             apply_overrides(varied, variant.name.view(), {}, diagnostics);
             check_keys(varied, style_keys(), diagnostics);
             compile_grammar(varied, diagnostics);
+            read_style(varied, 96, diagnostics);
         }
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());

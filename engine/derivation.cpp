@@ -359,19 +359,13 @@ private:
     std::vector<std::size_t> partner_;
 };
 
-[[noreturn]] void refuse_word(std::uint64_t length, std::uint64_t budget) {
-    throw BudgetError(fmt::format(
-        "a word of this system has to be kept whole, as productions look at its symbols' neighbours; it would have "
-        "over {} symbols, above the budget of {}",
-        length, budget));
-}
-
 }  // namespace
 
 Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::uint64_t budget) {
+    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", budget)); };
     Word result;
     const auto append = [&](const Word& successor) {
-        if (result.size() + successor.size() > budget) refuse_word(result.size(), budget);
+        if (result.size() + successor.size() > budget) refuse();
         result.insert(result.end(), successor.begin(), successor.end());
     };
     result.reserve(word.size());
@@ -405,7 +399,7 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::
             append(chosen->successor);
             at += chosen->predecessor.size();
         } else {
-            if (result.size() >= budget) refuse_word(result.size(), budget);
+            if (result.size() >= budget) refuse();
             result.push_back(word[at++]);
         }
     }
@@ -419,7 +413,16 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
     std::int64_t step = 0;
     for (const ScheduleRun& run : grammar.schedule()) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
-            Word next = rewrite(grammar, grammar.tables()[run.table], *word, options.budget);
+            Word next;
+            try {
+                next = rewrite(grammar, grammar.tables()[run.table], *word, options.budget);
+            } catch (const BudgetError&) {
+                throw BudgetError(
+                    fmt::format("productions that look at their neighbours need whole words, and that of step {} (of "
+                                "n = {}) would "
+                                "have more than {} symbols; the largest derivation length that fits is {}",
+                                step + 1, grammar.steps(), options.budget, step));
+            }
             // A word that came back unchanged under the same table stays so for the rest of its run.
             const bool unchanged = next == *word;
             rewritten = std::move(next);

@@ -51,6 +51,11 @@ struct DerivationOptions {
     std::function<void(std::uint64_t symbols)> watch;
 };
 
+/// Most symbols of a word kept whole for a budget of nodes: keeping one takes the memory and time of about 40.
+inline std::uint64_t whole_word_budget(double nodes) {
+    return nodes < 1e19 ? static_cast<std::uint64_t>(nodes / 40) : UINT64_MAX;
+}
+
 /// Hands the word after grammar.steps() derivation steps to `sink`, left to right.
 ///
 /// Memory: O(steps) frames, the blocks, and, only if a production looks at its neighbours, the word of the last step
@@ -60,7 +65,7 @@ struct DerivationOptions {
 void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& options = {});
 
 /// One derivation step applied to a whole word: the slow and obvious way, needed where contexts are looked at.
-/// Memory: the word twice, and a table of brackets if there are contexts.
+/// Memory: the word twice, and a table of brackets if there are contexts. BudgetError above `budget` symbols.
 Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::uint64_t budget = UINT64_MAX);
 
 }  // namespace sikku

@@ -109,7 +109,7 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     result.n = given.steps();
     DerivationOptions limits;
     limits.interpreted = true;
-    if (budget < 1.8e19) limits.budget = static_cast<std::uint64_t>(budget);
+    limits.budget = whole_word_budget(budget);
     limits.watch = watch;
     const auto plain = forecast(grammar, false);
     if (plain) {

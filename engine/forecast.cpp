@@ -309,6 +309,23 @@ void require_affordable(const Grammar& grammar, bool interpreted, double budget)
                                   forecast(grammar, interpreted)->length(), grammar.steps(), budget, advice));
 }
 
+namespace {
+
+[[noreturn]] void refuse_steps(const Grammar& grammar) {
+    std::string size;
+    if (const auto shorter = grammar.with_steps(most_steps)) {
+        if (const auto known = forecast(*shorter, false); known && known->log10_length > 15) {
+            size = fmt::format("; at {} the word has {} symbols already", most_steps, known->length());
+        }
+    }
+    throw BudgetError(
+        fmt::format("a derivation length of {} is too much: above {} only systems are derived whose words "
+                    "do not grow{}",
+                    grammar.steps(), most_steps, size));
+}
+
+}  // namespace
+
 Grammar shorten(const Grammar& grammar) {
     if (grammar.steps() <= most_steps) return grammar;
     const std::vector<char> reached = grammar.reachable();
@@ -319,10 +336,7 @@ Grammar shorten(const Grammar& grammar) {
         for (Symbol symbol = 0; symbol < map.size(); ++symbol) {
             const Word* successor = table.context_free() ? table.successor(symbol) : nullptr;
             if (!table.context_free() || (reached[symbol] && successor && successor->size() > 1)) {
-                throw BudgetError(
-                    fmt::format("a derivation length of {} is too much: above {} only systems are "
-                                "derived whose words do not grow",
-                                grammar.steps(), most_steps));
+                refuse_steps(grammar);
             }
             map[symbol] = !successor ? symbol : successor->size() == 1 ? successor->front() : nothing;
         }

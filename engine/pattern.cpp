@@ -406,9 +406,9 @@ void check_keys(const Pattern& pattern, const std::vector<std::string_view>& int
         if (is_engine_key(key.name)) continue;
         if (std::find(interpreter_keys.begin(), interpreter_keys.end(), key.name) != interpreter_keys.end()) continue;
         const std::string_view near = nearest(key.name, known);
-        diagnostics.error(
-            key.name_at, near.empty() ? fmt::format("nobody knows the key '{}'", key.name)
-                                      : fmt::format("nobody knows the key '{}'; did you mean '{}'?", key.name, near));
+        diagnostics.error(key.name_at, near.empty() ? fmt::format("nobody knows the key '{}'", key.name_at.view())
+                                                    : fmt::format("nobody knows the key '{}'; did you mean '{}'?",
+                                                                  key.name_at.view(), near));
     }
 }
 
