@@ -165,7 +165,6 @@ private:
         const auto turtle = Turtle::drawing(grammar_, sink, spline_);
         DerivationOptions derivation;
         derivation.interpreted = true;
-        derivation.budget = whole_word_budget(options_.budget);
         derivation.watch = options_.watch;
         derive(grammar_, *turtle, derivation);
     }
@@ -254,7 +253,10 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
 }
 
 DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, const std::filesystem::path& file) {
-    const Grammar grammar = shorten(given);
+    DerivationOptions whole_words;
+    whole_words.limit_whole_words(options.budget);
+    whole_words.watch = options.watch;
+    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
     require_affordable(grammar, true, options.budget);
     OutputFile output(file);
     Drawer drawer(grammar, print, options);

@@ -183,7 +183,7 @@ void Progress::show() {
 
 double expected_symbols(const Grammar& grammar, bool interpreted) {
     try {
-        const auto known = grammar.steps() <= most_steps ? forecast(grammar, interpreted) : std::nullopt;
+        const auto known = grammar.steps() <= most_steps ? estimate(grammar, interpreted) : std::nullopt;
         return known ? std::pow(10.0, known->log10_length) : 0.0;
     } catch (const BudgetError&) {
         return 0.0;  // too much to forecast is not too much to stream

@@ -106,7 +106,7 @@ void add_derive(CLI::App& app, bool& quiet) {
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;
-        derivation.budget = memory_budget();
+        derivation.longest_word = memory_budget();
         derivation.watch = progress.watch();
         derive(grammar, sink, derivation);
     });

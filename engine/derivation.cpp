@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace sikku {
@@ -12,22 +14,29 @@ namespace {
 
 constexpr std::size_t longest_run = 4096;
 constexpr std::size_t shortest_block = 32;  // below this a block is copied into the run being gathered
-constexpr std::size_t most_entries = std::size_t{1} << 21;
+constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;  // symbols or frames
 
 /// The tables from the last level upwards: level 0 is the finished word, level r has r tables still to come.
 /// Adjacent levels of one table are one stretch, so that a million steps cost nothing to describe.
 class Levels {
 public:
-    Levels(const Grammar& grammar, std::int64_t whole_word_steps, bool interpreted) {
+    Levels(const Grammar& grammar, bool interpreted) {
         if (interpreted && grammar.interpretation()) add(grammar.interpretation(), 1);
-        std::int64_t before = grammar.steps();
         for (std::size_t i = grammar.schedule().size(); i > 0; --i) {
             const ScheduleRun& run = grammar.schedule()[i - 1];
-            before -= run.steps;
-            add(&grammar.tables()[run.table], run.steps - std::max<std::int64_t>(0, whole_word_steps - before));
+            add(&grammar.tables()[run.table], run.steps);
         }
     }
     std::int64_t count() const { return count_; }
+    /// The largest number of neighbouring levels that `table` rules.
+    std::int64_t longest_stretch(const Table& table) const {
+        std::int64_t longest = 0;
+        for (std::size_t i = 0; i < stretches_.size(); ++i) {
+            if (stretches_[i].table != &table) continue;
+            longest = std::max(longest, stretches_[i].end - (i == 0 ? 0 : stretches_[i - 1].end));
+        }
+        return longest;
+    }
     /// The table that rewrites a symbol at `level` >= 1.
     const Table& table(std::int64_t level) const { return *stretches_[stretch(level)].table; }
 
@@ -72,8 +81,14 @@ public:
         for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
             entries_.push_back(needed[symbol] ? append(std::span(&symbol, 1)) : Entry{});
         }
-        const auto most_levels = static_cast<std::int64_t>(most_entries / std::max<std::size_t>(symbols_, 1));
-        while (levels_ < std::min(levels.count(), most_levels) && any_short_) {
+        // Above a level without short expansions only a symbol that is erased has one.
+        const bool erasing = std::any_of(grammar.tables().begin(), grammar.tables().end(), [&](const Table& table) {
+            for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
+                if (const Word* successor = table.successor(symbol); successor && successor->empty()) return true;
+            }
+            return false;
+        });
+        while (levels_ < std::min(levels.count(), kept_levels(symbols_)) && (any_short_ || erasing)) {
             add_level(levels.table(++levels_), needed);
         }
     }
@@ -147,7 +162,7 @@ public:
             one[symbol] = !successor ? symbol : successor->size() == 1 ? successor->front() : none;
         }
         strides_.push_back(std::move(one));
-        while (std::int64_t{2} << (strides_.size() - 1) <= longest) {
+        while (std::int64_t{1} << (strides_.size() - 1) <= longest / 2) {
             const std::vector<Symbol>& half = strides_.back();
             std::vector<Symbol> whole(symbols);
             for (Symbol symbol = 0; symbol < symbols; ++symbol) {
@@ -189,7 +204,9 @@ public:
 
     void stream(const Word& word) {
         push(word, levels_.count());
-        while (!frames_.empty()) {
+        for (std::uint64_t visited = 1; !frames_.empty(); ++visited) {
+            // Erased symbols may take long without a run.
+            if (visited % between_watches == 0 && watch_) watch_(0);
             Frame& frame = frames_.back();
             const Symbol symbol = *frame.next++;
             const std::int64_t level = frame.level;
@@ -246,7 +263,7 @@ private:
     const UnitChains& chains(const Table& table) {
         const auto found = chains_.find(&table);
         if (found != chains_.end()) return found->second;
-        return chains_.try_emplace(&table, table, symbols_, levels_.count()).first->second;
+        return chains_.try_emplace(&table, table, symbols_, levels_.longest_stretch(table)).first->second;
     }
 
     /// A symbol that no table rewrites below `level` stays for good.
@@ -291,97 +308,94 @@ private:
 };
 
 /// Looks at the neighbours of a place of a word, across branches, as the pfg program does.
+/// For each place it knows the next symbol to the left and to the right that contexts see, so that a long stretch of
+/// ignored symbols, or a large branch, is passed in one step.
 /// Source: Prusinkiewicz & Hanan 1989, section 3.4 and appendix A.
 class Neighbourhood {
 public:
-    Neighbourhood(const Grammar& grammar, const Word& word) : grammar_(grammar), word_(word) {
-        // Where each bracket's partner is; the end of the word for an unclosed one, npos for an unopened one.
-        std::vector<std::size_t> open;
-        for (std::size_t i = 0; i < word.size(); ++i) {
-            const bool push = grammar.is_push(word[i]);
-            if (!push && !grammar.is_pop(word[i])) continue;
-            if (partner_.empty()) partner_.assign(word.size(), 0);
-            if (push) {
-                open.push_back(i);
-                partner_[i] = word.size();
-            } else if (open.empty()) {
-                partner_[i] = npos;
-            } else {
-                partner_[i] = open.back();
-                partner_[open.back()] = i;
+    Neighbourhood(const Grammar& grammar, const Word& word) : word_(word) {
+        const auto size = static_cast<std::uint32_t>(word.size());
+        before_.resize(word.size() + 1);
+        after_.resize(word.size() + 1);
+        std::vector<std::uint32_t> open;
+        before_[0] = nothing;
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const Symbol symbol = word[i];
+            before_[i + 1] = i;
+            if (grammar.is_push(symbol)) open.push_back(before_[i]);
+            // What came before a branch is seen after it; its end closes it even where brackets are ignored.
+            std::uint32_t opened = nothing;
+            if (grammar.is_pop(symbol) && !open.empty()) {
+                opened = open.back();
                 open.pop_back();
+            }
+            if (grammar.ignored(symbol) || grammar.is_push(symbol)) {
+                before_[i + 1] = before_[i];
+            } else if (grammar.is_pop(symbol)) {
+                before_[i + 1] = opened;
+            }
+        }
+        open.clear();
+        after_[size] = nothing;
+        for (std::uint32_t i = size; i-- > 0;) {
+            const Symbol symbol = word[i];
+            after_[i] = i;
+            if (grammar.is_pop(symbol)) open.push_back(after_[i + 1]);
+            std::uint32_t closed = nothing;
+            if (grammar.is_push(symbol) && !open.empty()) {
+                closed = open.back();
+                open.pop_back();
+            }
+            if (grammar.ignored(symbol)) {
+                after_[i] = after_[i + 1];
+            } else if (grammar.is_push(symbol)) {
+                after_[i] = closed;
             }
         }
     }
 
     bool left_matches(const Word& context, std::size_t at) const {
-        std::size_t i = at;  // one past the symbol looked at
-        for (std::size_t k = context.size(); k > 0;) {
-            if (i == 0) return false;
-            const Symbol symbol = word_[i - 1];
-            if (grammar_.ignored(symbol) || grammar_.is_push(symbol)) {
-                --i;
-            } else if (grammar_.is_pop(symbol)) {
-                i = partner_[i - 1];
-                if (i == npos) return false;
-            } else if (symbol == context[k - 1]) {
-                --k;
-                --i;
-            } else {
-                return false;
-            }
+        for (std::size_t k = context.size(); k > 0; --k) {
+            const std::uint32_t seen = before_[at];
+            if (seen == nothing || word_[seen] != context[k - 1]) return false;
+            at = seen;
         }
         return true;
     }
 
     bool right_matches(const Word& context, std::size_t at) const {
-        for (std::size_t k = 0; k < context.size();) {
-            if (at >= word_.size()) return false;
-            const Symbol symbol = word_[at];
-            if (grammar_.ignored(symbol)) {
-                ++at;
-            } else if (grammar_.is_push(symbol)) {
-                at = partner_[at] + (partner_[at] < word_.size() ? 1 : 0);
-            } else if (symbol == context[k]) {
-                ++k;
-                ++at;
-            } else {
-                return false;
-            }
+        for (const Symbol wanted : context) {
+            const std::uint32_t seen = after_[at];
+            if (seen == nothing || word_[seen] != wanted) return false;
+            at = std::size_t{seen} + 1;
         }
         return true;
     }
 
 private:
-    static constexpr std::size_t npos = std::numeric_limits<std::size_t>::max();
-    const Grammar& grammar_;
+    static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
     const Word& word_;
-    std::vector<std::size_t> partner_;
+    std::vector<std::uint32_t> before_;  // the place seen from the left end of each symbol
+    std::vector<std::uint32_t> after_;   // the place seen from there to the right, its own included
 };
 
 }  // namespace
 
-Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::uint64_t budget) {
-    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", budget)); };
+Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options) {
+    // Places are counted in 32 bits.
+    const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
+    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
+    if (word.size() > longest) refuse();
     Word result;
     const auto append = [&](const Word& successor) {
-        if (result.size() + successor.size() > budget) refuse();
+        if (result.size() + successor.size() > longest) refuse();
         result.insert(result.end(), successor.begin(), successor.end());
     };
     result.reserve(word.size());
-    if (table.context_free()) {
-        for (const Symbol symbol : word) {
-            if (const Word* successor = table.successor(symbol)) {
-                append(*successor);
-            } else {
-                append({symbol});
-            }
-        }
-        return result;
-    }
-    const Neighbourhood neighbourhood(grammar, word);
-    for (std::size_t at = 0; at < word.size();) {
-        const Production* chosen = nullptr;
+    const bool context_free = table.context_free();
+    const auto choose =
+        [&, neighbourhood = context_free ? std::nullopt : std::optional<Neighbourhood>(std::in_place, grammar, word)](
+            std::size_t at) -> const Production* {
         for (const std::uint32_t i : table.candidates(word[at])) {
             const Production& production = table.production(i);
             const std::size_t end = at + production.predecessor.size();
@@ -389,44 +403,65 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::
                                                  word.begin() + static_cast<std::ptrdiff_t>(at))) {
                 continue;
             }
-            if (neighbourhood.left_matches(production.left, at) &&
-                neighbourhood.right_matches(production.right, end)) {
-                chosen = &production;
-                break;
+            if (neighbourhood->left_matches(production.left, at) &&
+                neighbourhood->right_matches(production.right, end)) {
+                return &production;
             }
         }
-        if (chosen) {
-            append(chosen->successor);
-            at += chosen->predecessor.size();
-        } else {
-            if (result.size() >= budget) refuse();
-            result.push_back(word[at++]);
+        return nullptr;
+    };
+    std::uint64_t visited = 0;
+    for (std::size_t at = 0; at < word.size();) {
+        if (++visited % between_watches == 0 && options.watch) options.watch(0);
+        const Word* successor = nullptr;
+        std::size_t replaced = 1;
+        if (context_free) {
+            successor = table.successor(word[at]);
+        } else if (const Production* production = choose(at)) {
+            successor = &production->successor;
+            replaced = production->predecessor.size();
         }
+        if (successor) {
+            append(*successor);
+        } else {
+            if (result.size() >= longest) refuse();
+            result.push_back(word[at]);
+        }
+        at += replaced;
     }
     return result;
 }
 
-void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& options) {
+Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
     const std::int64_t whole = grammar.whole_word_steps();
-    const Word* word = &grammar.axiom();
-    Word rewritten;
+    if (whole == 0) return grammar;
+    std::shared_ptr<const Word> word;
     std::int64_t step = 0;
+    std::uint64_t visited = 0;
     for (const ScheduleRun& run : grammar.schedule()) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
+            const Word& before = word ? *word : grammar.axiom();
+            const auto refuse = [&](const std::string& what, std::uint64_t most) {
+                // With a schedule a shorter derivation takes other steps.
+                const std::string advice = grammar.has_schedule()
+                                               ? ""
+                                               : fmt::format("; the largest derivation length that fits is {}", step);
+                throw BudgetError(fmt::format(
+                    "productions that look at their neighbours need whole words, and {} of step {} (of n = "
+                    "{}) would have more than {} symbols{}",
+                    what, step + 1, grammar.steps(), most, advice));
+            };
+            visited += before.size();
+            if (visited > options.whole_words) refuse("all words up to that", options.whole_words);
             Word next;
             try {
-                next = rewrite(grammar, grammar.tables()[run.table], *word, options.budget);
+                next = rewrite(grammar, grammar.tables()[run.table], before, options);
             } catch (const BudgetError&) {
-                throw BudgetError(
-                    fmt::format("productions that look at their neighbours need whole words, and that of step {} (of "
-                                "n = {}) would "
-                                "have more than {} symbols; the largest derivation length that fits is {}",
-                                step + 1, grammar.steps(), options.budget, step));
+                refuse("that", options.longest_word);
             }
             // A word that came back unchanged under the same table stays so for the rest of its run.
-            const bool unchanged = next == *word;
-            rewritten = std::move(next);
-            word = &rewritten;
+            const bool unchanged = next == before;
+            word = std::make_shared<const Word>(std::move(next));
             if (options.watch) options.watch(0);
             if (unchanged) {
                 step += std::min(run.steps - i, whole - step) - 1;
@@ -434,8 +469,13 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
             }
         }
     }
-    const Levels levels(grammar, whole, options.interpreted);
-    Streamer(grammar, levels, options, sink).stream(*word);
+    return std::move(grammar).after(whole, std::move(word));
+}
+
+void derive(const Grammar& given, SymbolSink& sink, const DerivationOptions& options) {
+    if (given.whole_word_steps() > 0) return derive(resolve_contexts(given, options), sink, options);
+    const Levels levels(given, options.interpreted);
+    Streamer(given, levels, options, sink).stream(given.axiom());
     sink.finish();
 }
 

@@ -41,20 +41,23 @@ class WordError : public std::runtime_error {
 struct DerivationOptions {
     /// Apply `interpret:` to the finished word.
     bool interpreted = false;
-    /// Most symbols of a word that has to be kept whole (contexts); more is a BudgetError. Words that are streamed
-    /// are not limited here: forecast() tells their cost beforehand.
-    std::uint64_t budget = UINT64_MAX;
+    /// Most symbols of a word that has to be kept whole (contexts), and of all such words together; more is a
+    /// BudgetError. Words that are streamed are not limited here: forecast() tells their cost beforehand.
+    std::uint64_t longest_word = UINT64_MAX;
+    std::uint64_t whole_words = UINT64_MAX;
     /// Most symbols that the blocks hold together: what is kept to be handed out again.
     std::size_t block_memory = std::size_t{1} << 20;
-    /// Called after each run with its number of symbols (and with 0 after each step on a whole word); may throw, to
-    /// stop the derivation.
+    /// Called after each run with its number of symbols, and with 0 from time to time where nothing is handed over;
+    /// may throw, to stop the derivation.
     std::function<void(std::uint64_t symbols)> watch;
-};
 
-/// Most symbols of a word kept whole for a budget of nodes: keeping one takes the memory and time of about 40.
-inline std::uint64_t whole_word_budget(double nodes) {
-    return nodes < 1e19 ? static_cast<std::uint64_t>(nodes / 40) : UINT64_MAX;
-}
+    /// Limits the words kept whole to a budget of nodes: keeping a symbol takes the memory and time of about 40.
+    void limit_whole_words(double nodes) {
+        if (nodes >= 1e19) return;
+        longest_word = static_cast<std::uint64_t>(nodes / 40);
+        whole_words = static_cast<std::uint64_t>(nodes);
+    }
+};
 
 /// Hands the word after grammar.steps() derivation steps to `sink`, left to right.
 ///
@@ -64,8 +67,21 @@ inline std::uint64_t whole_word_budget(double nodes) {
 /// Source: Prusinkiewicz & Hanan 1989, sections 1.2 and 3.4.
 void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& options = {});
 
-/// One derivation step applied to a whole word: the slow and obvious way, needed where contexts are looked at.
-/// Memory: the word twice, and a table of brackets if there are contexts. BudgetError above `budget` symbols.
-Word rewrite(const Grammar& grammar, const Table& table, const Word& word, std::uint64_t budget = UINT64_MAX);
+/// A grammar with the same derived word in which no step that is left looks at its neighbours: `grammar` itself, or
+/// what is left of it when the word after the last step that does so takes the place of the axiom.
+/// Memory: that word, the one before it, and 8 bytes a symbol. Time: linear in the symbols of the words, times the
+/// length of the contexts. BudgetError above the limits of `options`, which alone matter here.
+Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options);
+
+/// One derivation step applied to a whole word, needed where contexts are looked at. BudgetError above
+/// `options.longest_word` symbols.
+Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options = {});
+
+/// The number of levels above the finished word up to which short expansions are kept: those that are empty cost
+/// nothing there.
+inline std::int64_t kept_levels(std::size_t symbols) {
+    constexpr std::size_t most_entries = std::size_t{1} << 21;
+    return static_cast<std::int64_t>(most_entries / (symbols > 0 ? symbols : 1));
+}
 
 }  // namespace sikku

@@ -187,6 +187,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string_view candidate : known) {
+        if (candidate.size() >= word.size() + best_distance) continue;
         // Optimal string alignment: neighbours exchanged count as one slip.
         std::vector<std::size_t> earlier(candidate.size() + 1);
         std::vector<std::size_t> above(candidate.size() + 1);

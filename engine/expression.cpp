@@ -145,7 +145,6 @@ private:
         const auto meaning = names_(name);
         if (!meaning) return wrong(begin, fmt::format("'{}' is not defined", name));
         if (meaning->is_formal) {
-            result_.constant_ = false;
             push_value({Operation::formal, meaning->slot});
         } else {
             push_value({Operation::number, 0, meaning->value});

@@ -29,8 +29,6 @@ public:
     /// limited by memory only. `random` is not known yet. Cost: linear.
     static std::optional<Expression> compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics);
 
-    /// True if no formal is mentioned: the value is then always the same.
-    bool is_constant() const { return constant_; }
     /// @param formals  a value for each slot that the names gave
     double evaluate(std::span<const double> formals = {}) const;
 
@@ -82,7 +80,6 @@ private:
 
     std::vector<Step> steps_;
     std::size_t stack_ = 0;  ///< most values at a time
-    bool constant_ = true;
 };
 
 /// True for a byte that may begin a name of an expression: a letter, `_`, or any byte of a code point beyond ASCII.

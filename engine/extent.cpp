@@ -10,21 +10,7 @@
 namespace sikku {
 namespace {
 
-/// Counts symbols and hands them on.
-class Counter : public SymbolSink {
-public:
-    explicit Counter(std::size_t symbols) : counts_(symbols, 0) {}
-    void symbols(const Run& run) override {
-        for (const Symbol symbol : run.symbols) ++counts_[symbol];
-    }
-    const std::vector<std::uint64_t>& counts() const { return counts_; }
-
-private:
-    std::vector<std::uint64_t> counts_;
-};
-
-template <class Number>
-void tell_counts(const Grammar& grammar, const std::vector<Number>& counts, Measurement& result) {
+void tell_counts(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
     std::map<std::string, Integer> letters;
     Integer total = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -46,6 +32,7 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Command& command = grammar.symbols()[i].command;
         if (command.action != Action::draw && command.action != Action::move) continue;
+        if (counts[i] == 0) continue;
         moves += counts[i];
         if (command.action == Action::move) continue;
         drawn += counts[i];
@@ -104,51 +91,36 @@ Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted
 }  // namespace
 
 Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
-    const Grammar grammar = shorten(given);
+    DerivationOptions options;
+    options.interpreted = true;
+    options.limit_whole_words(budget);
+    options.watch = watch;
+    const Grammar grammar = resolve_contexts(shorten(given), options);
     Measurement result;
     result.n = given.steps();
-    DerivationOptions limits;
-    limits.interpreted = true;
-    limits.budget = whole_word_budget(budget);
-    limits.watch = watch;
-    const auto plain = forecast(grammar, false);
-    if (plain) {
-        const auto interpreted = forecast(grammar, true);
-        if (!plain->counts || !interpreted->counts) {
-            const auto one_if = [](bool wanted) { return wanted ? 1.0 : 0.0; };
-            const auto draws = [](const Command& command) { return command.action == Action::draw; };
-            const auto moves = [&](const Command& command) {
-                return draws(command) || command.action == Action::move;
-            };
-            result.symbols = about(grammar, *plain, [](const Command&) { return 1.0; });
-            result.drawn = about(grammar, *interpreted, [&](const Command& c) { return one_if(draws(c)); });
-            result.moves = about(grammar, *interpreted, [&](const Command& c) { return one_if(moves(c)); });
-            result.length =
-                about(grammar, *interpreted, [&](const Command& c) { return draws(c) ? std::fabs(c.value) : 0.0; });
-            return result;
-        }
-        tell_counts(grammar, *plain->counts, result);
-        tell_steps(grammar, *interpreted->counts, result);
-        result.geometry = fold(grammar);
-        if (result.geometry || interpreted->nodes > budget) return result;
+    result.derived = grammar.is_begun();
+    const Forecast plain = *forecast(grammar, false);
+    const Forecast interpreted = grammar.interpretation() ? *forecast(grammar, true) : plain;
+    if (!plain.counts || !interpreted.counts) {
+        const auto one_if = [](bool wanted) { return wanted ? 1.0 : 0.0; };
+        const auto draws = [](const Command& command) { return command.action == Action::draw; };
+        const auto moves = [&](const Command& command) { return draws(command) || command.action == Action::move; };
+        result.symbols = about(grammar, plain, [](const Command&) { return 1.0; });
+        result.drawn = about(grammar, interpreted, [&](const Command& command) { return one_if(draws(command)); });
+        result.moves = about(grammar, interpreted, [&](const Command& command) { return one_if(moves(command)); });
+        result.length = about(grammar, interpreted, [&](const Command& command) {
+            return draws(command) ? std::fabs(command.value) : 0.0;
+        });
+        return result;
     }
-    if (!plain) {
-        Counter counter(grammar.symbols().size());
-        DerivationOptions plain_word = limits;
-        plain_word.interpreted = false;
-        derive(grammar, counter, plain_word);
-        tell_counts(grammar, counter.counts(), result);
-    }
+    tell_counts(grammar, *plain.counts, result);
+    tell_steps(grammar, *interpreted.counts, result);
+    result.geometry = fold(grammar);
+    if (result.geometry || interpreted.nodes > budget) return result;
     const auto turtle = Turtle::surveying(grammar);
-    derive(grammar, *turtle, limits);
-    const Survey survey = turtle->survey();
+    derive(grammar, *turtle, options);
     result.derived = true;
-    if (!plain) {
-        result.drawn = Quantity::of(Integer(survey.drawn));
-        result.moves = Quantity::of(Integer(survey.moves));
-        result.length = Quantity::of(survey.length);
-    }
-    result.geometry = as_fold(survey);
+    result.geometry = as_fold(turtle->survey());
     return result;
 }
 

@@ -4,6 +4,8 @@
 #include "engine/fold.h"
 #include "engine/turtle.h"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,13 +23,14 @@ struct Measurement {
     Quantity length;                                       ///< drawn, in steps
     /// Absent if the word is too long for even the fold (then only counts are told).
     std::optional<Fold> geometry;
-    bool derived = false;  ///< the word had to be walked
+    bool derived = false;  ///< the word had to be walked, or was kept whole for contexts
 };
 
-/// From the fold where the system allows it, else by one pass over the word.
+/// From the fold where the system allows it, else by one pass over the word; contexts are resolved first.
 /// @param budget  most nodes of that pass; above it, a BudgetError
 /// @param watch   as in DerivationOptions
-/// @throws WordError for brackets that do not balance, steps that are not finite
+/// @throws WordError for brackets that do not balance, steps that are not finite; BudgetError for words kept whole
+/// that are too long, and if even the forecast is too much
 Measurement measure(const Grammar& grammar, double budget, const std::function<void(std::uint64_t)>& watch = {});
 
 }  // namespace sikku

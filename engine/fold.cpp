@@ -613,8 +613,7 @@ Quantity Quantity::of(double value) {
 std::optional<Fold> fold(const Grammar& grammar) {
     if (grammar.whole_word_steps() > 0) return std::nullopt;
     const Lattice lattice = make_lattice(grammar);
-    const auto forecasted = forecast(grammar, true);
-    const double bits = std::max(0.0, forecasted->log10_length) * 3.33 + 48;
+    const double bits = std::max(0.0, estimate(grammar, true)->log10_length) * 3.33 + 48;
     if (grammar.axiom().size() > longest_axiom) return std::nullopt;
     if (work_of(grammar, bits) > most_work) return std::nullopt;
     for (const SymbolInfo& symbol : grammar.symbols()) {

@@ -49,6 +49,7 @@ struct Steps {
     std::vector<std::pair<std::size_t, std::int64_t>> runs;  // index into tables, number of steps
     std::vector<Symbol> symbols;                             // those reached
     std::int64_t count = 0;
+    double work = 0;  // table entries looked at in one pass
 
     Steps(const Grammar& grammar, bool interpreted) {
         const std::vector<char> needed = grammar.reachable();
@@ -63,7 +64,6 @@ struct Steps {
             tables.emplace_back(*grammar.interpretation(), needed.size(), needed);
             runs.emplace_back(tables.size() - 1, 1);
         }
-        double work = 0;
         for (const auto& [table, steps] : runs) {
             count += steps;
             work += static_cast<double>(steps) * static_cast<double>(symbols.size() + tables[table].terms.size());
@@ -75,8 +75,8 @@ struct Steps {
     }
 };
 
-/// For each step, which symbols lead to an empty word from there on. Told for the last steps only, as far as the
-/// table stays small; before that, nothing is known to be empty.
+/// For each step, which symbols lead to an empty word from there on. Told for the last steps only, as many as
+/// derive() keeps expansions of; before that, nothing is known to be empty.
 class Emptiness {
 public:
     Emptiness(const Steps& steps, std::size_t symbols) {
@@ -85,12 +85,12 @@ public:
             any = any || std::find(table.length.begin(), table.length.end(), 0U) != table.length.end();
         }
         if (!any) return;
-        constexpr std::size_t most_bytes = std::size_t{1} << 24;
+        const auto most_rows = static_cast<std::size_t>(kept_levels(symbols)) + 1;
         rows_.emplace_back(symbols, 0);
         for (std::size_t i = steps.runs.size(); i > 0; --i) {
             const auto& [index, count] = steps.runs[i - 1];
             const Sparse& table = steps.tables[index];
-            for (std::int64_t step = 0; step < count && rows_.size() * symbols < most_bytes; ++step) {
+            for (std::int64_t step = 0; step < count && rows_.size() < most_rows; ++step) {
                 std::vector<char> row = rows_.back();
                 for (const Symbol symbol : steps.symbols) {
                     if (!table.has[symbol]) continue;
@@ -211,11 +211,9 @@ std::string Forecast::length() const {
     return sum.str();
 }
 
-std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
-    if (grammar.whole_word_steps() > 0) return std::nullopt;
-    const Steps steps(grammar, interpreted);
-    Forecast result = rough_forecast(grammar, steps);
-    if (result.log10_length >= most_digits) return result;
+namespace {
+
+std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
     std::vector<Integer> counts(grammar.symbols().size());
     std::vector<Integer> next(grammar.symbols().size());
     std::vector<std::uint64_t> occurrences(counts.size(), 0);
@@ -233,7 +231,21 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
                     });
         }
     }
-    result.counts = std::move(counts);
+    return counts;
+}
+
+}  // namespace
+
+std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
+    if (grammar.whole_word_steps() > 0) return std::nullopt;
+    return rough_forecast(grammar, Steps(grammar, interpreted));
+}
+
+std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
+    if (grammar.whole_word_steps() > 0) return std::nullopt;
+    const Steps steps(grammar, interpreted);
+    Forecast result = rough_forecast(grammar, steps);
+    if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
     return result;
 }
 
@@ -301,12 +313,20 @@ std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double
 void require_affordable(const Grammar& grammar, bool interpreted, double budget) {
     if (grammar.whole_word_steps() > 0) return;
     const Steps steps(grammar, interpreted);
-    if (rough_forecast(grammar, steps).nodes <= budget) return;
-    const std::int64_t fits = largest_affordable(grammar, interpreted, budget);
-    const std::string advice = fits >= 0 ? fmt::format("the largest derivation length that fits is {}", fits)
-                                         : std::string("no derivation length fits");
-    throw BudgetError(fmt::format("a word of {} symbols (n = {}) is above the budget of {:.0f} nodes; {}",
-                                  forecast(grammar, interpreted)->length(), grammar.steps(), budget, advice));
+    Forecast found = rough_forecast(grammar, steps);
+    if (found.nodes <= budget) return;
+    // Where exact counts take seconds, the word's size has to do.
+    if (found.log10_length < most_digits && steps.work * (1 + found.log10_length / 100) < most_work) {
+        found.counts = exact_counts(grammar, steps);
+    }
+    std::string advice;
+    if (!grammar.is_begun()) {
+        const std::int64_t fits = largest_affordable(grammar, interpreted, budget);
+        advice = fits >= 0 ? fmt::format("; the largest derivation length that fits is {}", fits)
+                           : std::string("; no derivation length fits");
+    }
+    throw BudgetError(fmt::format("a word of {} symbols (n = {}) is above the budget of {:.0f} nodes{}",
+                                  found.length(), grammar.steps(), budget, advice));
 }
 
 namespace {
@@ -314,7 +334,7 @@ namespace {
 [[noreturn]] void refuse_steps(const Grammar& grammar) {
     std::string size;
     if (const auto shorter = grammar.with_steps(most_steps)) {
-        if (const auto known = forecast(*shorter, false); known && known->log10_length > 15) {
+        if (const auto known = estimate(*shorter, false); known && known->log10_length > 15) {
             size = fmt::format("; at {} the word has {} symbols already", most_steps, known->length());
         }
     }

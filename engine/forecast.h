@@ -32,16 +32,20 @@ struct Forecast {
     std::string length() const;
 };
 
-/// Nullopt if productions look at neighbours: then nothing short of deriving tells.
+/// Nullopt if productions look at neighbours: then nothing short of deriving tells (see resolve_contexts).
 /// @param interpreted  of the word after `interpret:`
-/// Cost: O(steps x size of the tables); BudgetError if even that is too much (5 x 10^7).
+/// Cost: O(steps x size of the tables), times the size of the numbers; BudgetError if even the first is too much
+/// (5 x 10^7).
 std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
+
+/// The same without exact counts, at a cost that does not grow with the numbers.
+std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
 /// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget);
 
 /// Throws BudgetError, with the length and the largest derivation length that fits, if the word costs more than
-/// `budget` nodes. Systems with contexts pass: their derivation watches over the budget.
+/// `budget` nodes. Systems with contexts pass; resolve_contexts() leaves one that does not.
 void require_affordable(const Grammar& grammar, bool interpreted, double budget);
 
 /// A grammar that derives the same word in at most most_steps steps: itself, or, for a longer derivation in which

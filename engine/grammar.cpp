@@ -18,7 +18,11 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t longest_allowed_name = 64;
-constexpr std::size_t large_word = std::size_t{1} << 22;      // bytes
+constexpr std::size_t large_word = std::size_t{1} << 22;  // bytes
+constexpr std::size_t most_symbols = std::size_t{1} << 19;
+// What tables repeat, together: productions that all of them share, and a place for each symbol of the grammar.
+constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
+constexpr std::size_t most_places = std::size_t{1} << 22;
 constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
@@ -68,6 +72,7 @@ std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::strin
 }
 
 Angle angle_of_degrees(double degrees) {
+    if (!std::isfinite(degrees)) return {degrees, std::nullopt};  // the turtle refuses it, with its place
     std::array<char, 64> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees).ptr;
     Angle angle{std::fmod(degrees, 360.0), std::nullopt};
@@ -393,6 +398,10 @@ private:
                 diagnostics_.error(span.part(begin), "the cut symbol '%' is not supported yet");
                 return false;
             }
+            if (grammar_.symbols_.size() >= most_symbols) {
+                diagnostics_.error(span.part(begin), "there are more than 524,288 different symbols");
+                return false;
+            }
             const Symbol symbol = intern(std::string(letter), is_name, std::move(arguments));
             if (plain) plain_symbols_[static_cast<unsigned char>(letter.front())] = symbol;
             take(symbol);
@@ -549,6 +558,16 @@ private:
         Table common;
         std::set<std::tuple<Word, Word, Word>> seen;
         add_productions(common, pattern_.common, seen, false);
+        std::size_t size = 0;
+        for (const Production& production : common.productions_) {
+            size += 64 + production.left.size() + production.predecessor.size() + production.right.size() +
+                    production.successor.size();
+        }
+        if (pattern_.tables.size() > 1 && size > most_shared / pattern_.tables.size()) {
+            diagnostics_.error(pattern_.tables.front().name,
+                               "there is too much before the first table for so many tables to share it");
+            return;
+        }
         if (pattern_.tables.empty()) {
             grammar_.tables_.push_back(std::move(common));
         } else {
@@ -770,6 +789,12 @@ private:
     // --- lookup structures ---------------------------------------------------------------------------------
 
     void finish_tables() {
+        if (grammar_.tables_.size() > 1 && grammar_.tables_.size() * grammar_.symbols_.size() > most_places) {
+            diagnostics_.error(pattern_.tables.front().name,
+                               fmt::format("{} tables of {} symbols are too many: at most {} together",
+                                           grammar_.tables_.size(), grammar_.symbols_.size(), most_places));
+            return;
+        }
         for (Table& table : grammar_.tables_) finish(table);
         if (grammar_.interpretation_) finish(*grammar_.interpretation_);
     }
@@ -853,7 +878,8 @@ bool Grammar::make_schedule(std::string* problem) {
             return false;
         }
         total += std::max(count, 0.0);
-        const auto steps = static_cast<std::int64_t>(std::clamp(count, 0.0, n));
+        // As a double n may be rounded up to 2^63, which is no number of steps.
+        const std::int64_t steps = count >= n ? steps_ : static_cast<std::int64_t>(std::max(count, 0.0));
         if (steps > 0) runs.push_back({item.table, steps});
     }
     for (std::size_t i = runs.size(); i > 0 && missing > 0; --i) {
@@ -900,10 +926,23 @@ std::vector<char> Grammar::reachable() const {
 }
 
 std::optional<Grammar> Grammar::with_steps(std::int64_t steps) const {
+    if (begun_) return std::nullopt;
     Grammar other = *this;
     other.steps_ = steps;
     if (!other.make_schedule(nullptr)) return std::nullopt;
     return other;
+}
+
+Grammar Grammar::after(std::int64_t steps, std::shared_ptr<const Word> word) && {
+    begun_ = true;
+    axiom_ = std::move(word);
+    for (ScheduleRun& run : schedule_) {
+        const std::int64_t taken = std::min(run.steps, steps);
+        run.steps -= taken;
+        steps -= taken;
+    }
+    std::erase_if(schedule_, [](const ScheduleRun& run) { return run.steps == 0; });
+    return std::move(*this);
 }
 
 Grammar Grammar::with_map(const std::vector<Symbol>& map) const {

@@ -111,7 +111,8 @@ public:
     const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
     /// Derivation length n, as the file, the variant or the caller set it.
     std::int64_t steps() const { return steps_; }
-    /// Which table applies in which step, from the first to the last; steps sum to steps().
+    /// Which table applies in which step, from the first to the last; steps sum to steps(), unless after() has taken
+    /// the first of them away.
     const std::vector<ScheduleRun>& schedule() const { return schedule_; }
 
     const Angle& heading() const { return heading_; }
@@ -128,6 +129,13 @@ public:
 
     /// The same system with another derivation length; nullopt if its schedule is too short for it.
     std::optional<Grammar> with_steps(std::int64_t steps) const;
+
+    /// What is left to do once `word` has been derived by the first `steps` steps. It keeps steps(), and has no
+    /// with_steps().
+    Grammar after(std::int64_t steps, std::shared_ptr<const Word> word) &&;
+    bool is_begun() const { return begun_; }
+    /// True if the file says which table applies when; else one table applies in every step.
+    bool has_schedule() const { return schedule_items_ != nullptr; }
 
     /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
     Grammar with_map(const std::vector<Symbol>& map) const;
@@ -147,6 +155,7 @@ private:
     std::vector<Table> tables_;
     std::optional<Table> interpretation_;
     std::int64_t steps_ = 0;
+    bool begun_ = false;
     std::vector<ScheduleRun> schedule_;
     std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
     Angle heading_;

@@ -35,7 +35,7 @@ std::vector<int> cyclotomic(int k) {
     return polynomial;
 }
 
-/// The smallest whole number of which a decimal is a multiple's inverse: 2.5 has 2, 0.2 has 5; 0 if it is too large.
+/// The denominator of a decimal in lowest terms: of 2.5 it is 2, of 0.2 it is 5; 0 if it is too large.
 std::int64_t decimal_denominator(double value) {
     std::array<char, 64> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);

@@ -35,6 +35,7 @@ struct Lattice {
     glm::dvec2 basis(int i) const { return direction[static_cast<std::size_t>(i)]; }
 };
 
+/// The lattice that all turns and lengths of the grammar fit; doubles where there is none. Cost: O(symbols + k).
 Lattice make_lattice(const Grammar& grammar);
 
 /// A turn as its nearest axis and the rest: quarter / 4 + rest / (4 denominator), |rest| <= denominator / 2.

@@ -26,18 +26,12 @@ public:
 
     explicit ExactWalker(const Lattice& lattice) : lattice_(lattice) {
         for (int i = 0; i < Rank; ++i) basis_[static_cast<std::size_t>(i)] = lattice.basis(i) * lattice.unit;
-        step_.resize(lattice.length.size() * lattice.headings);
-        for (std::size_t symbol = 0; symbol < lattice.length.size(); ++symbol) {
-            for (std::uint32_t h = 0; h < lattice.headings; ++h) {
-                for (std::size_t i = 0; i < Rank; ++i) {
-                    step_[symbol * lattice.headings + h][i] = lattice.power[h][i] * lattice.length[symbol];
-                }
-            }
-        }
+        for (const auto& power : lattice.power) std::copy_n(power.begin(), Rank, powers_.emplace_back().begin());
     }
     void step(State& state, Symbol symbol) const {
-        const auto& step = step_[symbol * lattice_.headings + state.heading];
-        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += step[i];
+        const std::int64_t length = lattice_.length[symbol];
+        const auto& power = powers_[state.heading];
+        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += power[i] * length;
     }
     void turn(State& state, Symbol symbol) const {
         state.heading += lattice_.turn[symbol];
@@ -61,7 +55,7 @@ public:
 private:
     const Lattice& lattice_;
     std::array<glm::dvec2, Rank> basis_;
-    std::vector<std::array<std::int64_t, Rank>> step_;  // by symbol and heading
+    std::vector<std::array<std::int64_t, Rank>> powers_;  // of zeta, by heading
 };
 
 /// Positions in doubles; headings modulo k, or in degrees where no k serves.

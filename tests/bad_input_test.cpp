@@ -8,7 +8,8 @@
 namespace sikku {
 namespace {
 
-constexpr double most_seconds = sanitized ? 20 : 1;
+/// Of processor time, on a machine that does other things as well: what would take for ever takes longer.
+constexpr double most_seconds = sanitized ? 25 : 8;
 constexpr long most_kilobytes = sanitized ? 4'000'000 : 200 * 1024;
 
 std::string repeated(std::string_view text, std::size_t times) {
@@ -315,6 +316,27 @@ TEST(BadInput, ManyTablesVariantsDefinesKeys) {
     expect_mistake(keys, "nobody knows the key 'k0'");
 }
 
+TEST(BadInput, WhatTablesRepeat) {
+    std::string names = "symbols:";
+    std::string rules;
+    std::string tables;
+    std::string schedule = "schedule: t0*n\n";
+    std::string own;
+    for (int i = 0; i < 3000; ++i) {
+        const std::string number = std::to_string(i);
+        names += " a" + number;
+        rules += "a" + number + " --> a" + number + " F\n";
+        tables += "table t" + number + ":\nX --> X\n";
+        own += "table t" + number + ":\na" + number + " --> F\n";
+    }
+    const std::string head = "axiom: X\n" + names + "\n" + schedule;
+    expect_mistake(head + rules + tables, "too much before the first table");
+    expect_mistake(head + own, "3000 tables of 3002 symbols are too many");
+    std::string word = "axiom: ";
+    for (int i = 0; i < 600'000; ++i) word += "F(" + std::to_string(i) + ")";
+    expect_mistake(word, "more than 524,288 different symbols");
+}
+
 TEST(BadInput, ScheduleOfManyItems) {
     const std::string head = "axiom: X\nderivation length: 100000\ntable a:\nX --> XF\ntable b:\nX --> fX\n";
     expect_answer(head + "schedule: " + repeated("a b ", 50'000), "\"drawn\": 50000");
@@ -322,6 +344,8 @@ TEST(BadInput, ScheduleOfManyItems) {
     expect_mistake(head + "schedule: " + repeated("a b ", 49'999), "the schedule holds 99998 steps");
     expect_mistake(head + "schedule: a*(0/0) b*(n)", "not a number");
     expect_answer(head + "schedule: a*(-5) b*(1e300)", "\"drawn\": 0");
+    const std::string units = "axiom: F\ntable a:\nF --> F\nschedule: a*n\n";
+    expect_answer(units, "\"drawn\": 1", {"-n", "9223372036854775807"});
 }
 
 TEST(BadInput, CyclicDefines) {
@@ -377,7 +401,7 @@ TEST(BadInput, ALargeAxiom) {
     const Outcome outcome = axiom("\n");
     EXPECT_TRUE(outcome.status == 0 ? has(outcome.output, "\"drawn\": 30000000")
                                     : ::testing::AssertionResult(outcome.status == 2));
-    EXPECT_LT(outcome.seconds, 10 * most_seconds);
+    EXPECT_LT(outcome.seconds, 2 * most_seconds);
     EXPECT_LT(outcome.peak, 4 * most_kilobytes);
     expect_refused(axiom("(\n"), 2, "-:1:60000008: ");
 }
@@ -442,6 +466,13 @@ TEST(BadInput, ParametersOfEverySize) {
     }
 }
 
+TEST(BadInput, NumbersThatAreNot) {
+    expect_answer("axiom: GF\nX --> F(1/0)\n", "\"length\": 1.0");
+    expect_mistake("axiom: F+(1/0)F\n", "symbol 2 of the word: its parameter is not finite");
+    expect_mistake("axiom: F-(0/0)F\n", "symbol 2 of the word: its parameter is not finite");
+    expect_mistake("axiom: F(1/0)\n", "symbol 1 of the word: its parameter is not finite");
+}
+
 // --- growth -------------------------------------------------------------------------------------------------------
 
 TEST(BadInput, Growth) {
@@ -465,6 +496,19 @@ TEST(BadInput, Growth) {
     }
     expect_sane(drawn(ring + "\n" + rules, {"-n", "300000", "--budget", "100000"}));
     expect_sane(piped(ring + "\n" + rules, {"-n", "300000"}));
+    // What grows after the contexts is refused as well.
+    const std::string after =
+        "axiom: ABF\nderivation length: 60\nschedule: once grow*(n-1)\n"
+        "table once:\nA < B --> B\ntable grow:\nF --> FF\n";
+    expect_refused(drawn(after), 1, "a word of 576460752303423490 symbols (n = 60) is above the budget");
+    expect_answer(after, "\"drawn\": \"576460752303423488\"");
+    // Where exact counts would take long, the size is told.
+    std::string slow = "axiom: a\n";
+    const std::string letters = "abcdefghijklmnopqrstuvwxyzGHIJ";
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+        slow += std::string(1, letters[i]) + " --> " + letters[(i + 1) % letters.size()] + (i == 0 ? "b" : "") + "\n";
+    }
+    expect_refused(drawn(slow, {"-n", "800000"}), 1, "a word of about 10^8027 symbols");
     // With contexts, the word itself has to stay within the budget.
     expect_refused(drawn("axiom: AB\nA < B --> AB\nB --> BB\n", {"-n", "1000", "--budget", "1e5"}), 1, "");
 }

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <span>
+#include <stdexcept>
 #include <string>
 
 namespace sikku {
@@ -293,18 +296,106 @@ TEST(Limits, WordsThatStopChangingCostNothingMore) {
 TEST(Limits, WholeWordsKeepTheirBudget) {
     const Grammar grammar = grammar_of("derivation length: 40\naxiom: F\nF --> FF\nx < F --> x\n");
     DerivationOptions options;
-    options.budget = 100'000;
+    options.longest_word = 100'000;
     EXPECT_THROW(derived(grammar, options), BudgetError);
     const Grammar small = grammar_of("derivation length: 10\naxiom: F\nF --> FF\nx < F --> x\n");
-    options.budget = 1024;
+    options.longest_word = 1024;
     EXPECT_EQ(derived(small, options).size(), 1024u);
-    options.budget = 1023;
+    options.longest_word = 1023;
     EXPECT_THROW(derived(small, options), BudgetError);
     // Only up to the last step that looks at neighbours; from there on the word is streamed.
     const Grammar late = grammar_of(
         "derivation length: 12\naxiom: F\nschedule: s*2 t*10\ntable s:\nF --> FF\nx < F --> x\ntable t:\nF --> FF\n");
-    options.budget = 4;
+    options.longest_word = 4;
     EXPECT_EQ(ends_of(late, options).count, 4096u);
+}
+
+TEST(Limits, AllWordsKeptWholeTogether) {
+    const Grammar grammar = grammar_of("derivation length: 1000000\naxiom: FxyxyxF\nF > y --> F\nx --> y\ny --> x\n");
+    DerivationOptions options;
+    options.whole_words = 10'000;
+    EXPECT_THROW(derived(grammar, options), BudgetError);
+    options.limit_whole_words(7e5);
+    try {
+        resolve_contexts(grammar, options);
+        ADD_FAILURE();
+    } catch (const BudgetError& error) {
+        EXPECT_NE(std::string(error.what()).find("the largest derivation length that fits is 100000"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(Limits, ContextsAreResolvedOnce) {
+    const Grammar grammar = grammar_of(
+        "derivation length: 60\naxiom: ABF\nschedule: once grow*(n-1)\n"
+        "table once:\nA < B --> B+\ntable grow:\nF --> FF\n");
+    const Grammar rest = resolve_contexts(grammar, {});
+    EXPECT_EQ(to_text(rest, rest.axiom()), "AB+F");
+    EXPECT_EQ(rest.steps(), 60);
+    EXPECT_EQ(rest.schedule().size(), 1u);
+    EXPECT_EQ(rest.schedule().front().steps, 59);
+    EXPECT_EQ(rest.whole_word_steps(), 0);
+    EXPECT_FALSE(rest.with_steps(3));
+    EXPECT_EQ(forecast(rest, false)->length(), "576460752303423491");
+    try {
+        require_affordable(rest, false, 1e6);
+        ADD_FAILURE();
+    } catch (const BudgetError& error) {
+        EXPECT_STREQ(error.what(),
+                     "a word of 576460752303423491 symbols (n = 60) is above the budget of 1000000 nodes");
+    }
+    // Without contexts nothing happens.
+    EXPECT_EQ(resolve_contexts(grammar_of("derivation length: 3\naxiom: F\nF --> FF\n"), {}).steps(), 3);
+}
+
+TEST(Limits, ErasedWordsCostWhatTheForecastTells) {
+    // Erased far above the levels whose expansions are kept, and through levels that keep none.
+    for (const std::string schedule : {"grow*(n-1) wipe", "grow*30 wipe grow*(n-31)"}) {
+        const Grammar grammar = grammar_of("derivation length: 60\naxiom: FD\nschedule: " + schedule +
+                                           "\ntable grow:\nD --> DD\nX --> Y\ntable wipe:\nD --> *\n");
+        ASSERT_LE(forecast(grammar, false)->nodes, 10);
+        DerivationOptions options;
+        int calls = 0;
+        options.watch = [&](std::uint64_t) {
+            if (++calls > 10) throw std::runtime_error("more is visited than the forecast tells");
+        };
+        EXPECT_EQ(ends_of(grammar, options).count, 1u) << schedule;
+    }
+    // Above the levels that are kept it is not known that nothing will come of it.
+    const Grammar deep = grammar_of(
+        "derivation length: 1000000\naxiom: FD\nschedule: grow*(n-1) wipe\n"
+        "table grow:\nD --> DD\nX --> Y\ntable wipe:\nD --> *\n");
+    EXPECT_THROW(require_affordable(deep, false, 1e8), BudgetError);
+}
+
+TEST(Limits, ContextsAcrossLongStretchesAreFoundInOneStep) {
+    // Quadratic, these would take hours.
+    const std::size_t many = 1'000'000;
+    std::string stretch(many, 'x');
+    EXPECT_EQ(derived_text("ignore: x\naxiom: A" + stretch + "B" + stretch + "B\nderivation length: 1\n" +
+                           "A < B --> C\nB < B --> D\nx --> *\n"),
+              "ACD");
+    const Grammar ignored = grammar_of("ignore: x\naxiom: A" + stretch + "\nderivation length: 1\nA < x --> y\n");
+    EXPECT_EQ(to_text(ignored, rewrite(ignored, ignored.tables()[0], ignored.axiom())), "A" + std::string(many, 'y'));
+    const Grammar right = grammar_of("ignore: x\naxiom: " + stretch + "A\nderivation length: 1\nx > A --> y\n");
+    EXPECT_EQ(to_text(right, rewrite(right, right.tables()[0], right.axiom())), std::string(many, 'y') + "A");
+    std::string branches;
+    for (int i = 0; i < 300'000; ++i) branches += "[B]";
+    const Grammar siblings = grammar_of("axiom: A" + branches + "\nderivation length: 1\nA < B --> C\n");
+    const Word word = rewrite(siblings, siblings.tables()[0], siblings.axiom());
+    EXPECT_EQ(std::count(word.begin(), word.end(), word[2]), 300'000);
+    EXPECT_EQ(to_text(siblings, std::span(word).first(4)), "A[C]");
+}
+
+TEST(Limits, ALongStepIsWatched) {
+    const Grammar grammar =
+        grammar_of("axiom: " + std::string(1'000'000, 'x') + "\nderivation length: 1\nA < x --> y\n");
+    int calls = 0;
+    DerivationOptions options;
+    options.watch = [&](std::uint64_t) { ++calls; };
+    rewrite(grammar, grammar.tables()[0], grammar.axiom(), options);
+    EXPECT_GE(calls, 10);
 }
 
 TEST(Limits, NestingOfMillions) {
