@@ -146,7 +146,7 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
     }
     diagnostics.throw_if_errors();
     if (!quiet) {
-        for (const Diagnostic& warning : diagnostics.list()) fmt::print(stderr, "{}\n", warning.text());
+        for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());
     }
     return loaded;
 }
@@ -155,7 +155,7 @@ Progress::Progress(double expected, bool quiet)
     : expected_(expected), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
 
 Progress::~Progress() {
-    if (visible_) fmt::print(stderr, "\r\033[K");
+    if (visible_) tell("\r\033[K");
 }
 
 void Progress::add(std::uint64_t symbols) {
@@ -174,10 +174,10 @@ void Progress::show() {
     if (expected_ > 0 && std::isfinite(expected_)) {
         const double share = std::min(1.0, symbols_ / expected_);
         const auto filled = static_cast<std::size_t>(share * 30);
-        fmt::print(stderr, "\r[{}{}] {:3.0f} %  {:.0f} M symbols a second\033[K", std::string(filled, '#'),
-                   std::string(30 - filled, ' '), share * 100, rate / 1e6);
+        tell("\r[{}{}] {:3.0f} %  {:.0f} M symbols a second\033[K", std::string(filled, '#'),
+             std::string(30 - filled, ' '), share * 100, rate / 1e6);
     } else {
-        fmt::print(stderr, "\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
+        tell("\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
     }
 }
 

@@ -3,13 +3,17 @@
 
 #include "engine/grammar.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -27,6 +31,17 @@ public:
 
 /// Set by the signal handler that main() installs.
 bool interrupted();
+
+/// Prints to standard error. If that cannot be written there is nobody left to tell.
+template <typename... Arguments>
+void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {
+    try {
+        fmt::memory_buffer text;
+        fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+        std::fwrite(text.data(), 1, text.size(), stderr);
+    } catch (...) {
+    }
+}
 
 /// Options of every command that takes a pattern.
 struct PatternOptions {

@@ -33,7 +33,7 @@ void catch_signals() {
 }
 
 int fail(int status, const char* message) {
-    fmt::print(stderr, "sikku: {}\n", sikku::printable(message, 2000));
+    sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
     return status;
 }
 
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     } catch (const PatternError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        tell("{}\n", error.what());
         return 2;
     } catch (const WordError& error) {
         return fail(2, error.what());

@@ -71,7 +71,7 @@ void show(const std::string& what, bool quiet) {
         found.pattern = std::move(text.text);
     }
     std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
-    if (!found.made.empty() && !quiet) fmt::print(stderr, "made with {}\n", found.made);
+    if (!found.made.empty() && !quiet) tell("made with {}\n", found.made);
 }
 
 /// True if the file is without mistakes.

@@ -238,6 +238,21 @@ TEST(Program, EveryPatternThatComesAlongPassesItsCheck) {
     }
 }
 
+TEST(Program, MessagesThatCannotBeToldChangeNoStatus) {
+    const TemporaryFolder folder;
+    const auto status = [&](const std::vector<std::string>& arguments, const std::string& input = "") {
+        return run(arguments, {.input = input, .folder = folder.path(), .errors = "/dev/full"}).status;
+    };
+    EXPECT_EQ(status({"draw", "nosuch", "-o", "x.svg"}), 2);
+    EXPECT_EQ(status({"measure", "-"}, "axiom: F)\n"), 2);
+    EXPECT_EQ(status({"measure", "-"}, "axiom: F]\n"), 2);
+    EXPECT_EQ(status({"measure", "--nonsense"}), 2);
+    EXPECT_EQ(status({"draw", "hilbert", "-n", "40", "-o", "x.svg"}), 1);
+    EXPECT_EQ(status({"derive", "-"}, "axiom: F // F\n"), 0) << "a warning";
+    EXPECT_EQ(status({"draw", "hilbert", "-o", "x.svg"}), 0);
+    EXPECT_EQ(status({"show", "x.svg"}), 0);
+}
+
 TEST(Program, PatternsAreFoundFromAnywhere) {
     const TemporaryFolder folder;
     EXPECT_EQ(run({"measure", "hilbert"}, {.folder = folder.path()}).status, 0);

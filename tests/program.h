@@ -42,6 +42,7 @@ struct Surroundings {
     std::vector<std::pair<std::string, std::string>> environment = {};
     std::optional<rlim_t> file_size = {};  ///< most bytes a file may get: a disk that is full
     std::string output = {};               ///< standard output goes to this file
+    std::string errors = {};               ///< and standard error to this one
     std::string program = SIKKU_PROGRAM;
     unsigned seconds = 30;  ///< then it is killed
 };
@@ -76,9 +77,11 @@ public:
             if (!surroundings_.folder.empty() && chdir(surroundings_.folder.c_str()) != 0) _exit(126);
             const int standard_output =
                 surroundings_.output.empty() ? output_ : open(surroundings_.output.c_str(), O_WRONLY);
+            const int standard_error =
+                surroundings_.errors.empty() ? errors_ : open(surroundings_.errors.c_str(), O_WRONLY);
             dup2(ends[0], STDIN_FILENO);
             dup2(standard_output, STDOUT_FILENO);
-            dup2(errors_, STDERR_FILENO);
+            dup2(standard_error, STDERR_FILENO);
             for (const auto& [name, value] : surroundings_.environment) setenv(name.c_str(), value.c_str(), 1);
             std::signal(SIGPIPE, SIG_DFL);
             if (surroundings_.file_size) {
