@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <sstream>
 
 namespace {
 volatile std::sig_atomic_t signal_seen = 0;
@@ -50,15 +51,9 @@ void require_command(const CLI::App& app, const std::string& wanted) {
                     near.empty() ? "; `sikku --help` lists them" : fmt::format("; did you mean '{}'?", near)));
 }
 
-}  // namespace
-
-bool sikku::interrupted() {
-    return signal_seen != 0;
-}
-
-int main(int argc, char** argv) {
+/// Does what the command line asks for, tells what went wrong with it, and returns the exit status.
+int run(int argc, char** argv) {
     using namespace sikku;
-    catch_signals();
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
     app.set_version_flag("--version", "sikku " SIKKU_VERSION);
     bool quiet = false;
@@ -77,12 +72,17 @@ int main(int argc, char** argv) {
     try {
         if (argc > 1 && argv[1][0] != '-') require_command(app, argv[1]);
         app.parse(argc, argv);
-        if (std::fflush(stdout) != 0) return fail(1, "standard output cannot be written");
         return 0;
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        // CLI11 by itself prints without looking whether it can; what is lost here main() sees.
+        std::ostringstream help;
+        std::ostringstream mistake;
+        const int status = app.exit(error, help, mistake) == 0 ? 0 : 2;
+        std::fputs(help.str().c_str(), stdout);
+        tell("{}", mistake.str());
+        return status;
     } catch (const PatternError& error) {
         tell("{}\n", error.what());
         return 2;
@@ -98,4 +98,18 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }
+}
+
+}  // namespace
+
+bool sikku::interrupted() {
+    return signal_seen != 0;
+}
+
+int main(int argc, char** argv) {
+    catch_signals();
+    const int status = run(argc, argv);
+    // Output that is lost is a failure, also where it would have told mistakes; other failures were told already.
+    const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+    return lost && (status == 0 || status == 2) ? fail(1, "standard output cannot be written") : status;
 }

@@ -253,6 +253,33 @@ TEST(Program, MessagesThatCannotBeToldChangeNoStatus) {
     EXPECT_EQ(status({"show", "x.svg"}), 0);
 }
 
+TEST(Program, OutputThatIsLostIsAFailure) {
+    const TemporaryFolder folder;
+    const std::string wrong = folder.write("wrong.lsys", "axiom: F)\n");
+    const std::string large = folder.write("large.lsys", "axiom: F\n" + std::string(100'000, '\n'));
+    for (const auto& arguments : std::vector<std::vector<std::string>>{{"show", "snake-kolam"},
+                                                                       {"show", large},
+                                                                       {"patterns"},
+                                                                       {"patterns", "--names"},
+                                                                       {"measure", "hilbert"},
+                                                                       {"measure", "hilbert", "--json"},
+                                                                       {"derive", "hilbert"},
+                                                                       {"check", wrong},
+                                                                       {"completion", "bash"},
+                                                                       {"completion", "zsh"},
+                                                                       {"--help"},
+                                                                       {"draw", "--help"},
+                                                                       {"--version"}}) {
+        const Outcome outcome = run(arguments, {.output = "/dev/full"});
+        EXPECT_EQ(outcome.status, 1) << arguments.front();
+        EXPECT_TRUE(has(outcome.errors, "sikku: ")) << arguments.front();
+        EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    }
+    // Where nothing is printed nothing is lost.
+    EXPECT_EQ(run({"check", "hilbert"}, {.output = "/dev/full"}).status, 0);
+    EXPECT_EQ(run({"measure", "nosuch"}, {.output = "/dev/full"}).status, 2);
+}
+
 TEST(Program, PatternsAreFoundFromAnywhere) {
     const TemporaryFolder folder;
     EXPECT_EQ(run({"measure", "hilbert"}, {.folder = folder.path()}).status, 0);
