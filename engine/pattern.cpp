@@ -9,6 +9,8 @@
 namespace sikku {
 namespace {
 
+constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
+
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
 
 constexpr std::array<std::string_view, 17> engine_keys = {
@@ -348,8 +350,7 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
         return pattern;
     }
     if (pattern.source->open_comment() != std::string::npos) {
-        diagnostics.unreadable({pattern.source, pattern.source->open_comment(), 2},
-                               "this comment has no end: expected '*/'");
+        diagnostics.unreadable({pattern.source, pattern.source->open_comment(), 2}, open_comment_message);
         return pattern;
     }
     Parser(pattern, diagnostics).run();
@@ -386,6 +387,10 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         if (first_bad_byte(source->text()) != std::string_view::npos ||
             source->text().find('\n') != std::string::npos) {
             diagnostics.error(whole, "a setting is one line of UTF-8");
+            continue;
+        }
+        if (source->open_comment() != std::string::npos) {
+            diagnostics.error(whole.part(source->open_comment()), open_comment_message);
             continue;
         }
         const Span name = whole.part(0, setting.key.size()).trimmed();

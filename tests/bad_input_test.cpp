@@ -573,8 +573,9 @@ TEST(BadInput, Settings) {
     for (const char* setting : {"x", "=", "=5", "axiom", ""}) {
         expect_refused(run({"measure", "hilbert", "--set", setting}), 2, "expected KEY=VALUE");
     }
-    for (const char* setting : {"n=5", "a=b=c", "axiom=", "derivation length=-1", "derivation length=nan", "seed=x",
-                                "stroke=", "axiom=F\nF", "axiom=F)", "heading=inf", "\xFF=1", "axiom=\xFF"}) {
+    for (const char* setting :
+         {"n=5", "a=b=c", "axiom=", "derivation length=-1", "derivation length=nan", "seed=x",
+          "stroke=", "axiom=F\nF", "axiom=F)", "heading=inf", "\xFF=1", "axiom=\xFF", "axiom=F/*G"}) {
         SCOPED_TRACE(setting);
         expect_refused(run({"measure", "hilbert", "--set", setting}), 2, "--set:1:");
     }

@@ -420,6 +420,17 @@ TEST(Overrides, MistakesPointIntoTheSetting) {
     expect_mistakes("axiom: F\nvariant a: axiom = G\nvariant b: axiom = H\n", {{{1, 1}, "there are: a, b"}}, {}, "v");
 }
 
+TEST(Overrides, CommentsInSettingsEnd) {
+    const std::string text = "axiom: F\ndefine r = 1\n";
+    expect_mistakes(text, {{{1, 8}, "this comment has no end: expected '*/'"}}, {{"--set", "axiom", "F/* and more"}});
+    expect_mistakes(text, {{{1, 3}, "this comment has no end"}}, {{"--set", "r", "/*"}});
+    expect_mistakes(text, {{{1, 2}, "this comment has no end"}}, {{"--set", "r/*", "2"}});
+    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", "F/* not this */G"}})), "FG");
+    // What looks like the comment of a line is a value here.
+    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", "//F"}})), "//F");
+    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", " // F"}})), "//F");
+}
+
 TEST(Nearest, IsTheOneMeantOrNone) {
     EXPECT_EQ(nearest("axoim", {"axiom", "turn"}), "axiom");
     EXPECT_EQ(nearest("turm", {"axiom", "turn"}), "turn");
