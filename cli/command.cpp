@@ -25,15 +25,22 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Waiting for input ends with a signal; one that interrupts the program is no mistake in what is read.
 std::string read_stream(std::FILE* stream, const std::string& name) {
     std::string text;
     std::vector<char> block(std::size_t{1} << 16);
     while (text.size() < most_bytes) {
         const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most_bytes - text.size()), stream);
+        const int error = errno;
         text.append(block.data(), got);
-        if (got == 0) break;
+        if (interrupted()) throw Interrupted();
+        if (std::ferror(stream) != 0) {
+            if (error != EINTR) throw UsageError(fmt::format("{}: {}", name, std::strerror(error)));
+            std::clearerr(stream);
+        } else if (got == 0) {
+            break;
+        }
     }
-    if (std::ferror(stream) != 0) throw UsageError(fmt::format("{}: {}", name, std::strerror(errno)));
     return text;
 }
 
@@ -110,8 +117,12 @@ PatternText read_pattern_text(const std::string& pattern) {
         name = match->name + ".lsys";
     }
     if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
-    std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (!file) throw UsageError(fmt::format("{}: {}", pattern, std::strerror(errno)));
+    std::FILE* file = nullptr;
+    // Opening a named pipe waits for its writer.
+    while (!(file = std::fopen(path.c_str(), "rb"))) {
+        if (interrupted()) throw Interrupted();
+        if (errno != EINTR) throw UsageError(fmt::format("{}: {}", pattern, std::strerror(errno)));
+    }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);
     return {name, read_stream(file, pattern)};
 }

@@ -26,7 +26,7 @@ class UsageError : public std::runtime_error {
 /// The user pressed ctrl-C, or somebody sent SIGTERM.
 class Interrupted : public std::runtime_error {
 public:
-    Interrupted() : std::runtime_error("interrupted; nothing was written") {}
+    explicit Interrupted(const char* message = "interrupted; nothing was written") : std::runtime_error(message) {}
 };
 
 /// Set by the signal handler that main() installs.

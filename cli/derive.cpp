@@ -108,7 +108,11 @@ void add_derive(CLI::App& app, bool& quiet) {
         derivation.interpreted = *interpreted;
         derivation.longest_word = memory_budget();
         derivation.watch = progress.watch();
-        derive(grammar, sink, derivation);
+        try {
+            derive(grammar, sink, derivation);
+        } catch (const Interrupted&) {
+            throw Interrupted("interrupted");  // part of the word is written
+        }
     });
 }
 

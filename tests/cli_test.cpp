@@ -607,6 +607,39 @@ TEST(Program, ControlCLeavesWhatWasThere) {
     EXPECT_EQ(contents_of(file), "what was there");
 }
 
+TEST(Program, ControlCWhileInputIsAwaited) {
+    for (const auto& [start, arguments] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"", {"draw", "-", "-o", "x.svg"}}, {"axiom: F", {"measure", "-"}}, {"", {"check", "-"}}}) {
+        const TemporaryFolder folder;
+        Child* running = nullptr;
+        Child child(arguments,
+                    {.feed =
+                         [&, text = start](const Feed& feed) {
+                             feed(text);
+                             std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 2000 : 500));
+                             running->send(SIGINT);
+                             // Input ends only after the program has had its time to answer.
+                             std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 1000 : 300));
+                         },
+                     .folder = folder.path()});
+        running = &child;
+        const Outcome outcome = child.wait();
+        EXPECT_EQ(outcome.status, 130) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, "sikku: interrupted"));
+        EXPECT_EQ(outcome.output, "");
+        EXPECT_TRUE(folder.names().empty());
+    }
+}
+
+TEST(Program, ControlCInMidWordSaysOnlyThat) {
+    Child child({"derive", "koch-island", "-n", "30"}, {.output = "/dev/null"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 2000 : 500));
+    child.send(SIGINT);
+    const Outcome outcome = child.wait();
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(outcome.errors, "sikku: interrupted\n") << "part of the word is printed already";
+}
+
 TEST(Program, NoProgressIntoAPipe) {
     const Outcome outcome =
         run({"-c", "\"$0\" derive hilbert -n 10 > /dev/null", SIKKU_PROGRAM}, {.program = "bash"});
