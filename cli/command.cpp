@@ -127,6 +127,13 @@ PatternText read_pattern_text(const std::string& pattern) {
     return {name, read_stream(file, pattern)};
 }
 
+Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
+    check_keys(pattern, style_keys(), diagnostics);
+    Grammar grammar = compile_grammar(pattern, diagnostics);
+    read_style(pattern, 96, diagnostics);  // for its mistakes, which no resolution changes
+    return grammar;
+}
+
 LoadedPattern load(const PatternOptions& options, bool quiet) {
     std::vector<Setting> settings;
     for (const std::string& text : options.settings) {
@@ -150,11 +157,7 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
     LoadedPattern loaded;
     loaded.pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     apply_overrides(loaded.pattern, options.variant, settings, diagnostics);
-    if (!diagnostics.is_unreadable()) {
-        check_keys(loaded.pattern, style_keys(), diagnostics);
-        loaded.grammar = compile_grammar(loaded.pattern, diagnostics);
-        read_style(loaded.pattern, 96, diagnostics);
-    }
+    if (!diagnostics.is_unreadable()) loaded.grammar = compile(loaded.pattern, diagnostics);
     diagnostics.throw_if_errors();
     if (!quiet) {
         for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());

@@ -55,6 +55,9 @@ void add_pattern_options(CLI::App& command, PatternOptions& options);
 /// `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
+/// Compiles what a pattern states; mistakes in its keys, in its grammar and in its style go to `diagnostics`.
+Grammar compile(const Pattern& pattern, Diagnostics& diagnostics);
+
 /// A pattern read, overridden and compiled; warnings were told on standard error.
 struct LoadedPattern {
     Pattern pattern;

@@ -1,6 +1,5 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
 #include "art/image_file.h"
-#include "art/style.h"
 #include "art/svg.h"
 #include "cli/command.h"
 
@@ -80,17 +79,13 @@ bool check(const std::string& file) {
     PatternText text = read_pattern_text(file);
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     if (!diagnostics.is_unreadable()) {
-        check_keys(pattern, style_keys(), diagnostics);
-        compile_grammar(pattern, diagnostics);
-        read_style(pattern, 96, diagnostics);
+        compile(pattern, diagnostics);
         // Every variant has to hold as well.
         for (const Variant& variant : pattern.variants) {
             if (diagnostics.has_errors()) break;
             Pattern varied = pattern;
             apply_overrides(varied, variant.name.view(), {}, diagnostics);
-            check_keys(varied, style_keys(), diagnostics);
-            compile_grammar(varied, diagnostics);
-            read_style(varied, 96, diagnostics);
+            compile(varied, diagnostics);
         }
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());
