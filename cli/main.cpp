@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <new>
 #include <sstream>
+#include <string_view>
 
 namespace {
 volatile std::sig_atomic_t signal_seen = 0;
@@ -33,7 +34,8 @@ void catch_signals() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-int fail(int status, const char* message) {
+int fail(int status, std::string_view message) {
+    if (message.ends_with('\n')) message.remove_suffix(1);
     sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
     return status;
 }
@@ -81,8 +83,7 @@ int run(int argc, char** argv) {
         std::ostringstream mistake;
         const int status = app.exit(error, help, mistake) == 0 ? 0 : 2;
         std::fputs(help.str().c_str(), stdout);
-        tell("{}", mistake.str());
-        return status;
+        return status == 0 ? 0 : fail(status, mistake.str());
     } catch (const PatternError& error) {
         tell("{}\n", error.what());
         return 2;

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <set>
+#include <string_view>
 
 namespace sikku {
 namespace {
@@ -23,7 +25,8 @@ bool ends_with_caseless(std::string name, std::string_view ending) {
 void list_patterns(const std::string& kind, bool names_only) {
     std::string last;
     bool any = false;
-    for (const KnownPattern& known : known_patterns()) {
+    const auto patterns = known_patterns();
+    for (const KnownPattern& known : patterns) {
         if (!kind.empty() && known.kind != kind) continue;
         any = true;
         if (names_only) {
@@ -36,8 +39,14 @@ void list_patterns(const std::string& kind, bool names_only) {
         const Pattern pattern = parse_pattern(known.name, read_pattern_text(known.file.string()).text, diagnostics);
         fmt::print("  {:<22} {:<42} {}\n", known.name, pattern.text("title"), pattern.text("source"));
     }
-    if (!any)
-        throw UsageError(kind.empty() ? "no patterns were found" : fmt::format("there are no patterns '{}'", kind));
+    if (any) return;
+    std::set<std::string_view> kinds;
+    for (const KnownPattern& known : patterns) kinds.insert(known.kind);
+    if (kinds.empty()) throw UsageError("no patterns were found");
+    const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
+    throw UsageError(fmt::format("there are no patterns '{}'; {}", kind,
+                                 near.empty() ? fmt::format("there are: {}", fmt::join(kinds, ", "))
+                                              : fmt::format("did you mean '{}'?", near)));
 }
 
 bool is_picture(const std::string& name) {

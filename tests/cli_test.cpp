@@ -191,6 +191,21 @@ TEST(Program, WrongUsageIsTwo) {
     EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(Program, EveryMessageSaysWhoSpeaks) {
+    for (const auto& arguments : std::vector<std::vector<std::string>>{{},
+                                                                       {"--nonsense"},
+                                                                       {"measure"},
+                                                                       {"measure", "hilbert", "--nonsense"},
+                                                                       {"measure", "nosuch"},
+                                                                       {"draw", "hilbert", "-o", "x.svg", "-j", "x"},
+                                                                       {"completion", "fish"},
+                                                                       {"patterns", "nonsense"}}) {
+        EXPECT_EQ(run(arguments).errors.substr(0, 7), "sikku: ");
+    }
+    const std::string shown = run({"measure", "hilbert", "--\x1b[31m\xff"}).errors;
+    EXPECT_TRUE(has(shown, "--?[31m?")) << "a terminal is left alone";
+}
+
 TEST(Program, UnknownCommandsAreNamed) {
     EXPECT_TRUE(has(run({"paint", "hilbert"}).errors, "paint"));
 }
@@ -201,6 +216,9 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
     expect_failure(run({"measure", "-"}, {.input = "axim: F"}), 2, "did you mean 'axiom'");
     expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
+    expect_failure(run({"patterns", "plant"}), 2, "there are no patterns 'plant'; did you mean 'plants'?");
+    expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
+    expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2, "there are: curves, kolams, plants, tilings, words");
 }
 
 TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
