@@ -1,5 +1,6 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
 #include "art/image_file.h"
+#include "art/pdf_provenance.h"
 #include "art/svg.h"
 #include "cli/command.h"
 
@@ -57,13 +58,17 @@ bool is_picture(const std::string& name) {
 
 void show(const std::string& what, bool quiet) {
     Provenance found;
-    const bool is_print = ends_with_caseless(what, ".svg") || is_picture(what);
+    const bool is_print = ends_with_caseless(what, ".svg") || ends_with_caseless(what, ".pdf") || is_picture(what);
     if (std::error_code error; is_print && !std::filesystem::exists(what, error)) {
         throw UsageError(what + ": No such file or directory");
     }
     if (ends_with_caseless(what, ".svg")) {
         const auto provenance = svg_provenance(what);
         if (!provenance) throw std::runtime_error(what + ": this is no SVG of sikku's");
+        found = *provenance;
+    } else if (ends_with_caseless(what, ".pdf")) {
+        const auto provenance = pdf_provenance(what);
+        if (!provenance) throw std::runtime_error(what + ": this PDF holds no pattern");
         found = *provenance;
     } else if (is_picture(what)) {
         const auto text = read_image_text(what);
@@ -116,7 +121,7 @@ void add_patterns(CLI::App& app) {
 void add_show(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("show", "Print the text of a pattern, also of one that a print was made from");
     auto what = std::make_shared<std::string>();
-    command->add_option("PATTERN", *what, "A name, a pattern file, -, or a print: SVG, PNG, TIFF, JPEG, EXR")
+    command->add_option("PATTERN", *what, "A name, a pattern file, -, or a print: SVG, PDF, PNG, TIFF, JPEG, EXR")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });

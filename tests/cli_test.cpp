@@ -466,7 +466,7 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
     const std::string text = run({"show", "snake-kolam"}).output;
     EXPECT_EQ(text, contents_of(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/kolams/snake-kolam.lsys"));
     const TemporaryFolder folder;
-    for (const char* name : {"print.svg", "print.png"}) {
+    for (const char* name : {"print.svg", "print.pdf", "print.PDF", "print.png"}) {
         ASSERT_EQ(run({"draw", "snake-kolam", "--dpi", "50", "-o", folder.file(name)}).status, 0) << name;
         const Outcome shown = run({"show", folder.file(name)});
         EXPECT_EQ(shown.status, 0) << shown.errors;
@@ -477,7 +477,15 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
     // A missing file is said to be missing.
     EXPECT_TRUE(has(run({"show", folder.file("missing.svg")}).errors, "No such file"));
     EXPECT_TRUE(has(run({"show", folder.file("missing.png")}).errors, "No such file"));
+    EXPECT_TRUE(has(run({"show", folder.file("missing.pdf")}).errors, "No such file"));
     EXPECT_EQ(run({"show", folder.write("other.svg", "<svg/>")}).status, 1);
+    expect_failure(run({"show", folder.write("other.pdf", "%PDF-1.4\n")}), 1, "this PDF holds no pattern");
+    // Any text comes back as it was, beyond ASCII and with the line ends of others.
+    const std::string words = "title: கோலம் (1) \\ \"x\"\r\naxiom: F(1)\\F \\\r\n+F\r\n";
+    for (const char* name : {"words.svg", "words.pdf", "words.png"}) {
+        ASSERT_EQ(run({"draw", "-", "--dpi", "20", "-o", folder.file(name)}, {.input = words}).status, 0);
+        EXPECT_EQ(run({"show", "-q", folder.file(name)}).output, words) << name;
+    }
 }
 
 // --- draw ---------------------------------------------------------------------------------------------------------

@@ -1,0 +1,90 @@
+#include "art/pdf_provenance.h"
+
+#include "art/pdf.h"
+#include "tests/print_tools.h"
+
+#include <gtest/gtest.h>
+
+namespace sikku {
+namespace {
+
+/// A print from `pattern`.
+void write(const std::filesystem::path& path, const std::string& pattern, const std::string& made,
+           const std::string& title = "A test") {
+    Print print = plain_print();
+    print.pattern = pattern;
+    print.made = made;
+    print.title = title;
+    OutputFile file(path);
+    const auto writer = write_pdf(print, file);
+    draw_sampler(*writer);
+    writer->finish();
+    file.commit();
+}
+
+TEST(PdfProvenance, EveryTextComesBackByteForByte) {
+    const ScratchFolder folder;
+    const auto path = folder / "print.pdf";
+    const std::string all_at_once =
+        "title: கோலம் \xF0\x9F\x8C\xBC (a) \\ )(\r\naxiom: F(1)\\F \\\r\n\tF\r\n// \xEF\xBF\xBD \xC2\xA0 ü\x01\x7F\n";
+    for (const std::string& text :
+         {std::string("axiom: F\n"), std::string("axiom: F"), std::string("axiom: F(1)\\F((\\) \\\\\n"),
+          std::string("axiom: F \\\nF\n\n"), std::string("axiom: F\r\nF --> FF\r\n"),
+          std::string("\xEF\xBB\xBF"
+                      "axiom: F\n"),
+          std::string("title: /SikkuPattern (axiom: G) >>\nendobj\naxiom: F\n"),
+          std::string("title: ü /SikkuPattern (axiom: G) >>\nstartxref\n0\n"), all_at_once,
+          std::string(300'000, '\\') + std::string(300'000, '(')}) {
+        for (const std::string title : {"", "A (test) \\", "கோலம்", "/SikkuPattern (axiom: H) >>"}) {
+            write(path, text, "sikku 0.1.0, -n 4 --set 'title=(ü)'", title);
+            const auto provenance = pdf_provenance(path);
+            ASSERT_TRUE(provenance) << text.substr(0, 100);
+            EXPECT_EQ(provenance->pattern, text);
+            EXPECT_EQ(provenance->made, "sikku 0.1.0, -n 4 --set 'title=(ü)'");
+        }
+    }
+    write(path, "axiom: F\n", "");
+    EXPECT_EQ(pdf_provenance(path)->made, "");
+}
+
+TEST(PdfProvenance, OtherFilesHoldNoPattern) {
+    const ScratchFolder folder;
+    const auto path = folder / "print.pdf";
+    write(path, "", "sikku");
+    EXPECT_FALSE(pdf_provenance(path)) << "a print without a pattern";
+    EXPECT_FALSE(pdf_provenance(folder / "missing.pdf"));
+    EXPECT_FALSE(pdf_provenance(folder.path()));
+    EXPECT_FALSE(pdf_provenance("/dev/null"));
+    write(path, "axiom: (\\) ü F\n", "sikku");
+    const std::string whole = contents(path);
+    const auto write_bytes = [&](const std::string& bytes) {
+        std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+    };
+    write_bytes("");
+    EXPECT_FALSE(pdf_provenance(path));
+    // Cut off anywhere, or with any one byte of its end changed, it is read or refused, and never beyond its end.
+    for (std::size_t length = whole.size() - 1; length > whole.size() - 1200; length -= 7) {
+        write_bytes(whole.substr(0, length));
+        const auto provenance = pdf_provenance(path);
+        if (provenance) {
+            EXPECT_EQ(provenance->pattern, "axiom: (\\) ü F\n");
+        }
+    }
+    for (std::size_t at = whole.size() - 1200; at < whole.size(); at += 3) {
+        for (const char byte : {'\0', '9', '(', '<', '>', '\xFF'}) {
+            std::string bytes = whole;
+            bytes[at] = byte;
+            write_bytes(bytes);
+            pdf_provenance(path);
+        }
+    }
+    for (const char* end : {"startxref\n0\n%%EOF\n", "startxref\n99999999999999999999\n", "startxref\n-1\n",
+                            "xref\n0 1\ntrailer\n<< /Info 18446744073709551615 0 R >>\nstartxref\n0\n%%EOF\n",
+                            "xref\n0 1\ntrailer\n<< /Info 1 0 R >>\nstartxref\n0\n%%EOF\n", "startxref\n"}) {
+        write_bytes(end);
+        EXPECT_FALSE(pdf_provenance(path)) << end;
+    }
+}
+
+}  // namespace
+}  // namespace sikku
