@@ -5,7 +5,10 @@
 #include "art/print.h"
 #include "engine/path.h"
 
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace sikku {
 
