@@ -69,12 +69,12 @@ void expect_answer(std::string text, std::string_view part, std::vector<std::str
 }
 
 Outcome drawn(std::string text, std::vector<std::string> arguments = {}, const char* name = "x.svg") {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     arguments.insert(arguments.begin(), {"draw", "-", "-o", folder.file(name)});
     const Outcome outcome = run(arguments, {.input = std::move(text)});
     EXPECT_EQ(folder.names().size(), outcome.status == 0 ? 1U : 0U) << "a print appears whole or not at all";
     if (outcome.status == 0) {
-        const std::string print = contents_of(folder.file(name));
+        const std::string print = contents(folder.file(name));
         EXPECT_EQ(print.find("nan"), std::string::npos);
         EXPECT_EQ(print.find("inf\""), std::string::npos);
         EXPECT_EQ(print.find("inf "), std::string::npos);
@@ -127,7 +127,7 @@ TEST(BadInput, OneGigabyteOfOneLine) {
         EXPECT_EQ(outcome.status, 2);
         EXPECT_TRUE(has(outcome.errors + outcome.output.substr(0, 1000), "64 MB"));
     }
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string sparse = folder.write("sparse.lsys", "axiom: F\n");
     std::filesystem::resize_file(sparse, std::uintmax_t{1} << 30);
     expect_refused(run({"measure", sparse}), 2, "64 MB");
@@ -154,7 +154,7 @@ TEST(BadInput, ManyLines) {
 }
 
 TEST(BadInput, AFolder) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     std::filesystem::create_directory(folder.path() / "x.lsys");
     for (const char* command : {"measure", "derive", "check", "show"}) {
         expect_refused(run({command, folder.file("x.lsys")}), 2, "is a folder");
@@ -524,7 +524,7 @@ TEST(BadInput, SpiralsOfEveryAngle) {
 // --- options ------------------------------------------------------------------------------------------------------
 
 TEST(BadInput, OutputsThatCannotBe) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     std::filesystem::create_directory(folder.path() / "folder.svg");
     const auto to = [&](const std::string& output) {
         return run({"draw", "hilbert", "-o", output}, {.folder = folder.path()});
@@ -541,7 +541,7 @@ TEST(BadInput, OutputsThatCannotBe) {
 }
 
 TEST(BadInput, PagesAndLengths) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const auto with = [&](const std::string& option, const std::string& value) {
         SCOPED_TRACE(option + " " + value);
         expect_refused(run({"draw", "hilbert", "-o", folder.file("x.svg"), option, value}), 2, option);

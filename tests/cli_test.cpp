@@ -179,7 +179,7 @@ TEST(Program, WrongUsageIsTwo) {
                                                          {"patterns", "nonsense"},
                                                          {"show"},
                                                          {"check"}};
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     for (const auto& arguments : wrong) {
         const Outcome outcome = run(arguments, {.folder = folder.path()});
         std::string line = "sikku";
@@ -222,7 +222,7 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
 }
 
 TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string file = folder.write("wrong.lsys", "axiom: F\nnonsense: 1\nF --> F)G\n");
     const Outcome outcome = run({"measure", file});
     expect_failure(outcome, 2, file + ":2:1: ");
@@ -257,7 +257,7 @@ TEST(Program, EveryPatternThatComesAlongPassesItsCheck) {
 }
 
 TEST(Program, MessagesThatCannotBeToldChangeNoStatus) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const auto status = [&](const std::vector<std::string>& arguments, const std::string& input = "") {
         return run(arguments, {.input = input, .folder = folder.path(), .errors = "/dev/full"}).status;
     };
@@ -272,7 +272,7 @@ TEST(Program, MessagesThatCannotBeToldChangeNoStatus) {
 }
 
 TEST(Program, OutputThatIsLostIsAFailure) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string wrong = folder.write("wrong.lsys", "axiom: F)\n");
     const std::string large = folder.write("large.lsys", "axiom: F\n" + std::string(100'000, '\n'));
     for (const auto& arguments : std::vector<std::vector<std::string>>{{"show", "snake-kolam"},
@@ -299,7 +299,7 @@ TEST(Program, OutputThatIsLostIsAFailure) {
 }
 
 TEST(Program, PatternsAreFoundFromAnywhere) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     EXPECT_EQ(run({"measure", "hilbert"}, {.folder = folder.path()}).status, 0);
     EXPECT_EQ(run({"measure", "hilbert"}, {.folder = "/"}).status, 0);
     // Through a link to the program, too, and through PATH.
@@ -310,7 +310,7 @@ TEST(Program, PatternsAreFoundFromAnywhere) {
 }
 
 TEST(Program, PathsNamesAndStandardInput) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     folder.write("own.lsys", "title: Own\naxiom: F");
     folder.write("hilbert", "title: A file called hilbert\naxiom: F");
     const auto title = [&](const std::string& pattern) {
@@ -464,8 +464,8 @@ TEST(Program, DeriveToAPipeThatIsClosedOrADiskThatIsFull) {
 
 TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
     const std::string text = run({"show", "snake-kolam"}).output;
-    EXPECT_EQ(text, contents_of(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/kolams/snake-kolam.lsys"));
-    const TemporaryFolder folder;
+    EXPECT_EQ(text, contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/kolams/snake-kolam.lsys"));
+    const ScratchFolder folder;
     for (const char* name : {"print.svg", "print.pdf", "print.PDF", "print.png"}) {
         ASSERT_EQ(run({"draw", "snake-kolam", "--dpi", "50", "-o", folder.file(name)}).status, 0) << name;
         const Outcome shown = run({"show", folder.file(name)});
@@ -491,7 +491,7 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
 // --- draw ---------------------------------------------------------------------------------------------------------
 
 TEST(Program, DrawWritesEveryKind) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::vector<std::pair<std::string, std::string>> kinds = {
         {"a.svg", "<?xml"}, {"a.SVG", "<?xml"}, {"a.pdf", "%PDF-"},    {"a.png", "\x89PNG"},
         {"a.tif", "II*"},   {"a.tiff", "II*"},  {"a.jpg", "\xFF\xD8"}, {"a.exr", "\x76\x2F\x31\x01"}};
@@ -499,13 +499,13 @@ TEST(Program, DrawWritesEveryKind) {
         const Outcome outcome = run({"draw", "hilbert", "-o", folder.file(name), "--dpi", "40"});
         EXPECT_EQ(outcome.status, 0) << name << outcome.errors;
         EXPECT_EQ(outcome.output + outcome.errors, "") << name;
-        EXPECT_EQ(contents_of(folder.file(name)).substr(0, head.size()), head) << name;
+        EXPECT_EQ(contents(folder.file(name)).substr(0, head.size()), head) << name;
     }
     EXPECT_EQ(folder.names().size(), kinds.size()) << "nothing is left beside the prints";
 }
 
 TEST(Program, TheSameBytesEveryTime) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::vector<std::vector<std::pair<std::string, std::string>>> worlds = {
         {},
         {{"LC_ALL", "de_DE.UTF-8"}, {"LANG", "de_DE.UTF-8"}},
@@ -517,7 +517,7 @@ TEST(Program, TheSameBytesEveryTime) {
             const Outcome outcome = run({"draw", "plant-d", "-o", file, "--dpi", "50", "-j", std::to_string(i)},
                                         {.environment = worlds[i]});
             ASSERT_EQ(outcome.status, 0) << outcome.errors;
-            seen.insert(contents_of(file));
+            seen.insert(contents(file));
         }
         EXPECT_EQ(seen.size(), 1U) << ending;
     }
@@ -530,7 +530,7 @@ TEST(Program, TheSameBytesEveryTime) {
 }
 
 TEST(Program, GrowthThatCannotBePaidForIsRefusedAtOnce) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const Outcome outcome = run({"draw", "hilbert", "-n", "40", "-o", folder.file("x.svg")});
     expect_failure(outcome, 1, "4029752732048763915687251");
     EXPECT_TRUE(has(outcome.errors, "largest derivation length that fits is 12"));
@@ -550,7 +550,7 @@ TEST(Program, GrowthThatCannotBePaidForIsRefusedAtOnce) {
 }
 
 TEST(Program, WhatWasThereSurvivesAFailure) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const auto keeps = [&](const std::vector<std::string>& arguments, int status, Surroundings surroundings = {}) {
         const std::string file = folder.write("print.svg", "what was there");
         std::vector<std::string> all = {"draw", "-o", file};
@@ -558,7 +558,7 @@ TEST(Program, WhatWasThereSurvivesAFailure) {
         const Outcome outcome = run(all, std::move(surroundings));
         EXPECT_EQ(outcome.status, status) << outcome.errors;
         EXPECT_NE(outcome.errors, "");
-        EXPECT_EQ(contents_of(file), "what was there");
+        EXPECT_EQ(contents(file), "what was there");
         EXPECT_EQ(folder.names(), std::vector<std::string>{"print.svg"});
     };
     keeps({"hilbert", "-n", "40"}, 1);
@@ -576,7 +576,7 @@ TEST(Program, WhatWasThereSurvivesAFailure) {
 
 TEST(Program, AFullDiskLeavesNoFileOfAnyKind) {
     for (const char* name : {"a.svg", "a.pdf", "a.png", "a.tif"}) {
-        const TemporaryFolder folder;
+        const ScratchFolder folder;
         const Outcome outcome =
             run({"draw", "hilbert", "-n", "9", "--dpi", "300", "-o", folder.file(name)}, {.file_size = 20'000});
         EXPECT_EQ(outcome.status, 1) << name << outcome.errors;
@@ -586,18 +586,18 @@ TEST(Program, AFullDiskLeavesNoFileOfAnyKind) {
 }
 
 TEST(Program, ModesAndLinksAreKept) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string file = folder.write("print.svg", "old");
     std::filesystem::permissions(file, std::filesystem::perms(0640));
     std::filesystem::create_symlink("print.svg", folder.path() / "link.svg");
     ASSERT_EQ(run({"draw", "hilbert", "-o", folder.file("link.svg")}).status, 0);
     EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link.svg"));
-    EXPECT_EQ(contents_of(file).substr(0, 5), "<?xml");
+    EXPECT_EQ(contents(file).substr(0, 5), "<?xml");
     EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms(0640));
 }
 
 void interrupt_in_mid_work(int signal, const char* name) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     Child child({"draw", "koch-island", "-n", "10", "--budget", "1e15", "-o", name}, {.folder = folder.path()});
     for (int i = 0; i < 2000 && folder.names().empty(); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -621,7 +621,7 @@ TEST(Program, ControlCLeavesNothing) {
 }
 
 TEST(Program, ControlCLeavesWhatWasThere) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string file = folder.write("print.svg", "what was there");
     Child child({"draw", "koch-island", "-n", "10", "--budget", "1e15", "-o", file});
     for (int i = 0; i < 2000 && folder.names().size() < 2; ++i) {
@@ -630,19 +630,19 @@ TEST(Program, ControlCLeavesWhatWasThere) {
     child.send(SIGINT);
     EXPECT_NE(child.wait().status, 0);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"print.svg"});
-    EXPECT_EQ(contents_of(file), "what was there");
+    EXPECT_EQ(contents(file), "what was there");
 }
 
 TEST(Program, ControlCWhileInputIsAwaited) {
     for (const auto& [start, arguments] : std::vector<std::pair<std::string, std::vector<std::string>>>{
              {"", {"draw", "-", "-o", "x.svg"}}, {"axiom: F", {"measure", "-"}}, {"", {"check", "-"}}}) {
-        const TemporaryFolder folder;
+        const ScratchFolder folder;
         Child* running = nullptr;
         Child child(arguments,
                     {.feed =
                          [&, text = start](const Feed& feed) {
                              feed(text);
-                             std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 2000 : 500));
+                             running->await_handler(SIGINT);
                              running->send(SIGINT);
                              // Input ends only after the program has had its time to answer.
                              std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 1000 : 300));
@@ -659,7 +659,7 @@ TEST(Program, ControlCWhileInputIsAwaited) {
 
 TEST(Program, ControlCInMidWordSaysOnlyThat) {
     Child child({"derive", "koch-island", "-n", "30"}, {.output = "/dev/null"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 2000 : 500));
+    child.await_handler(SIGINT);
     child.send(SIGINT);
     const Outcome outcome = child.wait();
     EXPECT_EQ(outcome.status, 130);
@@ -679,7 +679,7 @@ TEST(Program, WarningsAreToldUnlessQuiet) {
     EXPECT_EQ(run({"derive", "-", "--quiet"}, {.input = text}).errors, "");
     EXPECT_EQ(run({"-q", "derive", "-"}, {.input = text}).errors, "");
     EXPECT_EQ(run({"check", "-"}, {.input = text}).status, 0) << "a warning is no mistake";
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const Outcome cut = run({"draw", "hilbert", "--step", "5cm", "-o", folder.file("a.svg")});
     EXPECT_EQ(cut.status, 0);
     EXPECT_TRUE(has(cut.errors, "warning: the drawing is"));
@@ -692,7 +692,7 @@ std::set<std::string> completed(const std::vector<std::string>& words) {
     for (const std::string& word : words) line += "'" + word + "' ";
     line += "); COMP_CWORD=" + std::to_string(words.size() - 1) + "; _sikku; printf '%s\\n' \"${COMPREPLY[@]}\"";
     const std::string bin = std::filesystem::path(SIKKU_PROGRAM).parent_path().string();
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     folder.write("snake-file.lsys", "axiom: F");
     const Outcome outcome =
         run({"-c", line, SIKKU_PROGRAM},

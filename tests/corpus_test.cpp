@@ -7,16 +7,6 @@
 namespace sikku {
 namespace {
 
-std::vector<std::filesystem::path> files(const std::string& folder) {
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / folder)) {
-        if (entry.path().extension() == ".lsys") found.push_back(entry.path());
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
 /// Compiled, and its word measured without a mistake?
 bool is_good(const std::string& text) {
     const Compiled compiled = compile_bytes(text);
@@ -33,11 +23,11 @@ bool is_good(const std::string& text) {
 
 TEST(Corpus, EveryFileGoesThroughTheFuzzTargets) {
     for (const char* folder : {"tests/corpus", "patterns"}) {
-        const auto list = files(folder);
+        const auto list = pattern_files(folder);
         EXPECT_FALSE(list.empty()) << folder;
         for (const auto& file : list) {
             SCOPED_TRACE(file.string());
-            const std::string text = contents_of(file);
+            const std::string text = contents(file);
             EXPECT_NO_THROW(try_pattern(text));
             EXPECT_NO_THROW(try_derivation(text));
         }
@@ -45,11 +35,11 @@ TEST(Corpus, EveryFileGoesThroughTheFuzzTargets) {
 }
 
 TEST(Corpus, GoodFilesAreGood) {
-    for (const auto& file : files("tests/corpus/good")) EXPECT_TRUE(is_good(contents_of(file))) << file;
+    for (const auto& file : pattern_files("tests/corpus/good")) EXPECT_TRUE(is_good(contents(file))) << file;
 }
 
 TEST(Corpus, BadFilesAreBad) {
-    for (const auto& file : files("tests/corpus/bad")) EXPECT_FALSE(is_good(contents_of(file))) << file;
+    for (const auto& file : pattern_files("tests/corpus/bad")) EXPECT_FALSE(is_good(contents(file))) << file;
 }
 
 }  // namespace

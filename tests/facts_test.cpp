@@ -1,5 +1,6 @@
 // Every pattern that comes along states in a comment what it measures: `// expect: symbols 3803, drawn 2048, ...`.
 #include "engine/extent.h"
+#include "tests/files.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -10,28 +11,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
 
 namespace sikku {
 namespace {
-
-std::vector<std::filesystem::path> pattern_files() {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(SIKKU_SOURCE_DIR "/patterns")) {
-        if (entry.path().extension() == ".lsys") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-std::string contents(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 /// The words after each name of the `// expect:` line.
 std::map<std::string, std::vector<std::string>> expectations(const std::string& text) {
@@ -113,11 +98,7 @@ TEST_P(Facts, AreWhatEveryRoadMeasures) {
 
     reference::Collector plain;
     derive(grammar, plain);
-    const auto turtle = Turtle::surveying(grammar);
-    DerivationOptions interpreted;
-    interpreted.interpreted = true;
-    derive(grammar, *turtle, interpreted);
-    const Survey survey = turtle->survey();
+    const Survey survey = reference::survey_of(grammar);
     expect_told(expected,
                 {static_cast<double>(plain.word.size()),
                  static_cast<double>(survey.drawn),
@@ -142,11 +123,11 @@ std::string name_of(const ::testing::TestParamInfo<std::filesystem::path>& info)
     }
     return name;
 }
-INSTANTIATE_TEST_SUITE_P(Patterns, Facts, ::testing::ValuesIn(pattern_files()), name_of);
+INSTANTIATE_TEST_SUITE_P(Patterns, Facts, ::testing::ValuesIn(pattern_files("patterns")), name_of);
 
 TEST(PatternFiles, EveryKindOfPatternComesAlong) {
     std::map<std::string, int> kinds;
-    for (const auto& file : pattern_files()) ++kinds[file.parent_path().filename()];
+    for (const auto& file : pattern_files("patterns")) ++kinds[file.parent_path().filename()];
     for (const char* kind : {"kolams", "tilings", "curves", "plants", "words"}) EXPECT_GT(kinds[kind], 0) << kind;
 }
 

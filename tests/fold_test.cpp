@@ -15,6 +15,7 @@ namespace {
 
 using reference::grammar_of;
 using reference::Kind;
+using reference::survey_of;
 
 std::string text_of(const Quantity& quantity) {
     return quantity.digits.empty() ? std::to_string(quantity.value) : quantity.digits;
@@ -23,14 +24,6 @@ std::string text_of(const Quantity& quantity) {
 std::string whole_text(const Quantity& quantity) {
     return quantity.digits.empty() ? std::to_string(std::llround(quantity.value)) : quantity.digits;
 }
-Survey walked(const Grammar& grammar) {
-    const auto turtle = Turtle::surveying(grammar);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
-    return turtle->survey();
-}
-
 void expect_near(const Quantity& found, double expected, double scale, const std::string& what) {
     EXPECT_NEAR(found.value, expected, 1e-9 * std::max(1.0, scale)) << what;
 }
@@ -42,7 +35,7 @@ void expect_like_walk(const Grammar& grammar, const std::string& what) {
     Survey survey;
     std::optional<Fold> found;
     try {
-        survey = walked(grammar);
+        survey = survey_of(grammar);
     } catch (const WordError& error) {
         walk_error = error.what();
     }

@@ -15,11 +15,7 @@ void write(const std::filesystem::path& path, const std::string& pattern, const 
     print.pattern = pattern;
     print.made = made;
     print.title = title;
-    OutputFile file(path);
-    const auto writer = write_pdf(print, file);
-    draw_sampler(*writer);
-    writer->finish();
-    file.commit();
+    write_print(path, print, write_pdf, draw_sampler);
 }
 
 TEST(PdfProvenance, EveryTextComesBackByteForByte) {

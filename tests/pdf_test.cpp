@@ -19,24 +19,21 @@ protected:
     template <typename Draw>
     std::filesystem::path write(const Print& print, Draw&& draw, const std::string& name = "print.pdf") {
         const auto path = folder_ / name;
-        OutputFile file(path);
-        const auto writer = write_pdf(print, file);
-        draw(*writer);
-        writer->finish();
-        file.commit();
+        write_print(path, print, write_pdf, draw);
         return path;
     }
 
     /// Says what is wrong with the file's structure, or nothing.
     static std::string complaints(const std::filesystem::path& path) {
-        const Outcome outcome = run("qpdf --check '" + path.string() + "'");
+        const ToolOutcome outcome = run("qpdf --check '" + path.string() + "'");
         return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
     }
 
     /// The file with its streams uncompressed.
     std::string plain_text(const std::filesystem::path& path) {
         const auto plain = folder_ / "plain.pdf";
-        const Outcome outcome = run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
+        const ToolOutcome outcome =
+            run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return contents(plain);
     }
@@ -209,13 +206,7 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     };
     const auto pdf = write(print, draw);
     const auto svg = folder_ / "print.svg";
-    {
-        OutputFile file(svg);
-        const auto writer = write_svg(print, file);
-        draw(*writer);
-        writer->finish();
-        file.commit();
-    }
+    write_print(svg, print, write_svg, draw);
     const auto from_svg = folder_ / "svg.pdf";
     ASSERT_TRUE(run("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
     const Pixels one = render_pdf(pdf, 150);

@@ -1,73 +1,35 @@
-// tests/print_tools.h: what the tests of prints share: a scratch folder, other people's programs, pixels.
+// tests/print_tools.h: what the tests of prints share: other people's programs, pixels.
 #pragma once
 
 #include "art/output_file.h"
 #include "art/print.h"
+#include "tests/files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace sikku {
-
-/// A folder that is gone after the test.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "sikku_test_XXXXXX").string();
-        if (!::mkdtemp(pattern.data())) throw std::runtime_error("mkdtemp");
-        path_ = pattern;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-    /// Names of what is in it, hidden files too.
-    std::vector<std::string> names() const {
-        std::vector<std::string> list;
-        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-            list.push_back(entry.path().filename().string());
-        }
-        return list;
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
-inline std::string contents(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 inline bool has_program(const std::string& name) {
     return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 /// Standard output and error of a command, and whether it succeeded.
-struct Outcome {
+struct ToolOutcome {
     bool ok = false;
     std::string text;
 };
-inline Outcome run(const std::string& command) {
+inline ToolOutcome run(const std::string& command) {
     FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     if (!pipe) return {};
-    Outcome outcome;
+    ToolOutcome outcome;
     std::array<char, 4096> block{};
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
         outcome.text.append(block.data(), count);
@@ -105,7 +67,7 @@ inline Pixels read_ppm(const std::filesystem::path& path) {
 /// The first page of a PDF.
 inline Pixels render_pdf(const std::filesystem::path& pdf, int dpi) {
     const std::string stem = pdf.string() + ".page";
-    const Outcome outcome =
+    const ToolOutcome outcome =
         run("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_EQ(outcome.text, "");
@@ -138,6 +100,16 @@ inline Print plain_print() {
     print.pattern = "axiom: F\n";
     print.made = "sikku 0.1.0, -n 4";
     return print;
+}
+
+/// Makes a file of `print` with write_svg or write_pdf.
+template <typename Make, typename Draw>
+void write_print(const std::filesystem::path& path, const Print& print, Make&& make, Draw&& draw) {
+    OutputFile file(path);
+    const auto writer = make(print, file);
+    draw(*writer);
+    writer->finish();
+    file.commit();
 }
 
 /// Something of everything, in an order that is not the order of layers.

@@ -1,6 +1,8 @@
 // tests/program.h: runs the program as a child process, as a user's shell would.
 #pragma once
 
+#include "tests/files.h"
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -15,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -110,6 +111,14 @@ public:
 
     void send(int signal) const { kill(process_, signal); }
 
+    /// Waits until it has a handler for the signal, and a little longer, so that it is at work.
+    void await_handler(int signal) const {
+        for (int i = 0; i < 2000 && !has_handler(signal); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(sanitized ? 1000 : 300));
+    }
+
     /// Hands over standard input and waits for the end.
     Outcome wait() {
         const Feed feed = [this](std::string_view bytes) {
@@ -144,6 +153,14 @@ public:
     }
 
 private:
+    bool has_handler(int signal) const {
+        std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+        std::string word;
+        while (status >> word && word != "SigCgt:") {
+        }
+        return status >> word && (std::stoull(word, nullptr, 16) >> (signal - 1) & 1) != 0;
+    }
+
     static std::string contents(int descriptor) {
         std::string text;
         char block[4096];
@@ -163,43 +180,6 @@ private:
 
 inline Outcome run(const std::vector<std::string>& arguments, Surroundings surroundings = {}) {
     return Child(arguments, std::move(surroundings)).wait();
-}
-
-/// A folder of its own, removed in the end.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "sikku-test-XXXXXX").string();
-        if (!mkdtemp(name.data())) std::abort();
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-    std::string write(const std::string& name, std::string_view text) const {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return file(name);
-    }
-    std::vector<std::string> names() const {
-        std::vector<std::string> names;
-        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-            names.push_back(entry.path().filename().string());
-        }
-        return names;
-    }
-
-private:
-    std::filesystem::path path_;
-};
-
-inline std::string contents_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 inline ::testing::AssertionResult has(const std::string& text, std::string_view part) {

@@ -4,6 +4,7 @@
 #include "art/fill.h"
 #include "art/image_file.h"
 #include "art/stroke.h"
+#include "tests/hilbert.h"
 #include "tests/print_tools.h"
 
 #include <algorithm>
@@ -103,29 +104,6 @@ std::vector<double> supersampled(int width, int height, const std::function<bool
         }
     }
     return result;
-}
-
-glm::dvec2 hilbert(int side, int d) {
-    int x = 0, y = 0;
-    for (int s = 1; s < side; s *= 2, d /= 4) {
-        const int right = 1 & (d / 2), up = 1 & (d ^ right);
-        if (up == 0) {
-            if (right == 1) {
-                x = s - 1 - x;
-                y = s - 1 - y;
-            }
-            std::swap(x, y);
-        }
-        x += s * right;
-        y += s * up;
-    }
-    return {x, y};
-}
-
-Points hilbert_points(int side, double step, double offset) {
-    Points points;
-    for (int d = 0; d < side * side; ++d) points.push_back(step * hilbert(side, d) + offset);
-    return points;
 }
 
 /// Something of everything, over many bands.
@@ -693,7 +671,7 @@ TEST(ImageFile, EveryFormatKeepsItsTextAndResolution) {
         }
     }
     if (has_program("oiiotool")) {
-        const Outcome info = run("oiiotool --info -v" + files);
+        const ToolOutcome info = run("oiiotool --info -v" + files);
         EXPECT_TRUE(info.ok) << info.text;
         for (const std::string& line : lines) EXPECT_NE(info.text.find(line), std::string::npos) << line;
         std::size_t resolutions = 0;
@@ -703,7 +681,7 @@ TEST(ImageFile, EveryFormatKeepsItsTextAndResolution) {
         EXPECT_EQ(info.text.find("DateTime"), std::string::npos) << info.text;
     }
     if (has_program("pngcheck")) {
-        const Outcome check = run("pngcheck -v '" + (folder / "picture3.png.tmp").string() + "'");
+        const ToolOutcome check = run("pngcheck -v '" + (folder / "picture3.png.tmp").string() + "'");
         EXPECT_TRUE(check.ok) << check.text;
         EXPECT_NE(check.text.find("10000x10000 pixels/meter"), std::string::npos) << check.text;
     }
@@ -717,7 +695,7 @@ TEST(ImageFile, ThePixelsComeBack) {
         const auto path = folder / ("picture." + format);
         write_image(path, image_spec(format, 70, 200, 3), pixels);
         const auto ppm = folder / (format + ".ppm");
-        const Outcome outcome = run("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
+        const ToolOutcome outcome = run("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
         const Pixels back = read_ppm(ppm);
         EXPECT_EQ(back.width, 70);

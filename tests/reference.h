@@ -143,6 +143,15 @@ inline std::string derived_text(const std::string& text, bool interpreted = fals
     return derived_text(grammar_of(text), interpreted);
 }
 
+/// What a turtle finds that walks the word, `interpret:` applied.
+inline Survey survey_of(const Grammar& grammar) {
+    const auto turtle = Turtle::surveying(grammar);
+    DerivationOptions options;
+    options.interpreted = true;
+    derive(grammar, *turtle, options);
+    return turtle->survey();
+}
+
 // --- systems as plain data -----------------------------------------------------------------------------------------
 
 using Tokens = std::vector<std::string>;  ///< a symbol with its parameters is one token

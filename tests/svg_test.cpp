@@ -72,11 +72,7 @@ protected:
     template <typename Draw>
     std::filesystem::path write(const Print& print, Draw&& draw, const std::string& name = "print.svg") {
         const auto path = folder_ / name;
-        OutputFile file(path);
-        const auto writer = write_svg(print, file);
-        draw(*writer);
-        writer->finish();
-        file.commit();
+        write_print(path, print, write_svg, draw);
         return path;
     }
 
@@ -410,7 +406,7 @@ TEST_F(Svg, TextsWithSpecialCharactersStayThemselves) {
     EXPECT_EQ(provenance->pattern, print.pattern);
     EXPECT_EQ(provenance->made, print.made);
     if (!has_program("xmllint")) GTEST_SKIP() << "no xmllint on this machine";
-    const Outcome outcome = run("xmllint --noout '" + path.string() + "'");
+    const ToolOutcome outcome = run("xmllint --noout '" + path.string() + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -428,7 +424,7 @@ TEST_F(Svg, TextsThatXmlCannotHoldAreStillGivenBack) {
     write(print, draw_sampler);
     EXPECT_EQ(svg_provenance(folder_ / "print.svg").value().pattern, "");
     if (!has_program("xmllint")) GTEST_SKIP() << "no xmllint on this machine";
-    const Outcome outcome = run("xmllint --noout '" + (folder_ / "print.svg").string() + "'");
+    const ToolOutcome outcome = run("xmllint --noout '" + (folder_ / "print.svg").string() + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -466,7 +462,7 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
         sink.end_stroke(false);
     });
     const auto pdf = folder_ / "print.pdf";
-    const Outcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + path.string() + "'");
+    const ToolOutcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + path.string() + "'");
     ASSERT_TRUE(outcome.ok) << outcome.text;
     const Pixels pixels = render_pdf(pdf, 254);  // 10 pixels a millimetre
     ASSERT_NEAR(pixels.width, 1000, 1);

@@ -12,14 +12,8 @@ namespace {
 using reference::grammar_of;
 using reference::Kind;
 using reference::Recorder;
+using reference::survey_of;
 
-Survey survey_of(const Grammar& grammar) {
-    const auto turtle = Turtle::surveying(grammar);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
-    return turtle->survey();
-}
 Survey survey_of(const std::string& text) {
     return survey_of(grammar_of(text));
 }

@@ -1,6 +1,7 @@
 // tests/bench/raster_bench.cpp: our pixels against Cairo's, one thread each unless the name says otherwise. Ours
 // includes collecting the drawing; Cairo's fills one surface of the whole canvas that is made before.
 #include "art/raster.h"
+#include "tests/hilbert.h"
 
 #include <benchmark/benchmark.h>
 #include <cairo/cairo.h>
@@ -30,31 +31,9 @@ Print canvas(int width, int height, double pen, Colour ink, Colour ground) {
 constexpr Colour black{0, 0, 0, 255}, white{255, 255, 255, 255}, rice{0xff, 0xfd, 0xf5, 255},
     earth{0x8c, 0x3a, 0x22, 255};
 
-/// The point number d of the Hilbert curve on an n x n grid.
-glm::dvec2 hilbert(int n, std::int64_t d) {
-    std::int64_t x = 0, y = 0;
-    for (std::int64_t s = 1; s < n; s *= 2, d /= 4) {
-        const std::int64_t rx = 1 & (d / 2), ry = 1 & (d ^ rx);
-        if (ry == 0) {
-            if (rx == 1) {
-                x = s - 1 - x;
-                y = s - 1 - y;
-            }
-            std::swap(x, y);
-        }
-        x += s * rx;
-        y += s * ry;
-    }
-    return {static_cast<double>(x), static_cast<double>(y)};
-}
-
 /// 1,048,575 segments on a canvas of 8192 pixels.
-const std::vector<glm::dvec2>& hilbert_points() {
-    static const std::vector<glm::dvec2> points = [] {
-        std::vector<glm::dvec2> result;
-        for (std::int64_t d = 0; d < 1024 * 1024; ++d) result.push_back(8.0 * hilbert(1024, d) + 4.0);
-        return result;
-    }();
+const std::vector<glm::dvec2>& hilbert() {
+    static const std::vector<glm::dvec2> points = hilbert_points(1024, 8.0, 4.0);
     return points;
 }
 
@@ -150,7 +129,7 @@ void hilbert_ours(benchmark::State& state) {
     const bool colour = state.range(2) == 3;
     const Print print =
         canvas(8192, 8192, static_cast<double>(state.range(0)), colour ? rice : black, colour ? earth : white);
-    const auto& points = hilbert_points();
+    const auto& points = hilbert();
     for (auto _ : state) draw_ours(print, points, false, static_cast<int>(state.range(1)));
     rate(state, points.size() - 1);
 }
@@ -165,7 +144,7 @@ BENCHMARK(hilbert_ours)
 // ours; without, Cairo takes a path of its own for lines along rows and columns, and leaves notches between strokes.
 void hilbert_cairo(benchmark::State& state) {
     const CairoSurface target(state.range(2) == 8 ? CAIRO_FORMAT_A8 : CAIRO_FORMAT_RGB24, 8192);
-    const auto& points = hilbert_points();
+    const auto& points = hilbert();
     for (auto _ : state) {
         draw_cairo(target.surface, points, false, 2, static_cast<int>(state.range(0)), state.range(1) != 0);
     }

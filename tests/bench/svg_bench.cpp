@@ -3,6 +3,7 @@
 #include "art/pdf.h"
 #include "art/print.h"
 #include "art/svg.h"
+#include "tests/hilbert.h"
 
 #include <benchmark/benchmark.h>
 
@@ -20,35 +21,9 @@ namespace {
 
 using namespace sikku;
 
-/// The point at distance `d` along Hilbert's curve on a square of `side` (a power of two) points.
-glm::dvec2 hilbert_point(std::uint32_t side, std::uint32_t d) {
-    std::uint32_t x = 0;
-    std::uint32_t y = 0;
-    for (std::uint32_t s = 1; s < side; s *= 2) {
-        const std::uint32_t right = 1 & (d / 2);
-        const std::uint32_t up = 1 & (d ^ right);
-        if (up == 0) {
-            if (right == 1) {
-                x = s - 1 - x;
-                y = s - 1 - y;
-            }
-            std::swap(x, y);
-        }
-        x += s * right;
-        y += s * up;
-        d /= 4;
-    }
-    return {x, y};
-}
-
 /// 1,048,575 segments.
 const std::vector<glm::dvec2>& hilbert() {
-    static const std::vector<glm::dvec2> points = [] {
-        constexpr std::uint32_t side = 1024;
-        std::vector<glm::dvec2> list;
-        for (std::uint32_t d = 0; d < side * side; ++d) list.push_back(hilbert_point(side, d));
-        return list;
-    }();
+    static const std::vector<glm::dvec2> points = hilbert_points(1024);
     return points;
 }
 
