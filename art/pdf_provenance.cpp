@@ -62,50 +62,82 @@ void append_utf8(std::uint32_t code, std::string& text) {
     put(0x80 | (code & 0x3F));
 }
 
-/// The string that begins with the parenthesis at `at`, which moves behind its end. The writer escapes parentheses
-/// and backslashes, and nothing else.
+/// The bytes of the string in parentheses that begins at `at`, which moves behind its end.
 std::optional<std::string> read_literal(std::string_view text, std::size_t& at) {
-    std::string result;
+    constexpr std::string_view names = "nrtbf";
+    constexpr std::string_view meanings = "\n\r\t\b\f";
+    std::string bytes;
+    int depth = 1;
     for (++at; at < text.size(); ++at) {
-        if (text[at] == ')') {
+        if (text[at] == ')' && --depth == 0) {
             ++at;
-            return result;
+            return bytes;
         }
-        if (text[at] == '\\' && ++at == text.size()) break;
-        result += text[at];
+        if (text[at] == '(') ++depth;
+        if (text[at] != '\\') {
+            bytes += text[at];
+            continue;
+        }
+        if (++at == text.size()) break;
+        if (const std::size_t name = names.find(text[at]); name != std::string_view::npos) {
+            bytes += meanings[name];
+        } else if (text[at] >= '0' && text[at] <= '7') {
+            unsigned byte = 0;
+            const std::size_t end = std::min(at + 3, text.size());
+            for (; at < end && text[at] >= '0' && text[at] <= '7'; ++at) {
+                byte = byte * 8 + static_cast<unsigned>(text[at] - '0');
+            }
+            bytes += static_cast<char>(static_cast<unsigned char>(byte));
+            --at;
+        } else if (text[at] != '\n') {  // which continues a line
+            bytes += text[at];
+        }
     }
     return std::nullopt;
 }
 
-/// The string in hexadecimal UTF-16 that begins with the `<` at `at`, which moves behind its end.
+/// The bytes of the string in hexadecimal digits that begins at `at`, which moves behind its end.
 std::optional<std::string> read_hexadecimal(std::string_view text, std::size_t& at) {
-    constexpr std::string_view byte_order_mark = "<FEFF";
     const std::size_t end = text.find('>', at);
-    if (end == std::string_view::npos || text.substr(at, byte_order_mark.size()) != byte_order_mark) {
-        return std::nullopt;
-    }
-    const std::string_view digits = text.substr(at + byte_order_mark.size(), end - at - byte_order_mark.size());
+    if (text[at] != '<' || end == std::string_view::npos) return std::nullopt;
+    const std::string_view digits = text.substr(at + 1, end - at - 1);
     at = end + 1;
-    if (digits.size() % 4 != 0) return std::nullopt;
-    std::string result;
+    if (digits.size() % 2 != 0) return std::nullopt;
+    std::string bytes;
+    bytes.reserve(digits.size() / 2);
+    for (std::size_t i = 0; i < digits.size(); i += 2) {
+        unsigned byte = 0;
+        const char* const stop = digits.data() + i + 2;
+        const auto [stopped, error] = std::from_chars(digits.data() + i, stop, byte, 16);
+        if (error != std::errc() || stopped != stop) return std::nullopt;
+        bytes += static_cast<char>(static_cast<unsigned char>(byte));
+    }
+    return bytes;
+}
+
+/// A text string in UTF-8: it is ASCII, or UTF-16 after a byte order mark.
+std::optional<std::string> decoded(std::string bytes) {
+    if (!bytes.starts_with("\xFE\xFF")) {
+        const bool ascii = std::all_of(bytes.begin(), bytes.end(),
+                                       [](char byte) { return static_cast<unsigned char>(byte) < 0x80; });
+        return ascii ? std::optional(std::move(bytes)) : std::nullopt;
+    }
+    if (bytes.size() % 2 != 0) return std::nullopt;
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])); };
+    std::string text;
     std::uint32_t high = 0;  // the first half of a pair, while the second is awaited
-    for (std::size_t i = 0; i < digits.size(); i += 4) {
-        std::uint32_t unit = 0;
-        const char* const stop = digits.data() + i + 4;
-        if (const auto [stopped, error] = std::from_chars(digits.data() + i, stop, unit, 16);
-            error != std::errc() || stopped != stop) {
-            return std::nullopt;
-        }
+    for (std::size_t i = 2; i < bytes.size(); i += 2) {
+        const std::uint32_t unit = byte(i) << 8 | byte(i + 1);
         const bool is_second = unit >= 0xDC00 && unit < 0xE000;
         if (is_second != (high != 0)) return std::nullopt;
         if (unit >= 0xD800 && unit < 0xDC00) {
             high = unit;
             continue;
         }
-        append_utf8(is_second ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00) : unit, result);
+        append_utf8(is_second ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00) : unit, text);
         high = 0;
     }
-    return high == 0 ? std::optional(std::move(result)) : std::nullopt;
+    return high == 0 ? std::optional(std::move(text)) : std::nullopt;
 }
 
 /// The texts of the object in the writer's layout: a dictionary of strings.
@@ -119,7 +151,8 @@ std::optional<Texts> read_texts(std::string_view object) {
         std::string name(object.substr(at + 1, blank - at - 1));
         at = blank + 1;
         if (at >= object.size()) return std::nullopt;
-        auto text = object[at] == '(' ? read_literal(object, at) : read_hexadecimal(object, at);
+        auto bytes = object[at] == '(' ? read_literal(object, at) : read_hexadecimal(object, at);
+        auto text = bytes ? decoded(std::move(*bytes)) : std::nullopt;
         if (!text) return std::nullopt;
         texts.emplace(std::move(name), std::move(*text));
     }
