@@ -138,7 +138,7 @@ public:
         double ink_steps = 0;
         double ink_millimetres = 0;
         if (print_.style.stroked || has_areas_) {
-            const double width = std::max(extent.widest_factor * print_.style.stroke.value, extent.widest_set);
+            const double width = std::max(extent.widest_factor * print_.style.stroke.value, extent.widest_set * print_.style.stroke.unit);
             (print_.style.stroke.in_steps ? ink_steps : ink_millimetres) = width / 2;
         }
         PlacementOptions placement = options_.placement;

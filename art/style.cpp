@@ -185,11 +185,8 @@ private:
         }
         StrokeWidth stroke;
         stroke.in_steps = unit.starts_with("step");
-        stroke.value = number;
-        if (error == std::errc() && !stroke.in_steps) {
-            // The number alone was read above; only the factor of the unit is missing.
-            stroke.value = number * parse_length("1" + unit, dpi_).value_or(0.0);
-        }
+        if (!stroke.in_steps) stroke.unit = parse_length("1" + unit, dpi_).value_or(0.0);
+        stroke.value = number * stroke.unit;
         if (error != std::errc() || !std::isfinite(stroke.value) || stroke.value >= widest) {
             diagnostics_.error(
                 word, stroke.in_steps ? "a stroke is narrower than 1000 steps" : "a stroke is narrower than 1000 mm");
@@ -301,7 +298,7 @@ std::vector<int> Style::fill_slots() const {
 }
 
 double Style::line_width(const Pen& pen, double step) const {
-    const double width = (pen.width_set ? pen.width : pen.width * stroke.value) * (stroke.in_steps ? step : 1.0);
+    const double width = pen.width * (pen.width_set ? stroke.unit : stroke.value) * (stroke.in_steps ? step : 1.0);
     // The comparison is false for NaN.
     return width > 0.0 ? std::min(width, widest_pen_mm) : 0.0;
 }

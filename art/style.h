@@ -17,16 +17,17 @@ enum class Line { straight, spline };
 struct StrokeWidth {
     double value = 0.4;
     bool in_steps = false;
+    double unit = 1.0;  ///< what a width of 1 is that the turtle sets: millimetres of the pattern's unit, or 1 step
 };
 
 struct Style {
     Line line = Line::straight;
     StrokeWidth stroke;
-    std::optional<Colour> stroke_colour;      ///< of colour index 0; absent: the palette's first
-    bool stroked = true;                      ///< false for `stroke: none`
-    std::optional<Colour> ground;             ///< absent: transparent
-    std::optional<Colour> fill;               ///< of polygons and discs with colour index 0; absent: the palette's
-    std::vector<Colour> palette;              ///< never empty after read_style
+    std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
+    bool stroked = true;                  ///< false for `stroke: none`
+    std::optional<Colour> ground;         ///< absent: transparent
+    std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
+    std::vector<Colour> palette;          ///< never empty after read_style
 
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;

@@ -147,6 +147,22 @@ TEST(Style, WidthsAreFactorsOrSet) {
     EXPECT_TRUE(std::isfinite(style.line_width({HUGE_VAL, false, 0}, 10.0)));
 }
 
+TEST(Style, AWidthThatIsSetIsInTheUnitOfTheStroke) {
+    const auto width_of_two = [](const std::string& stroke) {
+        return read("stroke: " + stroke + "\n").style.line_width({2.0, true, 0}, 10.0);
+    };
+    EXPECT_DOUBLE_EQ(width_of_two("1pt"), 2 * 25.4 / 72);
+    EXPECT_DOUBLE_EQ(width_of_two("0.7 PT white"), 2 * 25.4 / 72);
+    EXPECT_DOUBLE_EQ(width_of_two("3px"), 2 * 25.4 / 300);
+    EXPECT_DOUBLE_EQ(width_of_two("0.1cm"), 20);
+    EXPECT_DOUBLE_EQ(width_of_two("0.1in"), 2 * 25.4);
+    EXPECT_DOUBLE_EQ(width_of_two("0.1mm"), 2);
+    EXPECT_DOUBLE_EQ(width_of_two("0.1"), 2);
+    EXPECT_DOUBLE_EQ(width_of_two("white"), 2);
+    EXPECT_DOUBLE_EQ(width_of_two("0.1 step"), 20);
+    EXPECT_DOUBLE_EQ(Style{}.line_width({2.0, true, 0}, 10.0), 2);
+}
+
 /// One bad value: where it is and a piece of what is said.
 struct Bad {
     std::string text;
