@@ -179,6 +179,7 @@ public:
 
     void lines(std::span<const glm::dvec2> ends) override {
         if (!visible_) {
+            whole_ = false;
             here_ = place_(ends.back());
             return;
         }
@@ -203,6 +204,7 @@ public:
 
     void curves(std::span<const glm::dvec2> controls) override {
         if (!visible_) {
+            whole_ = false;
             here_ = place_(controls.back());
             return;
         }
@@ -581,7 +583,7 @@ private:
     bool visible_ = false;
     bool started_ = false;  ///< the piece has its m
     bool drawn_ = false;    ///< and something that has length
-    bool whole_ = true;     ///< the stroke is one piece so far
+    bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
     Micrometres here_;
 };
 

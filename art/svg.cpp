@@ -226,6 +226,7 @@ public:
 
     void lines(std::span<const glm::dvec2> ends) override {
         if (!visible_) {
+            whole_ = false;
             here_ = place_(ends.back());
             return;
         }
@@ -246,6 +247,7 @@ public:
 
     void curves(std::span<const glm::dvec2> controls) override {
         if (!visible_) {
+            whole_ = false;
             here_ = place_(controls.back());
             return;
         }
@@ -501,7 +503,7 @@ private:
     bool visible_ = false;
     bool started_ = false;  ///< the piece has its M
     bool drawn_ = false;    ///< and something that has length
-    bool whole_ = true;     ///< the stroke is one piece so far
+    bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
     Micrometres piece_start_;
     Micrometres here_;
     PathData data_{Micrometres{}};

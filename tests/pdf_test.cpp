@@ -127,6 +127,18 @@ TEST_F(Pdf, LayersAreNamedAndInOrder) {
     }
 }
 
+TEST_F(Pdf, WhatIsHiddenOfAClosedStrokeStaysHidden) {
+    NEEDS("qpdf");
+    Print print = plain_print();
+    print.style.palette[0].alpha = 0;
+    const Pen hidden;
+    const Pen red{1.0, false, 1};
+    const std::string three = plain_text(write(print, [&](PathSink& sink) { draw_square(sink, hidden, red); }));
+    EXPECT_NE(three.find("10000 10000 m\n50000 10000 l\n50000 50000 l\n10000 50000 l\nS"), std::string::npos);
+    const std::string four = plain_text(write(print, [&](PathSink& sink) { draw_square(sink, red, red); }));
+    EXPECT_NE(four.find("10000 50000 l\nh\nS"), std::string::npos);
+}
+
 TEST_F(Pdf, TheSameDrawingIsTheSameBytes) {
     const std::string bytes = contents(write(plain_print(), draw_sampler));
     EXPECT_EQ(contents(write(plain_print(), draw_sampler)), bytes);

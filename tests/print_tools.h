@@ -138,4 +138,14 @@ inline void draw_sampler(PathSink& sink) {
     sink.disc({20, 50}, 0.0, red);
 }
 
+/// A closed square with its first side in another pen than the others.
+inline void draw_square(PathSink& sink, const Pen& first, const Pen& others) {
+    using Points = std::vector<glm::dvec2>;
+    sink.begin_stroke({10, 10}, first);
+    sink.lines(Points{{10, 50}});
+    sink.change_pen(others);
+    sink.lines(Points{{50, 50}, {50, 10}, {10, 10}});
+    sink.end_stroke(true);
+}
+
 }  // namespace sikku

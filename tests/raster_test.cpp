@@ -467,6 +467,16 @@ TEST(Raster, AChangeOfPenGoesOnFromWhereTheLineIs) {
     EXPECT_NEAR(image.ink(), 25 * 2 + 20 * 10 + std::numbers::pi * 25 - 5 * 2 + std::numbers::pi / 2, 1);
 }
 
+TEST(Raster, WhatIsHiddenOfAClosedStrokeStaysHidden) {
+    Print print = pixel_print(60, 60, 2);
+    print.style.palette[0].alpha = 0;
+    const Image image = render(print, [](PathSink& sink) { draw_square(sink, Pen{}, coloured(1)); });
+    EXPECT_EQ(image.colour(10, 30), white);
+    EXPECT_EQ(image.colour(50, 30), red);
+    EXPECT_EQ(image.colour(30, 50), red);
+    EXPECT_EQ(image.colour(30, 10), red);
+}
+
 TEST(Raster, CurvesAreAsTheyShouldBe) {
     const glm::dvec2 a{20, 300}, b{60, -200}, c{400, 700}, d{480, 100};
     const Image image = render(pixel_print(500, 500, 4), [&](PathSink& sink) {

@@ -297,6 +297,22 @@ TEST_F(Svg, APenThatChangesInOnePlaceLeavesNoDot) {
     EXPECT_STREQ(paths(root)[1].attribute("d").value(), "M3000 59000v-1000l-2000 1000");
 }
 
+TEST_F(Svg, WhatIsHiddenOfAClosedStrokeStaysHidden) {
+    Print print = plain_print();
+    print.style.palette[0].alpha = 0;
+    const Pen hidden;
+    const Pen red{1.0, false, 1};
+    auto root = parse(print, [&](PathSink& sink) { draw_square(sink, hidden, red); });
+    ASSERT_EQ(paths(root).size(), 1u);
+    EXPECT_STREQ(paths(root)[0].attribute("d").value(), "M10000 10000h40000v40000h-40000");
+    root = parse(print, [&](PathSink& sink) { draw_square(sink, red, hidden); });
+    ASSERT_EQ(paths(root).size(), 1u);
+    EXPECT_STREQ(paths(root)[0].attribute("d").value(), "M10000 50000v-40000");
+    root = parse(print, [&](PathSink& sink) { draw_square(sink, red, red); });
+    ASSERT_EQ(paths(root).size(), 1u);
+    EXPECT_STREQ(paths(root)[0].attribute("d").value(), "M10000 50000v-40000h40000v40000h-40000z");
+}
+
 TEST_F(Svg, FewStrokesArePathsOfTheirOwnAndManyShortOnesShare) {
     const auto draw = [](int strokes) {
         return [strokes](PathSink& sink) {
