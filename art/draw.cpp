@@ -20,21 +20,30 @@
 namespace sikku {
 namespace {
 
-/// The box of a drawing as it will lie on the page, and its widest pen.
+/// The box of what can be seen of a drawing as it will lie on the page, and its widest pen.
 class ExtentSink : public PathSink {
 public:
-    explicit ExtentSink(const glm::dmat3x2& orientation) : orientation_(orientation) {}
+    ExtentSink(const Style& style, const glm::dmat3x2& orientation) : style_(style), orientation_(orientation) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         change_pen(pen);
         at_ = turned(start);
-        box.add(at_);
     }
     void lines(std::span<const glm::dvec2> ends) override {
-        for (const glm::dvec2 end : ends) box.add(turned(end));
-        if (!ends.empty()) at_ = turned(ends.back());
+        if (ends.empty()) return;
+        if (draws_) {
+            begin_line();
+            for (const glm::dvec2 end : ends) box.add(turned(end));
+        }
+        at_ = turned(ends.back());
     }
     void curves(std::span<const glm::dvec2> controls) override {
+        if (controls.size() < 3) return;
+        if (!draws_) {
+            at_ = turned(controls.back());
+            return;
+        }
+        begin_line();
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
             const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
                                                  turned(controls[i + 2])};
@@ -47,30 +56,36 @@ public:
         }
     }
     void change_pen(const Pen& pen) override {
-        double& widest = pen.width_set ? widest_set : widest_factor;
-        widest = std::max(widest, pen.width);
+        draws_ = style_.draws(pen);
+        width_ = style_.pen_width(pen);
     }
     void end_stroke(bool) override {}
-    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha == 0) return;
         for (const glm::dvec2 vertex : vertices) box.add(turned(vertex));
     }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha == 0) return;
+        // A dot is twice as wide as the line.
+        const double dot = radius > 0.0 ? 0.0 : 2 * style_.pen_width(pen);
+        if (!(radius + dot > 0.0)) return;
+        widest = std::max(widest, dot);
         const glm::dvec2 at = turned(centre);
         box.add(at - glm::dvec2(radius));
         box.add(at + glm::dvec2(radius));
-        if (radius > 0) return;
-        // A dot is twice as wide as the line.
-        Pen doubled = pen;
-        doubled.width *= 2;
-        change_pen(doubled);
     }
 
     Box box;
-    double widest_factor = 0.0;  ///< of pens that are a factor of the style's
-    double widest_set = 0.0;     ///< of pens that were set
+    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
 
 private:
     glm::dvec2 turned(glm::dvec2 point) const { return orientation_ * glm::dvec3(point, 1.0); }
+
+    /// Only now, as the pen may have been changed before anything was drawn with it.
+    void begin_line() {
+        box.add(at_);
+        widest = std::max(widest, width_);
+    }
 
     /// Where the curve's derivative along `axis` vanishes.
     void add_extremes(const std::array<glm::dvec2, 4>& b, int axis) {
@@ -88,8 +103,11 @@ private:
         }
     }
 
+    const Style& style_;
     glm::dmat3x2 orientation_;
     glm::dvec2 at_{0.0};
+    bool draws_ = false;
+    double width_ = 0.0;
 };
 
 /// Reads the word once or several times, always into the same kind of turtle.
@@ -113,6 +131,10 @@ public:
                 case Action::width_set:
                     has_widths_ = true;
                     break;
+                case Action::colour_step:
+                case Action::colour_set:
+                    has_colours_ = true;
+                    break;
                 default:
                     break;
             }
@@ -122,25 +144,23 @@ public:
     DrawReport prepare() {
         if (spline_) find_closed_strokes();
         const glm::dmat3x2 turned = orientation(options_.placement);
-        ExtentSink extent(turned);
+        ExtentSink extent(print_.style, turned);
         std::optional<Fold> folded;
-        if (!spline_ && !has_areas_ && !has_widths_) folded = fold(grammar_);
+        if (!spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen()) folded = fold(grammar_);
         if (folded) {
             for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
-            if (!extent.box.empty()) extent.widest_factor = 1.0;
+            extent.widest = print_.style.pen_width({});
         } else {
             read(extent);
         }
         if (extent.box.empty()) {
             throw std::runtime_error(
-                "there is nothing to draw: the word holds no step that draws, no polygon, no disc");
+                "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
+                "colour that is seen");
         }
         double ink_steps = 0;
         double ink_millimetres = 0;
-        if (print_.style.stroked || has_areas_) {
-            const double width = std::max(extent.widest_factor * print_.style.stroke.value, extent.widest_set * print_.style.stroke.unit);
-            (print_.style.stroke.in_steps ? ink_steps : ink_millimetres) = width / 2;
-        }
+        (print_.style.stroke.in_steps ? ink_steps : ink_millimetres) = extent.widest / 2;
         PlacementOptions placement = options_.placement;
         placement.scale *= grammar_.scale_percent() / 100;
         print_.placement = place(extent.box, print_.page, placement, ink_steps, ink_millimetres);
@@ -169,6 +189,15 @@ private:
         derive(grammar_, *turtle, derivation);
     }
 
+    /// In every colour that may occur.
+    bool all_lines_are_seen() const {
+        const int colours = has_colours_ ? static_cast<int>(print_.style.palette.size()) : 1;
+        for (int colour = 0; colour < colours; ++colour) {
+            if (!print_.style.draws(Pen{.colour = colour})) return false;
+        }
+        return true;
+    }
+
     /// Without brackets there is one stroke, and the fold knows whether it closes.
     void find_closed_strokes() {
         if (!has_brackets_) {
@@ -189,6 +218,7 @@ private:
     bool has_brackets_ = false;
     bool has_areas_ = false;
     bool has_widths_ = false;
+    bool has_colours_ = false;
     std::vector<bool> closed_;
 };
 

@@ -297,10 +297,22 @@ std::vector<int> Style::fill_slots() const {
     return slots(*this, &Style::fill_colour);
 }
 
-double Style::line_width(const Pen& pen, double step) const {
-    const double width = pen.width * (pen.width_set ? stroke.unit : stroke.value) * (stroke.in_steps ? step : 1.0);
+bool Style::draws(const Pen& pen) const {
+    return stroked && line_colour(pen).alpha > 0 && pen_width(pen) > 0.0;
+}
+
+double Style::pen_width(const Pen& pen) const {
+    const double width = pen.width * (pen.width_set ? stroke.unit : stroke.value);
     // The comparison is false for NaN.
-    return width > 0.0 ? std::min(width, widest_pen_mm) : 0.0;
+    return width > 0.0 ? width : 0.0;
+}
+
+double Style::line_width(const Pen& pen, double step) const {
+    return std::min(pen_width(pen) * (stroke.in_steps ? step : 1.0), widest_pen_mm);
+}
+
+double Style::disc_radius(double radius, const Pen& pen, double step) const {
+    return radius > 0.0 ? radius * step : line_width(pen, step);
 }
 
 std::vector<std::string_view> style_keys() {

@@ -36,8 +36,14 @@ struct Style {
     /// For every colour index the first one of the same colour: they share a layer.
     std::vector<int> line_slots() const;
     std::vector<int> fill_slots() const;
+    /// Does a line of that pen leave anything on paper?
+    bool draws(const Pen& pen) const;
+    /// Width of a pen's line in the measure of `stroke`: millimetres or steps.
+    double pen_width(const Pen& pen) const;
     /// Width of a pen's line in millimetres when a step is `step` millimetres long.
     double line_width(const Pen& pen, double step) const;
+    /// Radius of a disc in millimetres. A `radius` of 0 steps is a dot, twice as wide as the line.
+    double disc_radius(double radius, const Pen& pen, double step) const;
 };
 
 /// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each

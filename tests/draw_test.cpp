@@ -50,5 +50,46 @@ TEST_F(Draw, AWidthThatIsSetIsInTheUnitOfTheStroke) {
     EXPECT_NEAR(steps.size.x, 5, 1e-9);
 }
 
+TEST_F(Draw, WhatIsNotSeenTakesNoRoom) {
+    const std::string style = "palette: black transparent red\nfill: gold\nheading: 0\n";
+    const auto size = [&](const std::string& axiom, const std::string& more = "") {
+        options_.placement.step = 1.0;
+        return draw("axiom: " + axiom + "\n" + style + more).size;
+    };
+    const auto expect = [](glm::dvec2 actual, double width, double height) {
+        EXPECT_NEAR(actual.x, width, 1e-9);
+        EXPECT_NEAR(actual.y, height, 1e-9);
+    };
+    expect(size("F(4);F(8)"), 4.4, 0.4);
+    expect(size("-F(4);+F(8)"), 0.4, 4.4);
+    expect(size(";F(8);F(4)"), 4.4, 0.4);
+    expect(size("F(4);!(3)F(8)"), 4.4, 0.4);
+    expect(size("F(4)!(0)F(8)"), 4.4, 0.4);
+    expect(size("F(4);{F(8)+F(8)+F(8)}"), 4.4, 0.4);
+    expect(size("F(4);f(8)@O(2)@."), 4.4, 0.4);
+    expect(size("F(4)[;F(8)]", "line: spline\n"), 4.4, 0.4);
+    expect(size("{!(3)F(8)+F(8)+F(8)}", "stroke: none\n"), 8, 8);
+    expect(size("{F(8)+F(8)+F(8)}!(3)+F(9)", "stroke: none\n"), 8, 8);
+    expect(size("@O(2)f(8)@.", "stroke: none\n"), 10.8, 4.8);
+    // What is seen does as before.
+    expect(size("F(4);;F(8)"), 12.4, 0.4);
+    expect(size("F(4)!(3)F(8)"), 15, 3);
+}
+
+TEST_F(Draw, WhereNothingIsSeenNothingIsWritten) {
+    for (const std::string text :
+         {"axiom: F\nstroke: none\n", "axiom: F\nstroke: transparent\n", "axiom: ;F\npalette: black transparent\n",
+          "axiom: F\nstroke: none\nline: spline\n", "axiom: !(0)F\n", "axiom: {F+F+F}@O\nstroke: none\nfill: none\n",
+          "axiom: !(0)@.\n", "axiom: f\n", "axiom: A\n"}) {
+        try {
+            draw(text);
+            ADD_FAILURE() << text;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("there is nothing to draw"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_TRUE(folder_.names().empty());
+}
+
 }  // namespace
 }  // namespace sikku
