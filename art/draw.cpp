@@ -142,12 +142,25 @@ public:
     }
 
     DrawReport prepare() {
-        if (spline_) find_closed_strokes();
+        // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
+        // is folded for whether it closes.
+        const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
+        std::optional<Fold> folded;
+        if (folds_extent || (spline_ && !has_brackets_)) folded = fold(grammar_);
+        const bool takes_census = spline_ && !folded;
+        const bool reads_extent = spline_ || !folded;
+        if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
+
+        if (takes_census) {
+            StrokeCensus census;
+            read_straight(census);
+            closed_ = std::move(census.closed);
+        } else if (spline_) {
+            closed_ = {folded->closed};
+        }
         const glm::dmat3x2 turned = orientation(options_.placement);
         ExtentSink extent(print_.style, turned);
-        std::optional<Fold> folded;
-        if (!spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen()) folded = fold(grammar_);
-        if (folded) {
+        if (!reads_extent) {
             for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
             extent.widest = print_.style.pen_width({});
         } else {
@@ -196,19 +209,6 @@ private:
             if (!print_.style.draws(Pen{.colour = colour})) return false;
         }
         return true;
-    }
-
-    /// Without brackets there is one stroke, and the fold knows whether it closes.
-    void find_closed_strokes() {
-        if (!has_brackets_) {
-            if (const auto folded = fold(grammar_)) {
-                closed_ = {folded->closed};
-                return;
-            }
-        }
-        StrokeCensus census;
-        read_straight(census);
-        closed_ = std::move(census.closed);
     }
 
     const Grammar& grammar_;

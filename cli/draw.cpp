@@ -99,12 +99,12 @@ void run(const Options& options, bool quiet) {
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
-    // A spline is read once for its extent and once for the print.
-    const int passes = print.style.line == Line::spline ? 2 : 1;
-    Progress progress(passes * expected_symbols(loaded.grammar, true), quiet);
-    drawing.watch = progress.watch();
+    std::optional<Progress> progress;
+    drawing.begin = [&](int passes) { progress.emplace(passes * expected_symbols(loaded.grammar, true), quiet); };
+    drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
     const Page page = print.page;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
+    progress.reset();
     if (report.overflows && !quiet) {
         fmt::print(
             stderr,

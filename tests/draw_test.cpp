@@ -50,6 +50,37 @@ TEST_F(Draw, AWidthThatIsSetIsInTheUnitOfTheStroke) {
     EXPECT_NEAR(steps.size.x, 5, 1e-9);
 }
 
+TEST_F(Draw, TellsHowOftenItReadsTheWord) {
+    int passes = 0;
+    std::uint64_t read = 0;
+    options_.begin = [&](int count) {
+        EXPECT_EQ(passes, 0) << "told twice";
+        EXPECT_EQ(read, 0u) << "told too late";
+        passes = count;
+    };
+    options_.watch = [&](std::uint64_t symbols) { read += symbols; };
+    const auto expect = [&](const std::string& text, int expected, std::uint64_t symbols) {
+        for (const char* name : {"print.svg", "print.png"}) {
+            passes = 0;
+            read = 0;
+            draw(text, name);
+            EXPECT_EQ(passes, expected) << text;
+            EXPECT_EQ(read, passes * symbols) << text;
+        }
+    };
+    expect("axiom: F+F\n", 1, 3);
+    expect("axiom: F[+F]F\n", 1, 6);
+    expect("axiom: FF@O\n", 2, 3);
+    expect("axiom: !FF\n", 2, 3);
+    expect("axiom: ;F\n", 1, 2);
+    expect("axiom: ;F'F\npalette: black transparent\n", 2, 4);
+    expect("axiom: F+F+F+F\nline: spline\n", 2, 7);
+    expect("axiom: F[+F]F\nline: spline\n", 3, 6);
+    // Contexts are not folded.
+    expect("axiom: F+F\nderivation length: 1\nF < F --> F\n", 2, 3);
+    expect("axiom: F+F\nderivation length: 1\nF < F --> F\nline: spline\n", 3, 3);
+}
+
 TEST_F(Draw, WhatIsNotSeenTakesNoRoom) {
     const std::string style = "palette: black transparent red\nfill: gold\nheading: 0\n";
     const auto size = [&](const std::string& axiom, const std::string& more = "") {
