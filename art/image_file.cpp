@@ -25,7 +25,7 @@ const ImageModule& image_module() {
             }
             void* symbol = dlsym(library, image_module_symbol);
             const ImageModule* found = symbol ? reinterpret_cast<const ImageModule* (*)()>(symbol)() : nullptr;
-            if (found && found->version == image_module_version) return found;
+            if (found && found->version == image_module_version(SIKKU_VERSION)) return found;
             dlclose(library);
             reasons += "\n  " + name + ": made for another version of sikku";
             return nullptr;

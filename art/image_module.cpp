@@ -300,7 +300,7 @@ std::optional<ImageText> read_text(const std::filesystem::path& path) {
     return ImageText{spec.get_string_attribute("ImageDescription"), spec.get_string_attribute("Software")};
 }
 
-constexpr ImageModule functions{image_module_version, open, read_text};
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, read_text};
 
 }  // namespace
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #include "art/blend.h"
 #include "art/fill.h"
 #include "art/image_file.h"
+#include "art/image_module.h"
 #include "art/stroke.h"
 #include "tests/hilbert.h"
 #include "tests/print_tools.h"
@@ -787,6 +788,46 @@ TEST(ImageFile, ALongTextIsKeptWholeOrNotAtAll) {
         EXPECT_TRUE(text->description == (format == "jpg" || format == "tif" ? "" : spec.description))
             << format << ' ' << text->description.size();
     }
+}
+
+TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
+    EXPECT_NE(image_module_version("0.1.0"), image_module_version("0.1.1"));
+    const ScratchFolder folder;
+    const std::filesystem::path program = SIKKU_PROGRAM;
+    const std::string said = run("'" + program.string() + "' --version").text;
+    ASSERT_TRUE(said.starts_with("sikku ") && said.ends_with("\n")) << said;
+    const std::string version = said.substr(6, said.size() - 7);
+    // The program and its module, with another number in it.
+    const auto built = program.parent_path().parent_path();
+    std::filesystem::path module;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(built / "lib")) {
+        if (entry.path().filename() == "sikku_image.so") module = entry.path();
+    }
+    ASSERT_FALSE(module.empty());
+    const auto copied_program = folder / "bin" / "sikku";
+    const auto copied_module = folder.path() / module.lexically_relative(built);
+    std::filesystem::create_directories(copied_program.parent_path());
+    std::filesystem::create_directories(copied_module.parent_path());
+    std::filesystem::copy_file(program, copied_program);
+    const auto pattern = folder / "x.lsys";
+    std::ofstream(pattern) << "axiom: F\n";
+    const std::string draw = "'" + copied_program.string() + "' draw '" + pattern.string() + "' --dpi 10 -o '" +
+                             (folder / "x.png").string() + "'";
+    std::string bytes = contents(module);
+    const std::uint64_t number = image_module_version(version);
+    const std::string_view sought(reinterpret_cast<const char*>(&number), sizeof number);
+    const std::size_t at = bytes.find(sought);
+    ASSERT_NE(at, std::string::npos);
+    const auto save = [&] { std::ofstream(copied_module, std::ios::binary) << bytes; };
+    save();
+    const Outcome same = run(draw);
+    EXPECT_TRUE(same.ok) << same.text;
+    bytes[at] ^= 1;
+    save();
+    const Outcome other = run(draw);
+    // Where sikku is installed as well, its module serves.
+    if (other.ok) GTEST_SKIP() << "an installed module was found";
+    EXPECT_NE(other.text.find("made for another version of sikku"), std::string::npos) << other.text;
 }
 
 }  // namespace
