@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 namespace sikku {
 namespace {
@@ -66,6 +68,11 @@ std::string made_with(const Options& options, const Grammar& grammar) {
 void run(const Options& options, bool quiet) {
     const auto format = print_format(options.output);
     if (!format) {
+        std::error_code error;
+        if (std::filesystem::is_directory(options.output, error)) {
+            throw UsageError(fmt::format("-o {}: this is a folder; a print is a file such as {}", options.output,
+                                         (std::filesystem::path(options.output) / "print.svg").string()));
+        }
         throw UsageError(
             fmt::format("-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg or .exr", options.output));
     }

@@ -504,6 +504,14 @@ TEST(Program, DrawWritesEveryKind) {
     EXPECT_EQ(folder.names().size(), kinds.size()) << "nothing is left beside the prints";
 }
 
+TEST(Program, AFolderIsNoPrint) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("folder");
+    std::filesystem::create_directory(path);
+    expect_failure(run({"draw", "hilbert", "-o", path}), 2, "this is a folder");
+    expect_failure(run({"draw", "hilbert", "-o", path + "/"}), 2, path + "/print.svg");
+}
+
 TEST(Program, TheSameBytesEveryTime) {
     const ScratchFolder folder;
     const std::vector<std::vector<std::pair<std::string, std::string>>> worlds = {
