@@ -290,7 +290,7 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, c
     require_affordable(grammar, true, options.budget);
     OutputFile output(file);
     Drawer drawer(grammar, print, options);
-    const DrawReport report = drawer.prepare();
+    DrawReport report = drawer.prepare();
     switch (options.format) {
         case PrintFormat::svg: {
             const auto writer = write_svg(print, output);
@@ -306,6 +306,7 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, c
         }
         default:
             draw_pixels(drawer, print, options, output, file);
+            report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
             break;
     }
     output.commit();

@@ -31,14 +31,15 @@ struct DrawOptions {
 
 /// What became of it.
 struct DrawReport {
-    double step = 0.0;       ///< millimetres of one turtle step
-    glm::dvec2 size{0.0};    ///< of the drawing with its pen, in millimetres
-    bool overflows = false;  ///< it is larger than the page within its margins (a step was given)
+    double step = 0.0;                ///< millimetres of one turtle step
+    glm::dvec2 size{0.0};             ///< of the drawing with its pen, in millimetres
+    bool overflows = false;           ///< it is larger than the page within its margins (a step was given)
+    bool leaves_pattern_out = false;  ///< its text is too long for the format
 };
 
 /// Draws into `file`, which appears whole or not at all. `print` comes with page, style, dpi and texts; its placement
-/// is worked out here: from the fold where only straight lines are drawn and all are seen, else from one pass over the
-/// word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count.
+/// is worked out here: from the fold where only straight lines are drawn and all are seen, else from one pass over
+/// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count.
 /// @throws BudgetError, WordError; std::runtime_error if nothing is drawn or the file cannot be written
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file);
 

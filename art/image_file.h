@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace sikku {
 
@@ -21,11 +22,18 @@ struct ImageSpec {
     std::string software;     ///< Software
 };
 
+/// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF OpenImageIO reads as much. Half a pattern is none.
+constexpr std::size_t longest_short_text = 60'000;
+/// Does a file of that format (as in ImageSpec) hold that text?
+inline bool keeps_text(std::string_view format, std::string_view text) {
+    return (format != "jpg" && format != "tif") || text.size() <= longest_short_text;
+}
+
 /// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures are
 /// std::runtime_error; a full disk is one at the latest when the file is closed. The same rows make the same bytes.
 ///
 /// PNG and TIFF keep the pixels; JPEG (quality 95) has no alpha and lies on white; EXR is 16-bit linear light with
-/// associated alpha. JPEG and TIFF leave out texts over 60,000 bytes, which could not be read back whole.
+/// associated alpha. JPEG and TIFF leave out texts that they would not keep: see keeps_text().
 class ImageWriter {
 public:
     virtual ~ImageWriter() = default;

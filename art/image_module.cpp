@@ -174,9 +174,6 @@ private:
     std::vector<float> linear_;
 };
 
-// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF's OpenImageIO reads as much. Half a pattern is none.
-constexpr std::size_t longest_short_text = 60'000;
-
 FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
     const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
                exr = spec.format == "exr";
@@ -220,7 +217,7 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         image.attribute("compression", "zip");
     }
     const auto text = [&](const char* name, const std::string& value) {
-        if (!value.empty() && !((jpeg || tiff) && value.size() > longest_short_text)) image.attribute(name, value);
+        if (!value.empty() && keeps_text(spec.format, value)) image.attribute(name, value);
     };
     text("ImageDescription", spec.description);
     text("Software", spec.software);

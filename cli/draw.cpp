@@ -112,7 +112,14 @@ void run(const Options& options, bool quiet) {
     const Page page = print.page;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
     progress.reset();
-    if (report.overflows && !quiet) {
+    if (quiet) return;
+    if (report.leaves_pattern_out) {
+        fmt::print(stderr,
+                   "sikku: warning: {} does not hold the text of the pattern, which is over 60,000 bytes: `sikku "
+                   "show` cannot give it back\n",
+                   options.output);
+    }
+    if (report.overflows) {
         fmt::print(
             stderr,
             "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "

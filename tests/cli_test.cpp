@@ -691,6 +691,14 @@ TEST(Program, WarningsAreToldUnlessQuiet) {
     const Outcome cut = run({"draw", "hilbert", "--step", "5cm", "-o", folder.file("a.svg")});
     EXPECT_EQ(cut.status, 0);
     EXPECT_TRUE(has(cut.errors, "warning: the drawing is"));
+    const std::string large = folder.write("large.lsys", "axiom: F\n// " + std::string(70'000, 'x') + "\n");
+    for (const char* name : {"a.jpg", "a.tif", "a.png", "a.pdf"}) {
+        const Outcome kept = run({"draw", large, "--dpi", "10", "-o", folder.file(name)});
+        EXPECT_EQ(kept.status, 0) << kept.errors;
+        const bool is_kept = name == std::string("a.png") || name == std::string("a.pdf");
+        EXPECT_EQ(kept.errors.find("warning: ") == std::string::npos, is_kept) << kept.errors;
+        EXPECT_EQ(run({"-q", "draw", large, "--dpi", "10", "-o", folder.file(name)}).errors, "");
+    }
 }
 
 // --- completion ---------------------------------------------------------------------------------------------------
