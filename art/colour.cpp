@@ -1,5 +1,7 @@
 #include "art/colour.h"
 
+#include "art/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -200,10 +202,7 @@ std::optional<Colour> parse_hex(std::string_view digits) {
 std::optional<Colour> parse_colour(std::string_view text) {
     if (text.starts_with('#')) return parse_hex(text.substr(1));
     if (text.empty() || text.size() > longest_name) return std::nullopt;
-    std::string folded(text);
-    for (char& byte : folded) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
+    const std::string folded = lower_case(text);
     if (folded == "transparent") return Colour{0, 0, 0, 0};
     const auto found =
         std::lower_bound(named_colours.begin(), named_colours.end(), folded,

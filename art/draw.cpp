@@ -5,6 +5,7 @@
 #include "art/pdf.h"
 #include "art/raster.h"
 #include "art/svg.h"
+#include "art/text.h"
 #include "engine/fold.h"
 #include "engine/spline.h"
 #include "engine/turtle.h"
@@ -269,10 +270,7 @@ void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& op
 }  // namespace
 
 std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& byte : extension) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
+    const std::string extension = lower_case(file.extension().string());
     if (extension == ".svg") return PrintFormat::svg;
     if (extension == ".pdf") return PrintFormat::pdf;
     if (extension == ".png") return PrintFormat::png;

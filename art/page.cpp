@@ -1,5 +1,8 @@
 #include "art/page.h"
 
+#include "art/text.h"
+#include "engine/lattice.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,14 +24,6 @@ std::string_view trimmed(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
     return text;
-}
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& byte : result) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
-    return result;
 }
 
 /// A number and what stands behind it; the unit is empty for a bare number.
@@ -82,19 +77,6 @@ const std::array<NamedSize, 10> named_sizes = {{
     {"tabloid", {279.4, 431.8}},
 }};
 
-/// Cosine and sine of whole quarter turns without rounding.
-glm::dvec2 direction(double degrees) {
-    const double turn = std::fmod(degrees, 360.0);
-    const double quarters = turn / 90.0;
-    if (quarters == std::floor(quarters)) {
-        constexpr std::array<std::array<int, 2>, 4> axes = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-        const auto& axis = axes[static_cast<std::size_t>((static_cast<int>(quarters) + 4) % 4)];
-        return {axis[0], axis[1]};
-    }
-    const double radians = turn * 3.14159265358979323846 / 180.0;
-    return {std::cos(radians), std::sin(radians)};
-}
-
 /// The step at which one axis is filled, or nullopt if the drawing has no extent along it.
 std::optional<double> fitting_step(double room, double extent, double ink_steps, double ink_mm) {
     const double steps = extent + 2.0 * ink_steps;
@@ -130,12 +112,12 @@ std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
 }
 
 glm::dmat3x2 orientation(const PlacementOptions& options) {
-    const glm::dvec2 turned = direction(options.rotate);
+    const glm::dvec2 turned = unit_vector(options.rotate);
     const double mirrored = options.mirror ? -1.0 : 1.0;
     glm::dmat3x2 result(0.0);
     // Adding 0 turns -0 into 0.
     result[0] = {mirrored * turned.x + 0.0, mirrored * turned.y + 0.0};
-    result[1] = {0.0 - turned.y, turned.x};
+    result[1] = {0.0 - turned.y, turned.x + 0.0};
     return result;
 }
 

@@ -1,6 +1,7 @@
 #include "art/pdf.h"
 
 #include "art/micrometres.h"
+#include "engine/diagnostic.h"
 
 #include <zlib.h>
 
@@ -82,20 +83,17 @@ std::string text_string(std::string_view text) {
     std::string result = "<FEFF";
     const auto put = [&result](std::uint32_t unit) { fmt::format_to(std::back_inserter(result), "{:04X}", unit); };
     for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = utf8_length(text.substr(i));
         const auto byte = [&](std::size_t k) {
-            return k < text.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])) : 0u;
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
         };
-        const std::uint32_t lead = byte(i);
-        const std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
-        std::uint32_t code = length == 0   ? 0xFFFD
-                             : length == 1 ? lead
-                             : length == 2 ? lead & 0x1F
-                             : length == 3 ? lead & 0x0F
-                                           : lead & 0x07;
-        std::size_t used = 1;
-        for (; used < length && (byte(i + used) & 0xC0) == 0x80; ++used) code = code << 6 | (byte(i + used) & 0x3F);
-        if (used < length || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) code = 0xFFFD;
-        i += used;
+        std::uint32_t code = 0xFFFD;
+        if (length > 0) {
+            // The first byte begins with as many ones as there are bytes, if there are several.
+            code = length == 1 ? byte(i) : byte(i) & (0x7Fu >> length);
+            for (std::size_t k = 1; k < length; ++k) code = code << 6 | (byte(i + k) & 0x3F);
+        }
+        i += std::max<std::size_t>(length, 1);
         if (code >= 0x10000) {
             put(0xD800 + ((code - 0x10000) >> 10));
             put(0xDC00 + ((code - 0x10000) & 0x3FF));

@@ -359,7 +359,7 @@ private:
         return {quantised(pixels.x), quantised(pixels.y)};
     }
 
-    Nib nib(std::vector<Layer>& layers, const std::vector<std::size_t>& slots, std::size_t index, double width);
+    Nib nib(std::vector<Layer>& layers, const std::vector<int>& slots, std::size_t index, double width);
     Nib line_nib(const Pen& pen);
     void line_to(glm::dvec2 end);
     void close_line();
@@ -374,14 +374,13 @@ private:
     PixelSize size_;
     glm::dmat3x2 matrix_;
     double millimetre_;  ///< pixels
-    double step_;        ///< pixels of a turtle step
     int band_rows_, band_bits_, bands_;
     bool transparent_;
     Colour ground_;
 
     // Colours by index, and for each index the first one of the same colour, whose layer it shares.
     std::vector<Colour> line_colours_, fill_colours_;
-    std::vector<std::size_t> line_slots_, fill_slots_;
+    std::vector<int> line_slots_, fill_slots_;
     std::vector<Layer> strokes_, discs_;
     Layer polygons_;
     std::vector<bool> polygon_colours_;  ///< which were used
@@ -397,15 +396,6 @@ private:
     std::uint64_t polygon_serial_ = 0;
 };
 
-std::vector<std::size_t> slots(const std::vector<Colour>& colours) {
-    std::vector<std::size_t> slots;
-    for (const Colour& colour : colours) {
-        slots.push_back(
-            static_cast<std::size_t>(std::find(colours.begin(), colours.end(), colour) - colours.begin()));
-    }
-    return slots;
-}
-
 BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(print.page, print.dpi)) {
     if (size_.width > most_pixels || size_.height > most_pixels) {
         throw std::runtime_error("the print would be " + std::to_string(size_.width) + " x " +
@@ -413,7 +403,6 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
                                  " a side can be drawn");
     }
     millimetre_ = print.dpi / 25.4;
-    step_ = print.placement.step * millimetre_;
     matrix_ = print.placement.to_page;
     for (int column = 0; column < 3; ++column) matrix_[column] *= millimetre_;
 
@@ -431,19 +420,19 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
         line_colours_.push_back(print.style.line_colour(pen));
         fill_colours_.push_back(print.style.fill_colour(pen));
     }
-    line_slots_ = slots(line_colours_);
-    fill_slots_ = slots(fill_colours_);
+    line_slots_ = print.style.line_slots();
+    fill_slots_ = print.style.fill_slots();
     strokes_.resize(line_colours_.size());
     discs_.resize(fill_colours_.size());
     polygon_colours_.resize(fill_colours_.size());
 }
 
-BandRaster::Nib BandRaster::nib(std::vector<Layer>& layers, const std::vector<std::size_t>& slots, std::size_t index,
+BandRaster::Nib BandRaster::nib(std::vector<Layer>& layers, const std::vector<int>& slots, std::size_t index,
                                 double width) {
     Nib nib;
     if (!(width > 0)) return nib;
     width = std::min(width, 2 * most_radius);
-    Layer& layer = layers[slots[index]];
+    Layer& layer = layers[static_cast<std::size_t>(slots[index])];
     if (layer.empty()) layer.resize(static_cast<std::size_t>(bands_));
     nib.layer = &layer;
     nib.width = static_cast<float>(width);
@@ -456,7 +445,7 @@ BandRaster::Nib BandRaster::nib(std::vector<Layer>& layers, const std::vector<st
 
 BandRaster::Nib BandRaster::line_nib(const Pen& pen) {
     const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
-    if (!print_.style.stroked || line_colours_[index].alpha == 0) return {};
+    if (!print_.style.draws(pen)) return {};
     return nib(strokes_, line_slots_, index, print_.style.line_width(pen, print_.placement.step) * millimetre_);
 }
 
@@ -598,8 +587,7 @@ void BandRaster::add_piece(const Nib& nib, SubPoint from, SubPoint to) {
 void BandRaster::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
     if (fill_colours_[index].alpha == 0) return;
-    const double width =
-        radius > 0 ? 2 * radius * step_ : 2 * print_.style.line_width(pen, print_.placement.step) * millimetre_;
+    const double width = 2 * print_.style.disc_radius(radius, pen, print_.placement.step) * millimetre_;
     const Nib nib = this->nib(discs_, fill_slots_, index, width);
     const glm::dvec2 at = to_pixels(centre);
     if (nib.layer && nib.range.holds(at)) add_piece(nib, quantised(at), quantised(at));

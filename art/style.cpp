@@ -1,6 +1,7 @@
 #include "art/style.h"
 
 #include "art/page.h"
+#include "art/text.h"
 
 #include <fmt/format.h>
 
@@ -26,14 +27,6 @@ constexpr Colour white{255, 255, 255, 255};
 std::vector<Colour> default_palette() {
     return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
             {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
-}
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& byte : result) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
-    return result;
 }
 
 std::string quoted(std::string_view text) {

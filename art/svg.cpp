@@ -1,6 +1,7 @@
 #include "art/svg.h"
 
 #include "art/micrometres.h"
+#include "engine/diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -37,22 +38,13 @@ constexpr std::uint64_t shared_path_bytes = 4096;
 enum class LayerKind { polygons, strokes, discs };
 using LayerOrder = std::pair<LayerKind, int>;
 
-/// The length of the UTF-8 sequence at the front of `text` if it is a character that XML 1.0 can hold, else 0.
+/// The length of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
 std::size_t xml_character(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-    const auto follows = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
-    const unsigned lead = byte(0);
-    if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' || lead == '\r' ? 1 : 0;
-    if (lead < 0xC2 || lead > 0xF4 || !follows(1)) return 0;
-    if (lead < 0xE0) return 2;
-    if (!follows(2)) return 0;
-    if (lead < 0xF0) {
-        if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F)) return 0;
-        if (lead == 0xEF && byte(1) == 0xBF && byte(2) >= 0xBE) return 0;
-        return 3;
-    }
-    if (!follows(3) || (lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F)) return 0;
-    return 4;
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') return 0;
+    // U+FFFE and U+FFFF are no characters.
+    if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
+    return utf8_length(text);
 }
 
 bool fits_xml(std::string_view text) {
