@@ -12,10 +12,11 @@
 
 namespace sikku {
 
-/// Size of the print in pixels: page times dpi, rounded to nearest, at least 1.
 struct PixelSize {
     int width = 0, height = 0;
 };
+/// Size of a print in pixels: page times dpi, rounded to nearest, from 1 to 10^9 a side. Throws nothing: what is too
+/// large to be drawn make_raster() refuses.
 PixelSize pixel_size(const Page& page, double dpi);
 
 /// Receives finished rows, 8 bits a channel, top to bottom; called from one thread at a time, in order.
@@ -39,7 +40,8 @@ public:
     virtual void render(int threads, const RowSink& rows) = 0;
 };
 
-/// `print` must outlive the raster. @throws std::runtime_error if a side is over 500,000 pixels
+/// `print` is kept by reference and must outlive the raster. @throws std::runtime_error if a side is over 500,000
+/// pixels
 std::unique_ptr<Raster> make_raster(const Print& print);
 
 }  // namespace sikku
