@@ -289,23 +289,13 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, c
     OutputFile output(file);
     Drawer drawer(grammar, print, options);
     DrawReport report = drawer.prepare();
-    switch (options.format) {
-        case PrintFormat::svg: {
-            const auto writer = write_svg(print, output);
-            drawer.read(*writer);
-            writer->finish();
-            break;
-        }
-        case PrintFormat::pdf: {
-            const auto writer = write_pdf(print, output);
-            drawer.read(*writer);
-            writer->finish();
-            break;
-        }
-        default:
-            draw_pixels(drawer, print, options, output, file);
-            report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
-            break;
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
+        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
+        drawer.read(*writer);
+        writer->finish();
+    } else {
+        draw_pixels(drawer, print, options, output, file);
+        report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
     }
     output.commit();
     return report;

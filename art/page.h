@@ -12,7 +12,7 @@ namespace sikku {
 struct Page {
     double width = 210.0;
     double height = 297.0;
-    double margin = 10.0;   ///< on all four sides
+    double margin = 10.0;  ///< on all four sides
 };
 
 /// A length such as `15mm`, `1.5cm`, `2in`, `12pt`, `300px` in millimetres; px by `dpi`; a bare number is mm.
@@ -36,16 +36,16 @@ struct Box {
 
 /// How pattern units become millimetres on the page, y down from the top left corner.
 struct Placement {
-    glm::dmat3x2 to_page{1.0};    ///< page = to_page * (x, y, 1)
-    double step = 1.0;            ///< millimetres of one turtle step
+    glm::dmat3x2 to_page{1.0};  ///< page = to_page * (x, y, 1)
+    double step = 1.0;          ///< millimetres of one turtle step
 };
 
 /// What the user may ask of the placement.
 struct PlacementOptions {
-    double rotate = 0.0;                  ///< degrees anticlockwise, applied to the drawing
-    bool mirror = false;                  ///< left and right exchanged, before the rotation
-    std::optional<double> step;           ///< millimetres of a step; absent: fit into the margins
-    double scale = 1.0;                   ///< fraction of the page that a fitted drawing fills (`scale factor:`)
+    double rotate = 0.0;         ///< degrees anticlockwise, applied to the drawing
+    bool mirror = false;         ///< left and right exchanged, before the rotation
+    std::optional<double> step;  ///< millimetres of a step; absent: fit into the margins
+    double scale = 1.0;          ///< fraction of the page that a fitted drawing fills (`scale factor:`)
 };
 
 /// The rotation and mirroring alone, to measure the box of the drawing as it will lie on the page (y up).

@@ -1,6 +1,6 @@
 #include "art/pdf.h"
 
-#include "art/micrometres.h"
+#include "art/vector_writer.h"
 #include "engine/diagnostic.h"
 
 #include <zlib.h>
@@ -23,15 +23,10 @@ namespace {
 constexpr double points_of_micrometre = 72.0 / 25400.0;
 constexpr double most_units = 14400.0;  // of a page's side, in its units: ISO 32000-1, annex C
 
-constexpr std::size_t block_points = 1024;
 constexpr std::size_t pack_bytes = std::size_t{1} << 18;
 /// Painted at once; readers keep a whole path in memory, and it is cut without a trace, as caps are round and a
 /// translucent layer is painted as a group.
 constexpr int most_path_points = 8192;
-
-/// Layers in drawing order: polygons, then the strokes of each colour, then the discs of each colour.
-enum class LayerKind { polygons, strokes, discs };
-using LayerOrder = std::pair<LayerKind, int>;
 
 /// Distance of the control points of a quarter circle's Bézier, of its radius.
 constexpr double quarter_circle = 0.5522847498307936;
@@ -127,32 +122,22 @@ constexpr std::size_t point_room = 2 * number_room + 2;
 constexpr std::size_t line_room = point_room + 2;
 constexpr std::size_t curve_room = 3 * point_room + 2;
 
-struct Layer {
+struct Layer : VectorLayer {
     std::string label;
     int stream = 0;            ///< number of the object with the drawing
     int length = 0;            ///< and of its length, if it goes to the file before that is known
     int group = 0;             ///< and of the optional content group
     Colour colour;             ///< of strokes or discs
     bool translucent = false;  ///< the whole layer is painted as one
-    TextBuffer text;
     std::string packed;
     std::uint64_t packed_bytes = 0;  ///< including what is in the file
     uLong checksum = 1;              ///< Adler-32
-    bool to_file = false;
-    bool path_open = false;
-    int points = 0;             ///< of the open path
-    std::string width;          ///< as set last
-    std::optional<Colour> run;  ///< colour of polygons or discs, as set last
+    int points = 0;                  ///< of the open path
 };
 
-class Writer final : public PdfWriter {
+class Writer final : public VectorWriter<Layer> {
 public:
-    Writer(const Print& print, OutputFile& file)
-        : print_(print),
-          file_(file),
-          place_(print.placement),
-          line_slots_(print.style.line_slots()),
-          fill_slots_(print.style.fill_slots()) {
+    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file) {
         const double longest = std::max(print.page.width, print.page.height) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
         write("%PDF-1.6\n%\xE2\xE3\xCF\xD3\n");
@@ -160,129 +145,6 @@ public:
         pages_ = new_object();
         page_ = new_object();
         resources_ = new_object();
-    }
-
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
-        here_ = place_(start);
-        started_ = false;
-        whole_ = true;
-        take(pen);
-    }
-
-    void change_pen(const Pen& pen) override {
-        if (pen_ == pen || (slot_of(pen) == slot_ && width_text(pen) == width_)) return;
-        end_piece(false);
-        take(pen);
-    }
-
-    void lines(std::span<const glm::dvec2> ends) override {
-        if (!visible_) {
-            whole_ = false;
-            here_ = place_(ends.back());
-            return;
-        }
-        while (!ends.empty()) {
-            start_piece();
-            const auto block = ends.first(std::min(ends.size(), block_points));
-            ends = ends.subspan(block.size());
-            char* const begin = layer_->text.room(block.size() * line_room);
-            char* out = begin;
-            Micrometres here = here_;
-            const MicrometrePlacement place = place_;
-            for (const glm::dvec2 point : block) {
-                const Micrometres next = place(point);
-                if (next == here) continue;
-                here = next;
-                out = put_operator(put_point(out, next), 'l');
-            }
-            here_ = here;
-            end_block(begin, out, block.size());
-        }
-    }
-
-    void curves(std::span<const glm::dvec2> controls) override {
-        if (!visible_) {
-            whole_ = false;
-            here_ = place_(controls.back());
-            return;
-        }
-        while (!controls.empty()) {
-            start_piece();
-            const auto block = controls.first(std::min(controls.size(), 3 * (block_points / 4)));
-            controls = controls.subspan(block.size());
-            char* const begin = layer_->text.room(block.size() / 3 * curve_room);
-            char* out = begin;
-            Micrometres here = here_;
-            const MicrometrePlacement place = place_;
-            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
-                const Micrometres first = place(block[i]);
-                const Micrometres second = place(block[i + 1]);
-                const Micrometres end = place(block[i + 2]);
-                if (first == here && second == here && end == here) continue;
-                here = end;
-                out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-            }
-            here_ = here;
-            end_block(begin, out, block.size());
-        }
-    }
-
-    void end_stroke(bool closed) override { end_piece(closed && whole_); }
-
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        const Colour colour = print_.style.fill_colour(pen);
-        if (colour.alpha == 0 || vertices.size() < 3) return;
-        // Polygons keep their order whatever their colours, as they may cover each other.
-        Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
-        if (layer.run != colour) {
-            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
-            layer.run = colour;
-        }
-        const MicrometrePlacement place = place_;
-        bool first = true;
-        while (!vertices.empty()) {
-            const auto block = vertices.first(std::min(vertices.size(), block_points));
-            vertices = vertices.subspan(block.size());
-            char* out = layer.text.room(block.size() * line_room);
-            for (const glm::dvec2 vertex : block) {
-                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
-                first = false;
-            }
-            layer.text.filled_to(out);
-            pack(layer, pack_bytes);
-        }
-        layer.text.append("f\n");
-    }
-
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
-        const Colour colour = print_.style.fill_colour(pen);
-        // A dot is twice as wide as the line.
-        const double millimetres =
-            radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
-        if (colour.alpha == 0 || !(millimetres > 0.0)) return;
-        const int slot = fill_slots_[static_cast<std::size_t>(print_.style.index(pen))];
-        Layer& layer = open_layer({LayerKind::discs, slot}, colour,
-                                  [&] { return fmt::format("discs {}", colour_name(colour)); });
-        if (!layer.run) layer.text.append(fmt::format("{} rg\n", channels(colour)));
-        layer.run = colour;
-        const Micrometres middle = place_(centre);
-        const double r = millimetres * 1000.0;
-        const auto at = [&](double x, double y) {
-            return Micrometres{to_whole(middle.x + r * x), to_whole(middle.y + r * y)};
-        };
-        constexpr double k = quarter_circle;
-        char* out = layer.text.room(6 * curve_room);
-        out = put_operator(put_point(out, at(1, 0)), 'm');
-        const auto curve = [&](Micrometres first, Micrometres second, Micrometres end) {
-            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-        };
-        curve(at(1, k), at(k, 1), at(0, 1));
-        curve(at(-k, 1), at(-1, k), at(-1, 0));
-        curve(at(-1, -k), at(-k, -1), at(0, -1));
-        curve(at(k, -1), at(1, -k), at(1, 0));
-        out = put_operator(out, 'f');
-        layer.text.filled_to(out);
-        pack(layer, pack_bytes);
     }
 
     void finish() override {
@@ -403,32 +265,58 @@ private:
         return layer;
     }
 
-    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(print_.style.index(pen))]; }
-
-    std::string width_text(const Pen& pen) const {
-        return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
-    }
-
-    void take(const Pen& pen) {
-        if (pen_ == pen) return;
-        pen_ = pen;
-        slot_ = slot_of(pen);
-        width_ = width_text(pen);
-        colour_ = print_.style.line_colour(pen);
-        // In PDF a width of 0 is the thinnest line there is, and not none.
-        visible_ = print_.style.stroked && colour_.alpha > 0 && width_ != "0";
-        layer_ = nullptr;
-    }
-
-    /// Puts the pen down where it is, if it is not down. Only when something is drawn: a pen that is changed
-    /// twice at one place leaves no dot.
-    void start_piece() {
-        if (started_) return;
-        started_ = true;
-        if (!layer_) {
-            layer_ = &open_layer({LayerKind::strokes, slot_}, colour_,
-                                 [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
+    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
+        // Polygons keep their order whatever their colours, as they may cover each other.
+        Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
+        if (layer.run != colour) {
+            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
+            layer.run = colour;
         }
+        const MicrometrePlacement place = place_;
+        bool first = true;
+        while (!vertices.empty()) {
+            const auto block = vertices.first(std::min(vertices.size(), block_points));
+            vertices = vertices.subspan(block.size());
+            char* out = layer.text.room(block.size() * line_room);
+            for (const glm::dvec2 vertex : block) {
+                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
+                first = false;
+            }
+            layer.text.filled_to(out);
+            pack(layer, pack_bytes);
+        }
+        layer.text.append("f\n");
+    }
+
+    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
+        Layer& layer = open_layer({LayerKind::discs, slot}, colour,
+                                  [&] { return fmt::format("discs {}", colour_name(colour)); });
+        if (!layer.run) layer.text.append(fmt::format("{} rg\n", channels(colour)));
+        layer.run = colour;
+        const auto at = [&](double x, double y) {
+            return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
+        };
+        constexpr double k = quarter_circle;
+        char* out = layer.text.room(6 * curve_room);
+        out = put_operator(put_point(out, at(1, 0)), 'm');
+        const auto curve = [&](Micrometres first, Micrometres second, Micrometres end) {
+            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+        };
+        curve(at(1, k), at(k, 1), at(0, 1));
+        curve(at(-k, 1), at(-1, k), at(-1, 0));
+        curve(at(-1, -k), at(-k, -1), at(0, -1));
+        curve(at(k, -1), at(1, -k), at(1, 0));
+        out = put_operator(out, 'f');
+        layer.text.filled_to(out);
+        pack(layer, pack_bytes);
+    }
+
+    Layer& stroke_layer() override {
+        return open_layer({LayerKind::strokes, slot_}, colour_,
+                          [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
+    }
+
+    void write_start() override {
         if (layer_->width != width_) {
             end_path(*layer_);
             if (layer_->width.empty()) layer_->text.append(fmt::format("{} RG\n", channels(colour_)));
@@ -436,7 +324,6 @@ private:
             layer_->width = width_;
         }
         layer_->path_open = true;
-        drawn_ = false;
         put(here_, 'm');
     }
 
@@ -445,9 +332,37 @@ private:
         layer_->text.filled_to(put_operator(put_point(out, point), name));
     }
 
-    void end_block(const char* begin, const char* out, std::size_t points) {
-        drawn_ = drawn_ || out != begin;
+    void write_lines(std::span<const glm::dvec2> ends) override {
+        char* out = layer_->text.room(ends.size() * line_room);
+        Micrometres here = here_;
+        const MicrometrePlacement place = place_;
+        for (const glm::dvec2 point : ends) {
+            const Micrometres next = place(point);
+            if (next == here) continue;
+            here = next;
+            out = put_operator(put_point(out, next), 'l');
+        }
+        here_ = here;
         layer_->text.filled_to(out);
+    }
+
+    void write_curves(std::span<const glm::dvec2> controls) override {
+        char* out = layer_->text.room(controls.size() / 3 * curve_room);
+        Micrometres here = here_;
+        const MicrometrePlacement place = place_;
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const Micrometres first = place(controls[i]);
+            const Micrometres second = place(controls[i + 1]);
+            const Micrometres end = place(controls[i + 2]);
+            if (first == here && second == here && end == here) continue;
+            here = end;
+            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+        }
+        here_ = here;
+        layer_->text.filled_to(out);
+    }
+
+    void end_block(std::size_t points, std::size_t) override {
         layer_->points += static_cast<int>(points);
         if (layer_->points > most_path_points) {
             end_piece(false);
@@ -456,15 +371,12 @@ private:
         pack(*layer_, pack_bytes);
     }
 
-    void end_piece(bool closed) {
-        if (!started_) return;
+    void write_end(bool closed) override {
         // A line without length: the round caps make it a dot.
         if (!drawn_) put(here_, 'l');
-        if (closed && drawn_) layer_->text.append("h\n");
+        if (closed) layer_->text.append("h\n");
         layer_->points += 1;
         if (layer_->points > most_path_points) end_path(*layer_);
-        started_ = false;
-        whole_ = false;
     }
 
     static void end_path(Layer& layer) {
@@ -557,13 +469,7 @@ private:
                           offsets_.size() + 1, catalog_, info, table));
     }
 
-    const Print& print_;
-    OutputFile& file_;
-    const MicrometrePlacement place_;
-    const std::vector<int> line_slots_;
-    const std::vector<int> fill_slots_;
     Deflater deflater_;
-    std::map<LayerOrder, Layer> layers_;
     std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
     std::set<int> alphas_;
     double unit_ = 1.0;  ///< points of one unit of the page
@@ -571,23 +477,11 @@ private:
     int pages_ = 0;
     int page_ = 0;
     int resources_ = 0;
-
-    // The stroke that is being drawn, and its piece with the present pen.
-    std::optional<Pen> pen_;
-    Layer* layer_ = nullptr;
-    int slot_ = 0;
-    Colour colour_;
-    std::string width_;
-    bool visible_ = false;
-    bool started_ = false;  ///< the piece has its m
-    bool drawn_ = false;    ///< and something that has length
-    bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
-    Micrometres here_;
 };
 
 }  // namespace
 
-std::unique_ptr<PdfWriter> write_pdf(const Print& print, OutputFile& file) {
+std::unique_ptr<PrintWriter> write_pdf(const Print& print, OutputFile& file) {
     return std::make_unique<Writer>(print, file);
 }
 

@@ -3,17 +3,15 @@
 
 #include "art/output_file.h"
 #include "art/print.h"
-#include "engine/path.h"
 
 #include <memory>
 
 namespace sikku {
 
-/// Returns a sink that writes to `file`; call finish() after the last stroke, then commit the file.
-class PdfWriter : public PathSink {
-public:
-    virtual void finish() = 0;
-};
-std::unique_ptr<PdfWriter> write_pdf(const Print& print, OutputFile& file);
+/// Begins the document in `file`. `print` and `file` are kept by reference and must outlive the writer. After
+/// finish() the file is complete, but not committed.
+/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written or memory
+/// is short
+std::unique_ptr<PrintWriter> write_pdf(const Print& print, OutputFile& file);
 
 }  // namespace sikku

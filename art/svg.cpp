@@ -1,6 +1,6 @@
 #include "art/svg.h"
 
-#include "art/micrometres.h"
+#include "art/vector_writer.h"
 #include "engine/diagnostic.h"
 
 #include <fmt/format.h>
@@ -27,16 +27,11 @@ constexpr std::string_view head_end = "</metadata>";
 constexpr std::uint64_t most_path_bytes = 3'900'000;
 constexpr std::uint64_t long_path_region = 3'000'000;
 constexpr std::uint64_t late_path_bytes = 32'000;
-constexpr std::size_t block_points = 1024;
 constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 /// The first strokes of a layer are paths of their own, so that they can be picked up one by one; among very many
 /// the short ones share paths of about this size.
 constexpr int single_strokes = 256;
 constexpr std::uint64_t shared_path_bytes = 4096;
-
-/// Layers in drawing order: polygons, then the strokes of each colour, then the discs of each colour.
-enum class LayerKind { polygons, strokes, discs };
-using LayerOrder = std::pair<LayerKind, int>;
 
 /// The length of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
 std::size_t xml_character(std::string_view text) {
@@ -176,124 +171,21 @@ private:
     char command_ = 0;
 };
 
-struct Layer {
-    TextBuffer text;
-    std::uint64_t flushed = 0;  ///< bytes of it that are in the file already
-    bool to_file = false;
-    bool path_open = false;        ///< an attribute d is open, which the next stroke may share
-    std::uint64_t path_begin = 0;  ///< where it began, as position()
+struct Layer : VectorLayer {
+    std::uint64_t flushed = 0;     ///< bytes of its text that are in the file already
+    std::uint64_t path_begin = 0;  ///< where the open path's attribute d began, as position()
     std::string path_width;        ///< stroke-width of the open path
-    std::string width;             ///< stroke-width that the layer gives its paths
     Micrometres at;                ///< where the open path ends
     int strokes = 0;
-    std::optional<Colour> run;  ///< colour of the open group of polygons
 
     std::uint64_t position() const { return flushed + text.size(); }
 };
 
-class Writer final : public SvgWriter {
+class Writer final : public VectorWriter<Layer> {
 public:
-    Writer(const Print& print, OutputFile& file)
-        : print_(print),
-          file_(file),
-          place_(print.placement),
-          line_slots_(print.style.line_slots()),
-          fill_slots_(print.style.fill_slots()) {
+    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file) {
         write_head();
         body_begin_ = written_ = file_.size();
-    }
-
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
-        here_ = place_(start);
-        started_ = false;
-        whole_ = true;
-        take(pen);
-    }
-
-    void change_pen(const Pen& pen) override {
-        if (pen_ == pen || (slot_of(pen) == slot_ && width_text(pen) == width_)) return;
-        end_piece(false);
-        take(pen);
-    }
-
-    void lines(std::span<const glm::dvec2> ends) override {
-        if (!visible_) {
-            whole_ = false;
-            here_ = place_(ends.back());
-            return;
-        }
-        while (!ends.empty()) {
-            start_piece();
-            const auto block = ends.first(std::min(ends.size(), block_points));
-            ends = ends.subspan(block.size());
-            char* const begin = layer_->text.room(block.size() * line_room);
-            char* out = begin;
-            // Locals, so that the compiler need not fear that writing text changes them.
-            PathData path = data_;
-            const MicrometrePlacement place = place_;
-            for (const glm::dvec2 point : block) path.line(out, place(point));
-            data_ = path;
-            end_block(begin, out);
-        }
-    }
-
-    void curves(std::span<const glm::dvec2> controls) override {
-        if (!visible_) {
-            whole_ = false;
-            here_ = place_(controls.back());
-            return;
-        }
-        while (!controls.empty()) {
-            start_piece();
-            const auto block = controls.first(std::min(controls.size(), 3 * (block_points / 4)));
-            controls = controls.subspan(block.size());
-            char* const begin = layer_->text.room(block.size() / 3 * curve_room);
-            char* out = begin;
-            PathData path = data_;
-            const MicrometrePlacement place = place_;
-            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
-                path.curve(out, place(block[i]), place(block[i + 1]), place(block[i + 2]));
-            }
-            data_ = path;
-            end_block(begin, out);
-        }
-    }
-
-    void end_stroke(bool closed) override { end_piece(closed && whole_); }
-
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        const Colour colour = print_.style.fill_colour(pen);
-        if (colour.alpha == 0 || vertices.size() < 3) return;
-        Layer& layer = polygon_run(colour);
-        char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
-        char* out = begin;
-        const MicrometrePlacement place = place_;
-        const Micrometres start = place(vertices.front());
-        out = put_text(out, "<path d=\"M");
-        out = put_number(out, start.x);
-        out = put_next(out, start.y);
-        PathData path(start);
-        for (const glm::dvec2 vertex : vertices.subspan(1)) path.line(out, place(vertex));
-        out = put_text(out, "z\"/>\n");
-        layer.text.filled_to(out);
-        flush(layer);
-    }
-
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
-        const Colour colour = print_.style.fill_colour(pen);
-        // A dot is twice as wide as the line.
-        const double millimetres =
-            radius > 0.0 ? radius * print_.placement.step : print_.style.line_width(pen, print_.placement.step);
-        if (colour.alpha == 0 || !(millimetres > 0.0)) return;
-        const int slot = fill_slots_[static_cast<std::size_t>(print_.style.index(pen))];
-        Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
-            return LayerText{fmt::format("discs {}", colour_name(colour)),
-                             fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour))};
-        });
-        const Micrometres middle = place_(centre);
-        layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", middle.x, middle.y,
-                                      decimal(std::min(millimetres * 1000.0, 1e9), 1)));
-        flush(layer);
     }
 
     void finish() override {
@@ -381,37 +273,45 @@ private:
         return layer;
     }
 
-    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(print_.style.index(pen))]; }
-
-    std::string width_text(const Pen& pen) const {
-        return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
+    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
+        Layer& layer = polygon_run(colour);
+        char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
+        char* out = begin;
+        const MicrometrePlacement place = place_;
+        const Micrometres start = place(vertices.front());
+        out = put_text(out, "<path d=\"M");
+        out = put_number(out, start.x);
+        out = put_next(out, start.y);
+        PathData path(start);
+        for (const glm::dvec2 vertex : vertices.subspan(1)) path.line(out, place(vertex));
+        out = put_text(out, "z\"/>\n");
+        layer.text.filled_to(out);
+        flush(layer);
     }
 
-    void take(const Pen& pen) {
-        if (pen_ == pen) return;
-        pen_ = pen;
-        slot_ = slot_of(pen);
-        width_ = width_text(pen);
-        colour_ = print_.style.line_colour(pen);
-        visible_ = print_.style.stroked && colour_.alpha > 0;
-        layer_ = nullptr;
+    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
+        Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
+            return LayerText{fmt::format("discs {}", colour_name(colour)),
+                             fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour))};
+        });
+        layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", centre.x, centre.y,
+                                      decimal(std::min(radius, 1e9), 1)));
+        flush(layer);
     }
 
-    /// Puts the pen down where it is, if it is not down. Only when something is drawn: a pen that is changed
-    /// twice at one place leaves no dot.
-    void start_piece() {
-        if (started_) return;
-        started_ = true;
-        if (!layer_) {
-            // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
-            layer_ = &open_layer({LayerKind::strokes, slot_}, [&] {
-                return LayerText{fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
-                                 fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
-                                             "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                                             hex(colour_), opacity("opacity", colour_), width_)};
-            });
-            if (layer_->width.empty()) layer_->width = width_;
-        }
+    Layer& stroke_layer() override {
+        // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
+        Layer& layer = open_layer({LayerKind::strokes, slot_}, [&] {
+            return LayerText{fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
+                             fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
+                                         "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                                         hex(colour_), opacity("opacity", colour_), width_)};
+        });
+        if (layer.width.empty()) layer.width = width_;
+        return layer;
+    }
+
+    void write_start() override {
         if (layer_->path_open && (layer_->strokes < single_strokes || layer_->path_width != width_ ||
                                   layer_->position() - layer_->path_begin > shared_path_bytes)) {
             end_path(*layer_);
@@ -434,16 +334,35 @@ private:
             out = put_next(out, here_.y);
             layer_->text.filled_to(out);
         }
-        drawn_ = false;
         piece_start_ = here_;
         data_ = PathData(here_);
     }
 
-    void end_block(const char* begin, const char* out) {
-        drawn_ = drawn_ || out != begin;
-        here_ = data_.here();
+    void write_lines(std::span<const glm::dvec2> ends) override {
+        char* out = layer_->text.room(ends.size() * line_room);
+        // Locals, so that the compiler need not fear that writing text changes them.
+        PathData path = data_;
+        const MicrometrePlacement place = place_;
+        for (const glm::dvec2 point : ends) path.line(out, place(point));
+        data_ = path;
+        here_ = path.here();
         layer_->text.filled_to(out);
-        written_ += static_cast<std::uint64_t>(out - begin);
+    }
+
+    void write_curves(std::span<const glm::dvec2> controls) override {
+        char* out = layer_->text.room(controls.size() / 3 * curve_room);
+        PathData path = data_;
+        const MicrometrePlacement place = place_;
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            path.curve(out, place(controls[i]), place(controls[i + 1]), place(controls[i + 2]));
+        }
+        data_ = path;
+        here_ = path.here();
+        layer_->text.filled_to(out);
+    }
+
+    void end_block(std::size_t, std::size_t bytes) override {
+        written_ += bytes;
         flush(*layer_);
         const std::uint64_t path_bytes = layer_->position() - layer_->path_begin;
         if (path_bytes > most_path_bytes ||
@@ -453,15 +372,12 @@ private:
         }
     }
 
-    void end_piece(bool closed) {
-        if (!started_) return;
+    void write_end(bool closed) override {
         // A line without length: the round caps make it a dot.
         if (!drawn_) layer_->text.append("h0");
-        if (closed && drawn_) layer_->text.append("z");
+        if (closed) layer_->text.append("z");
         layer_->at = closed ? piece_start_ : here_;
         ++layer_->strokes;
-        started_ = false;
-        whole_ = false;
     }
 
     static void end_path(Layer& layer) {
@@ -476,34 +392,16 @@ private:
         layer.text.clear();
     }
 
-    const Print& print_;
-    OutputFile& file_;
-    const MicrometrePlacement place_;
-    const std::vector<int> line_slots_;
-    const std::vector<int> fill_slots_;
-    std::map<LayerOrder, Layer> layers_;
     std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
-
-    // The stroke that is being drawn, and its piece with the present pen.
-    std::optional<Pen> pen_;
-    Layer* layer_ = nullptr;
-    int slot_ = 0;
-    Colour colour_;
-    std::string width_;
-    bool visible_ = false;
-    bool started_ = false;  ///< the piece has its M
-    bool drawn_ = false;    ///< and something that has length
-    bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
     Micrometres piece_start_;
-    Micrometres here_;
     PathData data_{Micrometres{}};
 };
 
 }  // namespace
 
-std::unique_ptr<SvgWriter> write_svg(const Print& print, OutputFile& file) {
+std::unique_ptr<PrintWriter> write_svg(const Print& print, OutputFile& file) {
     return std::make_unique<Writer>(print, file);
 }
 

@@ -3,7 +3,6 @@
 
 #include "art/output_file.h"
 #include "art/print.h"
-#include "engine/path.h"
 
 #include <filesystem>
 #include <memory>
@@ -12,13 +11,10 @@
 
 namespace sikku {
 
-/// Returns a sink that writes to `file`; call finish() after the last stroke, then commit the file.
-class SvgWriter : public PathSink {
-public:
-    /// Completes the document. The file is not committed.
-    virtual void finish() = 0;
-};
-std::unique_ptr<SvgWriter> write_svg(const Print& print, OutputFile& file);
+/// Begins the document in `file`. `print` and `file` are kept by reference and must outlive the writer. After
+/// finish() the file is complete, but not committed.
+/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written
+std::unique_ptr<PrintWriter> write_svg(const Print& print, OutputFile& file);
 
 /// The pattern's text, and what made the print, from the head of a file that write_svg wrote.
 struct Provenance {
