@@ -106,7 +106,8 @@ void run(const Options& options, bool quiet) {
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
-    std::optional<Progress> progress;
+    // Contexts are resolved before it is known how much there is to draw.
+    std::optional<Progress> progress(std::in_place, 0, quiet);
     drawing.begin = [&](int passes) { progress.emplace(passes * expected_symbols(loaded.grammar, true), quiet); };
     drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
     const Page page = print.page;
@@ -114,14 +115,13 @@ void run(const Options& options, bool quiet) {
     progress.reset();
     if (quiet) return;
     if (report.leaves_pattern_out) {
-        fmt::print(stderr,
-                   "sikku: warning: {} does not hold the text of the pattern, which is over 60,000 bytes: `sikku "
-                   "show` cannot give it back\n",
-                   options.output);
+        tell(
+            "sikku: warning: {} does not hold the text of the pattern, which is over 60,000 bytes: `sikku "
+            "show` cannot give it back\n",
+            options.output);
     }
     if (report.overflows) {
-        fmt::print(
-            stderr,
+        tell(
             "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "
             "outside is cut off\n",
             report.size.x, report.size.y, page.width - 2 * page.margin, page.height - 2 * page.margin);
