@@ -505,7 +505,7 @@ TEST(Program, DrawWritesEveryKind) {
 }
 
 TEST(Program, AFolderIsNoPrint) {
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::string path = folder.file("folder");
     std::filesystem::create_directory(path);
     expect_failure(run({"draw", "hilbert", "-o", path}), 2, "this is a folder");
