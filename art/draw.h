@@ -22,7 +22,7 @@ struct DrawOptions {
     PlacementOptions placement;
     int threads = 0;        ///< for raster formats; 0: all cores
     double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
-    /// Called once, before the word is read, with how many times it will be.
+    /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
     /// stop.

@@ -820,11 +820,11 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     ASSERT_NE(at, std::string::npos);
     const auto save = [&] { std::ofstream(copied_module, std::ios::binary) << bytes; };
     save();
-    const Outcome same = run(draw);
+    const auto same = run(draw);
     EXPECT_TRUE(same.ok) << same.text;
     bytes[at] ^= 1;
     save();
-    const Outcome other = run(draw);
+    const auto other = run(draw);
     // Where sikku is installed as well, its module serves.
     if (other.ok) GTEST_SKIP() << "an installed module was found";
     EXPECT_NE(other.text.find("made for another version of sikku"), std::string::npos) << other.text;
