@@ -56,7 +56,7 @@ void derivation_of_117_million_symbols(benchmark::State& state) {
 }
 
 void context_sensitive_derivation(benchmark::State& state) {
-    const Grammar grammar = grammar_of(signal, 200);
+    const Grammar grammar = grammar_of(signal, 50);
     std::uint64_t symbols = 0;
     for (auto _ : state) {
         Counter counter;
