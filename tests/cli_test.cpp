@@ -514,10 +514,14 @@ TEST(Program, AFolderIsNoPrint) {
 
 TEST(Program, TheSameBytesEveryTime) {
     const ScratchFolder folder;
-    const std::vector<std::vector<std::pair<std::string, std::string>>> worlds = {
+    std::vector<std::vector<std::pair<std::string, std::string>>> worlds = {
         {},
         {{"LC_ALL", "de_DE.UTF-8"}, {"LANG", "de_DE.UTF-8"}},
         {{"LC_ALL", "C"}, {"TZ", "Asia/Kolkata"}, {"SOURCE_DATE_EPOCH", "1"}}};
+    // The search for leaks may itself crash over the threads that OpenImageIO leaves behind.
+    for (auto& world : worlds) {
+        if (sanitized) world.emplace_back("ASAN_OPTIONS", "detect_leaks=0");
+    }
     for (const char* ending : {".svg", ".pdf", ".png", ".tif", ".jpg"}) {
         std::set<std::string> seen;
         for (std::size_t i = 0; i < worlds.size(); ++i) {
