@@ -1,0 +1,193 @@
+#include "music/lilypond.h"
+
+#include "tests/files.h"
+#include "tests/notation_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clocale>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+std::string lilypond_of(const TestScore& score) {
+    MemorySink sink;
+    write_lilypond(notate(score), score.head, sink);
+    return sink.text;
+}
+
+/// The notes of the \new Voice blocks, read with a pattern for tokens: names are taken apart sign by sign, bar checks
+/// must lie on bar lines.
+std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
+    static const std::map<char, int> semitones = {{'c', 0}, {'d', 2}, {'e', 4}, {'f', 5},
+                                                  {'g', 7}, {'a', 9}, {'b', 11}};
+    static const std::regex token(R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)|r(\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
+    std::vector<PlainNote> list;
+    std::istringstream stream(text);
+    bool in_voice = false;
+    bool tied = false;
+    std::int64_t here = 0;
+    std::int64_t number = 0;
+    for (std::string row; std::getline(stream, row);) {
+        if (row.find("\\new Voice {") != std::string::npos) {
+            in_voice = true;
+            here = number = 0;
+            continue;
+        }
+        if (row.find('}') != std::string::npos && in_voice) {
+            in_voice = false;
+            EXPECT_FALSE(tied);
+        }
+        if (!in_voice || row.find('\\') != std::string::npos) continue;
+        std::istringstream words(row);
+        for (std::string word; words >> word;) {
+            if (word == "|") {
+                EXPECT_EQ(here, ++number * bar);
+                words >> word;
+                EXPECT_EQ(word, "%");
+                words >> word;
+                EXPECT_EQ(word, std::to_string(number));
+                continue;
+            }
+            std::smatch match;
+            if (!std::regex_match(word, match, token)) {
+                ADD_FAILURE() << "what is " << word << " in: " << row;
+                continue;
+            }
+            const auto length = [&](std::size_t digits, std::size_t dot) {
+                const std::int64_t whole = 4 * ticks_per_quarter / std::stoi(match[digits]);
+                return match[dot].length() > 0 ? whole * 3 / 2 : whole;
+            };
+            if (match[9].matched) {
+                here += 4 * ticks_per_quarter * std::stoi(match[9]) / std::stoi(match[10]);
+            } else if (match[7].matched) {
+                here += length(7, 8);
+            } else {
+                double key = 48 + semitones.at(match[1].str().front());
+                const std::string signs = match[2];
+                for (std::size_t i = 0; i < signs.size(); i += 2) {
+                    const double size = signs[i + 1] == 's' ? 1.0 : 0.5;
+                    key += signs[i] == 'i' ? size : -size;
+                }
+                for (const char mark : match[3].str()) key += mark == '\'' ? 12 : -12;
+                if (tied) {
+                    EXPECT_EQ(list.back().key, key);
+                    list.back().duration += length(4, 5);
+                } else {
+                    list.push_back({here, length(4, 5), key});
+                }
+                tied = match[6].length() > 0;
+                here += length(4, 5);
+            }
+        }
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+TEST(LilyPond, RandomScoresAreReadBack) {
+    for (unsigned seed = 0; seed < 150; ++seed) {
+        const TestScore score = random_score(seed, seed % 3 == 0);
+        ASSERT_EQ(read_notes(lilypond_of(score), score.head.meter.bar()), plain(score.notes)) << seed;
+    }
+}
+
+TEST(LilyPond, WritesALineForEachBar) {
+    TestScore score = line({4, 4}, {5 * 480, -480, 480, -480 + -1920});
+    score.notes[1].key = 66;
+    score.head.title = "A \"quoted\" \\ title";
+    score.head.made = "sikku 0.1.0, -n 2";
+    score.head.pattern = "axiom: X\r\n\n%{ no comment\n";
+    score.head.parts[0].key = KeySignature{-3, true};
+    EXPECT_EQ(lilypond_of(score), R"(\version "2.24.0"
+
+% sikku 0.1.0, -n 2
+% axiom: X
+%
+% %{ no comment
+
+\header {
+  title = "A \"quoted\" \\ title"
+  tagline = ##f
+}
+
+\score {
+  <<
+    \new Staff \with { instrumentName = "Voice" midiInstrument = "acoustic grand" } <<
+      \new Voice {
+        \clef treble \key c \minor \time 4/4
+        \tempo 4 = 120
+        c''1~ | % 1
+        c''4 r4 fis'4 r4 | % 2
+        R1*4/4 | % 3
+      }
+    >>
+  >>
+  \layout { }
+  \midi { }
+}
+)");
+}
+
+TEST(LilyPond, KeysHaveTheirTonic) {
+    const std::map<int, std::string> majors = {{-7, "ces"}, {-2, "bes"}, {0, "c"}, {1, "g"}, {6, "fis"}, {7, "cis"}};
+    const std::map<int, std::string> minors = {{-7, "aes"}, {-2, "g"}, {0, "a"}, {1, "e"}, {6, "dis"}, {7, "ais"}};
+    TestScore score = line({4, 4}, {480});
+    for (const auto& [fifths, tonic] : majors) {
+        score.head.parts[0].key = KeySignature{fifths, false};
+        EXPECT_NE(lilypond_of(score).find("\\key " + tonic + " \\major"), std::string::npos) << fifths;
+    }
+    for (const auto& [fifths, tonic] : minors) {
+        score.head.parts[0].key = KeySignature{fifths, true};
+        EXPECT_NE(lilypond_of(score).find("\\key " + tonic + " \\minor"), std::string::npos) << fifths;
+    }
+    score.head.parts[0].key.reset();
+    EXPECT_EQ(lilypond_of(score).find("\\key"), std::string::npos);
+}
+
+TEST(LilyPond, FractionsOfATempoAreHeard) {
+    TestScore score = line({4, 4}, {480});
+    score.head.tempo = 92.5;  // quarters: 92.5 / 4 wholes
+    EXPECT_NE(lilypond_of(score).find("\\set Score.tempoWholesPerMinute = #(ly:make-moment 185/8)"),
+              std::string::npos);
+    score.head.tempo = 92;
+    EXPECT_EQ(lilypond_of(score).find("tempoWholesPerMinute"), std::string::npos);
+}
+
+TEST(LilyPond, IsTheSameInAnyLocale) {
+    TestScore score = random_score(3, true);
+    score.head.tempo = 1234.5;
+    const std::string before = lilypond_of(score);
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
+        std::setlocale(LC_ALL, name);
+        EXPECT_EQ(lilypond_of(score), before);
+    }
+    std::setlocale(LC_ALL, "C");
+}
+
+// Takes seconds, so only where LilyPond happens to be: everything that is written at once.
+TEST(LilyPond, CompilesWithoutWarnings) {
+    if (!has_program("lilypond")) GTEST_SKIP() << "lilypond is not installed";
+    const ScratchFolder folder;
+    TestScore score = random_score(5, true);
+    score.head.title = "\"#{}$\\ <é> \xFF \x01";
+    score.head.composer = "\\\"";
+    score.head.pattern = "%{\n\\\n\"\n\xFF\x00 %}\n";
+    score.head.tempo = 92.5;
+    score.head.parts[0].name = "a \"b\" \\c";
+    const std::string file = folder.write("score.ly", lilypond_of(score));
+    const auto outcome = run_tool("cd '" + folder.path().string() + "' && lilypond --loglevel=WARNING score.ly");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    EXPECT_EQ(outcome.text, "");
+    EXPECT_GT(contents(folder / "score.pdf").size(), 1000u);
+    EXPECT_GT(contents(folder / "score.midi").size(), 100u);
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,304 @@
+#include "music/musicxml.h"
+
+#include "tests/files.h"
+#include "tests/notation_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cmath>
+#include <map>
+#include <pugixml.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+std::string xml_of(const TestScore& score) {
+    MemorySink sink;
+    write_musicxml(notate(score), score.head, sink);
+    return sink.text;
+}
+
+pugi::xml_document parsed(const std::string& text) {
+    pugi::xml_document document;
+    const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_ws_pcdata);
+    EXPECT_TRUE(result) << result.description();
+    return document;
+}
+
+std::int64_t length_of_type(const std::string& type, bool dotted) {
+    static const std::map<std::string, std::int64_t> ticks = {
+        {"whole", 1920}, {"half", 960}, {"quarter", 480}, {"eighth", 240}, {"16th", 120}, {"32nd", 60}, {"64th", 30}};
+    return dotted ? ticks.at(type) * 3 / 2 : ticks.at(type);
+}
+
+/// A note as it stands in the file, untied.
+struct ReadNote {
+    std::int64_t onset = 0;
+    std::int64_t bar = 0;
+    std::string staff;
+    std::string step;
+    int octave = 0;
+    double alter = 0.0;
+    std::string accidental;
+    bool tied_back = false;
+};
+
+/// What MusicXML says, read as its tutorial tells: durations move a cursor, backup and forward too.
+struct ReadPart {
+    std::vector<PlainNote> notes;  ///< joined at ties
+    std::vector<ReadNote> printed;
+    std::int64_t end = 0;
+    int fifths = 0;
+};
+
+ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
+    static const std::map<std::string, int> semitones = {{"C", 0}, {"D", 2}, {"E", 4}, {"F", 5},
+                                                         {"G", 7}, {"A", 9}, {"B", 11}};
+    ReadPart result;
+    std::int64_t divisions = 0;
+    std::map<std::string, PlainNote> open;  // tied forward, by voice
+    std::int64_t bar_begin = 0;
+    std::int64_t bar_number = 0;
+    for (const pugi::xml_node measure : part.children("measure")) {
+        EXPECT_EQ(measure.attribute("number").as_llong(), ++bar_number);
+        if (const auto attributes = measure.child("attributes")) {
+            divisions = attributes.child("divisions").text().as_llong();
+            result.fifths = attributes.child("key").child("fifths").text().as_int();
+        }
+        const auto ticks = [&](const pugi::xml_node& node) {
+            return node.child("duration").text().as_llong() * ticks_per_quarter / divisions;
+        };
+        std::int64_t here = bar_begin;
+        std::map<std::string, std::int64_t> sums;
+        for (const pugi::xml_node node : measure.children()) {
+            const std::string name = node.name();
+            if (name == "backup") {
+                here -= ticks(node);
+                EXPECT_GE(here, bar_begin);
+            } else if (name == "forward") {
+                here += ticks(node);
+            } else if (name == "note") {
+                const std::string voice = node.child("voice").text().as_string();
+                const std::int64_t duration = ticks(node);
+                sums[voice] += duration;
+                if (const auto type = node.child("type")) {
+                    EXPECT_EQ(duration, length_of_type(type.text().as_string(), !node.child("dot").empty()));
+                } else {
+                    EXPECT_STREQ(node.child("rest").attribute("measure").value(), "yes");
+                    EXPECT_EQ(duration, bar_ticks);
+                }
+                bool back = false;
+                bool forward = false;
+                for (const auto tie : node.children("tie")) {
+                    (std::string(tie.attribute("type").value()) == "stop" ? back : forward) = true;
+                }
+                bool shown_back = false;
+                bool shown_forward = false;
+                for (const auto tied : node.child("notations").children("tied")) {
+                    (std::string(tied.attribute("type").value()) == "stop" ? shown_back : shown_forward) = true;
+                }
+                EXPECT_EQ(back, shown_back);
+                EXPECT_EQ(forward, shown_forward);
+                EXPECT_EQ(open.contains(voice), back);
+                if (const auto pitch = node.child("pitch")) {
+                    const std::string step = pitch.child("step").text().as_string();
+                    const int octave = pitch.child("octave").text().as_int();
+                    const double alter = pitch.child("alter").text().as_double();
+                    const double key = 12 * (octave + 1) + semitones.at(step) + alter;
+                    result.printed.push_back({here, bar_number, node.child("staff").text().as_string(), step, octave,
+                                              alter, node.child("accidental").text().as_string(), back});
+                    PlainNote note{here, duration, key};
+                    if (back) {
+                        EXPECT_EQ(open[voice].key, key);
+                        EXPECT_EQ(open[voice].onset + open[voice].duration, here);
+                        note.onset = open[voice].onset;
+                        note.duration += open[voice].duration;
+                        open.erase(voice);
+                    }
+                    if (forward) {
+                        open[voice] = note;
+                    } else {
+                        result.notes.push_back(note);
+                    }
+                } else {
+                    EXPECT_TRUE(node.child("rest"));
+                }
+                here += duration;
+            }
+            EXPECT_LE(here, bar_begin + bar_ticks);
+        }
+        // Voices are whole bars, and the bar ends at its end.
+        EXPECT_EQ(here, bar_begin + bar_ticks);
+        for (const auto& [voice, sum] : sums) EXPECT_EQ(sum, bar_ticks) << "voice " << voice;
+        bar_begin += bar_ticks;
+    }
+    EXPECT_TRUE(open.empty());
+    result.end = bar_begin;
+    std::sort(result.notes.begin(), result.notes.end());
+    return result;
+}
+
+/// Plays from the page: the key signature and the printed accidentals alone have to give every alteration.
+void expect_signs_suffice(const ReadPart& part) {
+    static const std::map<std::string, double> values = {
+        {"flat-flat", -2},  {"three-quarters-flat", -1.5}, {"flat", -1}, {"quarter-flat", -0.5},
+        {"natural", 0},     {"quarter-sharp", 0.5},        {"sharp", 1}, {"three-quarters-sharp", 1.5},
+        {"double-sharp", 2}};
+    auto notes = part.printed;
+    std::stable_sort(notes.begin(), notes.end(),
+                     [](const ReadNote& a, const ReadNote& b) { return a.onset < b.onset; });
+    const std::string order = "FCGDAEB";
+    std::map<std::string, double> in_force;
+    std::int64_t bar = 0;
+    for (const ReadNote& note : notes) {
+        if (note.tied_back) {
+            EXPECT_EQ(note.accidental, "");
+            continue;
+        }
+        if (note.bar != bar) in_force.clear();
+        bar = note.bar;
+        const std::string place = note.staff + note.step + std::to_string(note.octave);
+        if (!note.accidental.empty()) in_force[place] = values.at(note.accidental);
+        const auto rank = static_cast<int>(order.find(note.step));
+        const double by_key = part.fifths > rank ? 1 : -part.fifths > 6 - rank ? -1 : 0;
+        const double heard = in_force.contains(place) ? in_force[place] : by_key;
+        EXPECT_EQ(heard, note.alter);
+    }
+}
+
+TEST(MusicXml, RandomScoresAreReadBack) {
+    for (unsigned seed = 0; seed < 150; ++seed) {
+        const TestScore score = random_score(seed, seed % 3 == 0);
+        const auto document = parsed(xml_of(score));
+        std::vector<PlainNote> all;
+        std::int64_t end = 0;
+        for (const pugi::xml_node part : document.child("score-partwise").children("part")) {
+            const ReadPart read = read_part(part, score.head.meter.bar());
+            all.insert(all.end(), read.notes.begin(), read.notes.end());
+            expect_signs_suffice(read);
+            if (end > 0) {
+                EXPECT_EQ(read.end, end);
+            }
+            end = read.end;
+        }
+        std::sort(all.begin(), all.end());
+        ASSERT_EQ(all, plain(score.notes)) << seed;
+    }
+}
+
+TEST(MusicXml, TellsWhatTheScoreIs) {
+    TestScore score = line({5, 8}, {1200, 240});
+    score.head.composer = "peano.lsys";
+    score.head.made = "sikku 0.1.0, -n 4";
+    score.head.pattern = "axiom: X\nX --> F\n";
+    score.head.tempo = 92.5;
+    score.head.parts[0].program = 40;
+    score.head.parts[0].key = KeySignature{-3, true};
+    const auto document = parsed(xml_of(score));
+    const auto root = document.child("score-partwise");
+    EXPECT_STREQ(root.attribute("version").value(), "4.0");
+    EXPECT_STREQ(root.child("work").child_value("work-title"), "A line");
+    const auto identification = root.child("identification");
+    EXPECT_STREQ(identification.child_value("creator"), "peano.lsys");
+    EXPECT_STREQ(identification.child("encoding").child_value("software"), "sikku 0.1.0");
+    EXPECT_FALSE(identification.child("encoding").child("encoding-date"));
+    const auto field = [&](const char* name) {
+        return std::string(
+            identification.child("miscellaneous").find_child_by_attribute("name", name).text().as_string());
+    };
+    EXPECT_EQ(field("made"), score.head.made);
+    EXPECT_EQ(field("pattern"), score.head.pattern);
+    const auto told = root.child("part-list").child("score-part");
+    EXPECT_STREQ(told.child_value("part-name"), "Voice");
+    EXPECT_STREQ(told.child("midi-instrument").child_value("midi-program"), "41");
+    EXPECT_STREQ(told.attribute("id").value(), root.child("part").attribute("id").value());
+    const auto measure = root.child("part").child("measure");
+    const auto attributes = measure.child("attributes");
+    EXPECT_STREQ(attributes.child("key").child_value("fifths"), "-3");
+    EXPECT_STREQ(attributes.child("key").child_value("mode"), "minor");
+    EXPECT_STREQ(attributes.child("time").child_value("beats"), "5");
+    EXPECT_STREQ(attributes.child("time").child_value("beat-type"), "8");
+    EXPECT_STREQ(attributes.child("clef").child_value("sign"), "G");
+    EXPECT_STREQ(measure.child("direction").child("sound").attribute("tempo").value(), "92.5");
+    // Peano's five units.
+    const auto first = measure.child("note");
+    EXPECT_STREQ(first.child_value("type"), "half");
+    EXPECT_STREQ(first.next_sibling("note").child_value("type"), "eighth");
+    EXPECT_STREQ(first.child("tie").attribute("type").value(), "start");
+}
+
+TEST(MusicXml, PartsHaveChannelsOfTheirOwn) {
+    TestScore score;
+    for (int i = 0; i < 15; ++i) score.head.parts.push_back(plain_part("P", 1));
+    const auto document = parsed(xml_of(score));
+    std::vector<int> channels;
+    for (const auto part : document.child("score-partwise").child("part-list").children("score-part")) {
+        channels.push_back(part.child("midi-instrument").child("midi-channel").text().as_int());
+    }
+    EXPECT_EQ(channels, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, 14, 15, 16}));
+}
+
+TEST(MusicXml, TextsAreEscaped) {
+    TestScore score = line({4, 4}, {480});
+    const std::string text = "A<b> & \"c\" 'd' ]]> é \xE0\xAE\x95\r\n\ttab";
+    score.head.title = text;
+    score.head.composer = text;
+    score.head.pattern = text;
+    score.head.parts[0].name = text;
+    const auto document = parsed(xml_of(score));
+    const auto root = document.child("score-partwise");
+    EXPECT_EQ(root.child("work").child_value("work-title"), text);
+    EXPECT_EQ(root.child("identification").child_value("creator"), text);
+    EXPECT_EQ(root.child("part-list").child("score-part").child_value("part-name"), text);
+    // What XML cannot hold.
+    score.head.title = std::string("a\0b\x01 \xFF \xEF\xBF\xBF", 10);
+    EXPECT_STREQ(parsed(xml_of(score)).child("score-partwise").child("work").child_value("work-title"),
+                 "a\uFFFDb\uFFFD \uFFFD \uFFFD\uFFFD\uFFFD");
+}
+
+TEST(MusicXml, IsWellFormedToOthers) {
+    if (!has_program("xmllint")) GTEST_SKIP() << "xmllint is not installed";
+    const ScratchFolder folder;
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        TestScore score = random_score(seed, true);
+        score.head.title = "<&\" \x02 \xC3";
+        const auto outcome =
+            run_tool("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
+        EXPECT_TRUE(outcome.ok) << outcome.text;
+        EXPECT_EQ(outcome.text, "");
+    }
+}
+
+TEST(MusicXml, HasNoOctaveBelowZero) {
+    TestScore score = line({4, 4}, {480, 480, 960, 480}, 12);
+    EXPECT_NO_THROW(xml_of(score));
+    score.notes.back().key = 11;
+    try {
+        xml_of(score);
+        FAIL();
+    } catch (const ScoreError& error) {
+        EXPECT_EQ(std::string(error.what()), "bar 2 has a note below C0, the lowest that MusicXML can tell");
+    }
+    score.notes.back().key = 127;
+    EXPECT_NO_THROW(xml_of(score));
+}
+
+TEST(MusicXml, IsTheSameInAnyLocale) {
+    TestScore score = random_score(3, true);
+    score.head.tempo = 1234.5;
+    const std::string before = xml_of(score);
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
+        std::setlocale(LC_ALL, name);
+        EXPECT_EQ(xml_of(score), before);
+    }
+    std::setlocale(LC_ALL, "C");
+    EXPECT_EQ(before.find("1,234"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sikku
