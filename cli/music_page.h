@@ -1,0 +1,49 @@
+// cli/music_page.h: a melody to look at: the curve coloured by its notes beside a piano roll, as an SVG to print and
+// as a page that plays.
+#pragma once
+
+#include "music/score.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Keeps a whole melody: a picture or a page of it needs to know every note before the first is written.
+class NoteCollector : public NoteSink {
+public:
+    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`
+    explicit NoteCollector(std::size_t most = 100'000) : most_(most) {}
+
+    void notes(std::span<const Note> notes) override;
+    void finish(std::int64_t end) override { end_ = end; }
+
+    const std::vector<Note>& notes() const { return notes_; }
+    std::int64_t end() const { return end_; }  ///< ticks; 0 before finish()
+
+private:
+    std::size_t most_;
+    std::vector<Note> notes_;
+    std::int64_t end_ = 0;
+};
+
+/// One picture on a landscape A4 page: the curve on the left, where each note is drawn over the piece of the curve it
+/// comes from, and beside it the notes over time (to the right) and key (upwards) in the same colours. Pieces of the
+/// curve that are silent and parallel to an axis join the notes as thin lines. Notes that all come from one point
+/// have no curve, and the roll is given the whole page. The title, the pattern's text and `made` are in the file.
+///
+/// `end`: of the score, in ticks; where notes sound longer, they count. Notes in any order. Each note is a `line` in
+/// the group `curve` and a `rect` in the group `roll`, both ordered by onset, then by voice. Memory: a copy of the
+/// notes. Throws what `out` throws.
+void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& out);
+
+/// One HTML page that needs nothing but a browser, no network either: it draws the curve while it plays the notes.
+/// Notes are in the file with their ticks as they are and keys to 4 decimals. Tests and other scripts find in
+/// `window.sikku` the `notes` ([onset, duration, key, voice, velocity, from x, from y, to x, to y], ordered by onset,
+/// then by voice) and `state()`: whether it is `playing`, `tick`, `tempo`, how many notes have `sounded`, and
+/// `recent`, the indices of the last of them. Arguments, memory and errors as of write_music_svg.
+void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& out);
+
+}  // namespace sikku
