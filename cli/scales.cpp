@@ -121,9 +121,9 @@ std::string notes_text(const Scale& scale, const std::vector<double>& notes, con
     const auto spelling = spell(scale, tonic.spelling);
     std::string text;
     for (const double cents : notes) {
-        double key = tonic.key + cents / 100.0;
+        const double key = tonic.key + cents / 100.0;
         // A quarter tone is written from below, whatever a rounding made of it.
-        double nearest = std::ceil(key - 0.5 - 1e-9);
+        const double nearest = std::ceil(key - 0.5 - 1e-9);
         const auto away = std::lround(100.0 * (key - nearest));
         const auto pitch_class = static_cast<std::size_t>(std::fmod(std::fmod(nearest, 12.0) + 12.0, 12.0));
         const Spelling written = spelling[pitch_class];
@@ -136,7 +136,7 @@ std::string notes_text(const Scale& scale, const std::vector<double>& notes, con
     return text;
 }
 
-std::string prose(const Scale& scale, const Tonic& tonic, const std::string& tonic_name) {
+std::string prose(const Scale& scale, const Tonic& tonic) {
     std::string text = fmt::format("{}, {}", scale.id, scale.group);
     if (!scale.title.empty()) text = fmt::format("{} ({})", scale.title, text);
     text += '\n';
@@ -145,7 +145,7 @@ std::string prose(const Scale& scale, const Tonic& tonic, const std::string& ton
     };
     const auto list = [&](const std::vector<double>& notes) {
         line("steps", steps_text(scale, notes));
-        line("on " + tonic_name, notes_text(scale, notes, tonic));
+        line("on " + notes_text(scale, {0.0}, tonic), notes_text(scale, notes, tonic));
         line("cents", cents_list(notes));
     };
     if (scale.ascent.size() == scale.descent.size()) {
@@ -237,10 +237,8 @@ struct ScalesOptions {
 void show_scales(const ScalesOptions& options) {
     const auto tonic = parse_note(options.tonic);
     if (!tonic) throw UsageError(fmt::format("--tonic {}: expected a note, as C, F# or Eb", options.tonic));
-    // Without its octave.
-    const std::string tonic_name = options.tonic.substr(0, options.tonic.find_first_of("-0123456789"));
     const auto show = [&](const Scale& scale) {
-        fmt::print("{}", options.as_json ? "[" + json(scale) + "]\n" : prose(scale, *tonic, tonic_name));
+        fmt::print("{}", options.as_json ? "[" + json(scale) + "]\n" : prose(scale, *tonic));
     };
 
     const std::string wanted = fmt::format("{}", fmt::join(options.words, " "));
