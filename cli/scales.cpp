@@ -1,8 +1,8 @@
 // cli/scales.cpp: `sikku scales`: the scales that come along, and those in Scala files.
 #include "music/scale.h"
 
+#include "art/text.h"
 #include "cli/command.h"
-#include "engine/pattern.h"
 #include "music/spelling.h"
 
 #include <fmt/format.h>
@@ -16,16 +16,9 @@
 namespace sikku {
 namespace {
 
-std::string lower(std::string text) {
-    for (char& byte : text) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
-    return text;
-}
-
 /// For comparing words: small letters, blanks and dashes left out.
 std::string key_of(std::string_view text) {
-    std::string key = lower(std::string(text));
+    std::string key = lower_case(text);
     std::erase_if(key, [](char byte) { return std::string_view(" -_'#").find(byte) != std::string_view::npos; });
     return key;
 }
@@ -242,7 +235,7 @@ void show_scales(const ScalesOptions& options) {
     };
 
     const std::string wanted = fmt::format("{}", fmt::join(options.words, " "));
-    if (lower(wanted).ends_with(".scl")) return show(read_scale_file(wanted));
+    if (lower_case(wanted).ends_with(".scl")) return show(read_scale_file(wanted));
     // `pentatonic` is a scale to others; here it is the group.
     std::vector<const Scale*> found = group_of(wanted);
     if (!options.words.empty() && found.empty()) {
