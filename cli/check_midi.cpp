@@ -48,7 +48,6 @@ std::vector<std::uint8_t> read_bytes(const std::string& file) {
 
 }  // namespace
 
-/// Prints what is wrong with the file; true if nothing is. @throws UsageError if it cannot be read
 bool check_midi_file(const std::string& file) {
     const auto faults = check_midi(read_bytes(file));
     for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);

@@ -1,6 +1,8 @@
 #include "music/midi_check.h"
 
+#include "tests/files.h"
 #include "tests/midi_tools.h"
+#include "tests/program.h"
 
 #include <gtest/gtest.h>
 
@@ -366,6 +368,31 @@ TEST(MidiRead, TakesWhatItCanFromFilesWithFaults) {
     EXPECT_EQ(read_midi(good.substr(0, 60)).notes.size(), 1u);
     EXPECT_EQ(read_midi(with_byte(good, 21, 9)).notes.size(), 2u);
     EXPECT_EQ(read_midi(with_byte(good, 11, 9)).notes.size(), 2u);
+}
+
+TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
+    const ScratchFolder folder;
+    const std::string good = folder.write("good.mid", good_file());
+    const std::string bad = folder.write("bad.MID", with_byte(good_file(), 11, 3));
+    Outcome outcome = run({"check", good});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(outcome.output + outcome.errors, "");
+    outcome = run({"check", bad, good});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.output, bad + ": byte 10: header: it tells 3 tracks, but there are 2\n");
+    EXPECT_EQ(outcome.errors, "");
+    std::string many;
+    for (int i = 0; i < 60; ++i) many += "00 80 3C 40 ";
+    outcome = run({"check", folder.write("many.mid", melody(many + "00 FF 2F 00"))});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.output, "no more than 50 faults are told"));
+    outcome = run({"check", folder.file("none.mid")});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(has(outcome.errors, "none.mid: No such file or directory"));
+    std::filesystem::create_directory(folder / "folder.mid");
+    outcome = run({"check", folder.file("folder.mid")});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(has(outcome.errors, "folder.mid is a folder"));
 }
 
 }  // namespace

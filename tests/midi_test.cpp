@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <random>
 #include <set>
@@ -597,6 +598,66 @@ TEST(MidiReaders, MidoReadsRandomScores) {
             ASSERT_EQ(velocity, note.velocity);
             ASSERT_NEAR(key + bend * 2.0 / 8192, note.key, bend_tolerance);
         }
+    }
+}
+
+/// The strongest pitch near A4, in cents from it: the power at each of many, by Goertzel's recursion.
+/// @param samples  at 44100 Hz
+double pitch_of(const std::vector<double>& samples) {
+    const auto power = [&](double cents) {
+        const double factor = 2.0 * std::cos(2.0 * std::acos(-1.0) * 440.0 * std::exp2(cents / 1200.0) / 44100.0);
+        double last = 0.0;
+        double before = 0.0;
+        for (const double sample : samples) before = std::exchange(last, sample + factor * last - before);
+        return last * last + before * before - factor * last * before;
+    };
+    double best = -100.0;
+    double most = 0.0;
+    for (double cents = -100.0; cents <= 100.0; cents += 1.0) {
+        if (const double here = power(cents); here > most) {
+            most = here;
+            best = cents;
+        }
+    }
+    return best;
+}
+
+/// Microtones are where they belong when a synthesizer plays them.
+TEST(MidiReaders, FluidsynthSoundsMicrotones) {
+    constexpr const char* soundfont = "/usr/share/sounds/sf2/TimGM6mb.sf2";
+    if (!has_program("fluidsynth") || !std::filesystem::exists(soundfont)) {
+        GTEST_SKIP() << "fluidsynth or timgm6mb-soundfont is not installed";
+    }
+    const ScratchFolder folder;
+    const auto pitch = [&](double key, int voice, Tuning tuning) {
+        MidiScore score;
+        score.head = midi_head(3);
+        score.head.parts.front().program = 79;  // an ocarina: hardly any overtones
+        // The note before makes a channel that is bent already.
+        score.notes = {midi_note(0, 240, key + 1.25, voice), midi_note(240, 480 * 4, key, voice, 100)};
+        score.end = 480 * 5;
+        const std::string raw = folder.file("sound.raw");
+        const ToolOutcome outcome =
+            run("fluidsynth -ni -q -g 2 -r 44100 -R 0 -C 0 -O s16 -T raw -F '" + raw + "' " + soundfont + " '" +
+                folder.write("sound.mid", make_midi(score, microtonal(tuning))) + "'");
+        EXPECT_TRUE(outcome.ok) << outcome.text;
+        const std::string bytes = contents(raw);
+        std::vector<double> samples;
+        // The left of two channels, from 0.75 s on for a second, faded in and out.
+        constexpr std::size_t count = 44100;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t at = 4 * (33075 + i);
+            const int value =
+                static_cast<unsigned char>(bytes.at(at)) | static_cast<signed char>(bytes.at(at + 1)) * 256;
+            samples.push_back(value * std::sin(std::acos(-1.0) * static_cast<double>(i) / count));
+        }
+        return pitch_of(samples);
+    };
+    for (const Tuning tuning : {Tuning::bend, Tuning::mts}) {
+        const double plain = pitch(69.0, 0, tuning);
+        EXPECT_NEAR(plain, 0.0, 5.0);
+        EXPECT_NEAR(pitch(69.5, 0, tuning) - plain, 50.0, 2.0);
+        EXPECT_NEAR(pitch(68.67, 2, tuning) - plain, -33.0, 2.0);
     }
 }
 
