@@ -173,23 +173,29 @@ void OutputFile::write_all(const char* bytes, std::size_t count) {
     }
 }
 
+void OutputFile::write_at(const char* bytes, std::size_t count, std::uint64_t offset) {
+    while (count > 0) {
+        const ssize_t done = ::pwrite(descriptor_, bytes, count, static_cast<off_t>(offset));
+        if (done < 0) {
+            if (errno == EINTR) continue;
+            fail(errno);
+        }
+        bytes += done;
+        count -= static_cast<std::size_t>(done);
+        offset += static_cast<std::uint64_t>(done);
+    }
+}
+
+void OutputFile::overwrite(std::uint64_t position, std::string_view bytes) {
+    if (direct_ || position + bytes.size() > written_) throw std::logic_error("OutputFile::overwrite: no such place");
+    flush();
+    write_at(bytes.data(), bytes.size(), position);
+}
+
 void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
     if (direct_ || position > written_) throw std::logic_error("OutputFile::insert: no such place");
     if (bytes.empty()) return;
     flush();
-    const auto at = [](std::uint64_t offset) { return static_cast<off_t>(offset); };
-    const auto write_at = [&](const char* from, std::size_t count, std::uint64_t offset) {
-        while (count > 0) {
-            const ssize_t done = ::pwrite(descriptor_, from, count, at(offset));
-            if (done < 0) {
-                if (errno == EINTR) continue;
-                fail(errno);
-            }
-            from += done;
-            count -= static_cast<std::size_t>(done);
-            offset += static_cast<std::uint64_t>(done);
-        }
-    };
     // From the end, so that nothing is overwritten before it is read.
     std::string block;
     for (std::uint64_t end = written_; end > position;) {
@@ -197,7 +203,8 @@ void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
         block.resize(static_cast<std::size_t>(end - begin));
         std::size_t read = 0;
         while (read < block.size()) {
-            const ssize_t done = ::pread(descriptor_, block.data() + read, block.size() - read, at(begin + read));
+            const ssize_t done =
+                ::pread(descriptor_, block.data() + read, block.size() - read, static_cast<off_t>(begin + read));
             if (done < 0 && errno == EINTR) continue;
             if (done <= 0) fail(done < 0 ? errno : EIO);
             read += static_cast<std::size_t>(done);

@@ -28,6 +28,8 @@ public:
     bool can_insert() const { return !direct_; }
     /// Puts `bytes` before the byte at `position` (at most size()); what was there moves up. Cost: what moves.
     void insert(std::uint64_t position, std::string_view bytes);
+    /// Replaces bytes that were written, where insert() may be used.
+    void overwrite(std::uint64_t position, std::string_view bytes);
     /// The temporary file, for a library that opens files by itself. Do not mix with write().
     const std::filesystem::path& temporary() const { return temporary_; }
     /// Flushes and renames. To be called once, last.
@@ -37,6 +39,7 @@ private:
     void create();
     void flush();
     void write_all(const char* bytes, std::size_t count);
+    void write_at(const char* bytes, std::size_t count, std::uint64_t offset);
     [[noreturn]] void fail(int error) const;
 
     std::filesystem::path name_;  ///< as the caller gave it, for messages

@@ -2,6 +2,7 @@
 
 #include "art/style.h"
 #include "engine/forecast.h"
+#include "music/melody.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -62,6 +63,10 @@ void add_pattern_options(CLI::App& command, PatternOptions& options) {
         .add_option("PATTERN", options.pattern,
                     "A pattern file, the name of one that comes along, or - for standard input")
         ->required();
+    add_override_options(command, options);
+}
+
+void add_override_options(CLI::App& command, PatternOptions& options) {
     command.add_option("-n,--steps", options.steps, "Derivation length, instead of the pattern's")->type_name("N");
     command.add_option("--set", options.settings, "KEY=VALUE: another value for a key or a define of the pattern")
         ->type_name("KEY=VALUE")
@@ -128,9 +133,13 @@ PatternText read_pattern_text(const std::string& pattern) {
 }
 
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
-    check_keys(pattern, style_keys(), diagnostics);
+    std::vector<std::string_view> keys = style_keys();
+    const auto played = melody_keys();
+    keys.insert(keys.end(), played.begin(), played.end());
+    check_keys(pattern, keys, diagnostics);
     Grammar grammar = compile_grammar(pattern, diagnostics);
     read_style(pattern, 96, diagnostics);  // for its mistakes, which no resolution changes
+    read_melody(pattern, {}, diagnostics);
     return grammar;
 }
 
@@ -152,6 +161,7 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
         }
         settings.push_back({"-n", "derivation length", options.steps});
     }
+    settings.insert(settings.end(), options.more.begin(), options.more.end());
     PatternText text = read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     LoadedPattern loaded;

@@ -49,8 +49,11 @@ struct PatternOptions {
     std::string steps;
     std::vector<std::string> settings;
     std::string variant;
+    std::vector<Setting> more;  ///< settings of options of their own; they come last
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
+/// The same without PATTERN.
+void add_override_options(CLI::App& command, PatternOptions& options);
 
 /// `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
@@ -113,9 +116,14 @@ double expected_symbols(const Grammar& grammar, bool interpreted);
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();
 
+/// `sikku check` of a MIDI file: prints its faults; true if there is none.
+bool check_midi_file(const std::string& file);
+
 void add_derive(CLI::App& app, bool& quiet);
 void add_measure(CLI::App& app, bool& quiet);
 void add_draw(CLI::App& app, bool& quiet);
+void add_play(CLI::App& app, bool& quiet);
+void add_scales(CLI::App& app);
 void add_patterns(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);

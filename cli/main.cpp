@@ -2,6 +2,7 @@
 #include "art/output_file.h"
 #include "cli/command.h"
 #include "engine/derivation.h"
+#include "music/score.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -64,9 +65,11 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.get_formatter()->column_width(34);
     add_draw(app, quiet);
+    add_play(app, quiet);
     add_derive(app, quiet);
     add_measure(app, quiet);
     add_patterns(app);
+    add_scales(app);
     add_show(app, quiet);
     add_check(app);
     add_completion(app);
@@ -88,6 +91,8 @@ int run(int argc, char** argv) {
         tell("{}\n", error.what());
         return 2;
     } catch (const WordError& error) {
+        return fail(2, error.what());
+    } catch (const ScoreError& error) {
         return fail(2, error.what());
     } catch (const UsageError& error) {
         return fail(2, error.what());

@@ -325,7 +325,7 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     // Every bar, or every 2nd, 4th, 8th where that would be a grey field; a number at most every 12 mm.
     const auto bar = static_cast<double>(std::max<std::int64_t>(head.meter.bar(), 1)) * width_of_tick;
     std::int64_t every = 1;
-    while (bar * static_cast<double>(every) < 1.5) every *= 2;
+    while (bar * static_cast<double>(every) < 3.0) every *= 2;
     std::int64_t named = every;
     while (bar * static_cast<double>(named) < 12.0) named *= 2;
     const std::int64_t ticks = std::max<std::int64_t>(head.meter.bar(), 1);
@@ -338,15 +338,16 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
         }
     }
     out.text() += "</g>\n<g id=\"roll\">\n";
-    const double thick = std::max(0.86 * row, 0.3);
+    const double thick = std::max(0.86 * row, 0.6);
     for (const Note& note : melody.notes) {
         // A little is left out at the end, so that the same key twice is two notes.
         const double full = width_of_tick * static_cast<double>(note.duration);
-        const double width = full > 0.6 ? full - 0.2 : full * 0.7;
+        // Notes of a very long score hide each other rather than themselves.
+        const double width = full > 0.6 ? full - 0.2 : std::max(full * 0.7, 0.35);
         out.text() += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
                                   ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
-                                  number(middle(note.key) - 0.5 * thick), number(std::max(width, 0.05)),
-                                  number(thick), number(std::min({0.4, 0.3 * thick, 0.3 * width})));
+                                  number(middle(note.key) - 0.5 * thick), number(width), number(thick),
+                                  number(std::min({0.4, 0.3 * thick, 0.3 * width})));
     }
     out.text() += "</g>\n";
 }
@@ -632,7 +633,19 @@ function line(context, note, part) {
   context.stroke();
 }
 
-/* All of the curve, faintly; silent runs as thin lines. */
+/* The silent run of the curve that leads to a note, if one does: parallel to an axis, else it is a jump. */
+const before = [];
+{
+  const last = [];
+  notes.forEach((note, i) => {
+    const old = last[note[VOICE]];
+    const aside = old && Math.abs(note[X0] - old[X1]) > 1e-6, up = old && Math.abs(note[Y0] - old[Y1]) > 1e-6;
+    before[i] = old && aside !== up ? [old[X1], old[Y1], note[X0], note[Y0]] : null;
+    last[note[VOICE]] = note;
+  });
+}
+
+/* All of the curve, faintly. */
 function ghost() {
   const {context, width, height} = curvePane;
   context.clearRect(0, 0, width, height);
@@ -640,20 +653,12 @@ function ghost() {
   context.strokeStyle = theme.ghost;
   context.lineWidth = Math.max(0.6, view.width * 0.4);
   context.beginPath();
-  const last = [];
-  for (const note of notes) {
-    const before = last[note[VOICE]];
-    if (before) {
-      const aside = Math.abs(note[X0] - before[X1]) > 1e-6, up = Math.abs(note[Y0] - before[Y1]) > 1e-6;
-      if (aside !== up) {
-        context.moveTo(across(before[X1]), down(before[Y1]));
-        context.lineTo(across(note[X0]), down(note[Y0]));
-      }
+  notes.forEach((note, i) => {
+    for (const [x0, y0, x1, y1] of before[i] ? [before[i], note.slice(X0)] : [note.slice(X0)]) {
+      context.moveTo(across(x0), down(y0));
+      context.lineTo(across(x1), down(y1));
     }
-    context.moveTo(across(note[X0]), down(note[Y0]));
-    context.lineTo(across(note[X1]), down(note[Y1]));
-    last[note[VOICE]] = note;
-  }
+  });
   context.stroke();
   drawn = 0;
 }
@@ -665,7 +670,16 @@ function drawCurve(tick) {
   if (drawnTick < 0 || tick < drawnTick) { ghost(); begun.clear(); }
   drawnTick = tick;
   const under = curvePane.context, over = topPane.context;
-  for (const until = firstFrom(tick); drawn < until; ++drawn) begun.add(drawn);
+  for (const until = firstFrom(tick); drawn < until; ++drawn) {
+    begun.add(drawn);
+    if (!before[drawn]) continue;
+    const [x0, y0, x1, y1] = before[drawn];
+    under.strokeStyle = theme.faint;
+    under.lineWidth = Math.max(0.6, view.width * 0.25);
+    under.beginPath();
+    under.moveTo(across(x0), down(y0)); under.lineTo(across(x1), down(y1));
+    under.stroke();
+  }
   over.clearRect(0, 0, topPane.width, topPane.height);
   over.lineCap = "round";
   under.lineWidth = over.lineWidth = view.width;
@@ -691,8 +705,8 @@ function drawCurve(tick) {
   }
 }
 
-/* The roll shows 16 bars at most and moves along. */
-const shownTicks = Math.min(end, bar * 16);
+/* The roll shows all of a short score; else 8 bars, and moves along. */
+const shownTicks = end <= 16 * bar ? end : 8 * bar;
 let lowest = Math.floor(low) - 1, highest = Math.ceil(high) + 1;
 if (notes.length === 0) { lowest = 55; highest = 67; }
 while (highest - lowest < 12) { --lowest; if (highest - lowest < 12) ++highest; }
@@ -725,7 +739,7 @@ function drawRoll(tick) {
   context.fillStyle = theme.faint; context.textAlign = "left";
   for (let i = Math.ceil(rollFrom / bar / every) * every; i * bar <= rollFrom + shownTicks; i += every) {
     context.moveTo(x(i * bar), 12); context.lineTo(x(i * bar), 12 + h);
-    if (i % named === 0 && i * bar < end) context.fillText(i + 1, x(i * bar) + 3, height - barsHeight / 2 - 1);
+    if (i % named === 0 && i * bar < end && x(i * bar) < width - 30) context.fillText(i + 1, x(i * bar) + 3, height - barsHeight / 2 - 1);
   }
   context.stroke();
   context.textAlign = "right";
@@ -832,7 +846,8 @@ window.sikku = {
   notes,
   state() {
     settle();
-    return {playing, tick: Math.min(end, tickAt(clock())), tempo: speed, sounded, recent: recent.slice()};
+    const time = clock();
+    return {playing, time, tick: Math.min(end, tickAt(time)), tempo: speed, sounded, recent: recent.slice()};
   },
   play, pause() { if (playing) { stop(); draw(); } }, seek, colour: index => colours[index]
 };

@@ -128,16 +128,24 @@ void add_show(CLI::App& app, bool& quiet) {
 }
 
 void add_check(CLI::App& app) {
-    auto* command = app.add_subcommand("check", "Tell every mistake of pattern files, with its place");
+    auto* command = app.add_subcommand("check", "Tell every mistake of pattern files, and every fault of MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
-    command->add_option("FILE", *files, "Pattern files, names, or -")->required();
+    command->add_option("FILE", *files, "Pattern files, names, -, or MIDI files")->required();
     command->footer(
-        "Says nothing and exits with 0 if there is none, with 2 else.\n\nExamples:\n  sikku check my.lsys "
+        "Says nothing and exits with 0 if there is none, with 2 else, with 1 for MIDI files.\n\nExamples:\n  sikku check my.lsys "
         "patterns/*/*.lsys");
     command->callback([files] {
         bool good = true;
-        for (const std::string& file : *files) good = check(file) && good;
+        bool is_score_good = true;
+        for (const std::string& file : *files) {
+            if (ends_with_caseless(file, ".mid") || ends_with_caseless(file, ".midi")) {
+                is_score_good = check_midi_file(file) && is_score_good;
+            } else {
+                good = check(file) && good;
+            }
+        }
         if (!good) throw CLI::RuntimeError(2);
+        if (!is_score_good) throw CLI::RuntimeError(1);
     });
 }
 

@@ -198,6 +198,7 @@ public:
           levels_(levels),
           blocks_(grammar, levels, options.block_memory),
           watch_(options.watch),
+          pruner_(options.pruner),
           sink_(sink) {
         pending_.reserve(longest_run);
     }
@@ -212,6 +213,10 @@ public:
             const std::int64_t level = frame.level;
             // A frame is left before its last child is entered: right recursion needs no stack.
             if (frame.next == frame.end) frames_.pop_back();
+            if (pruner_ && pruner_->active) {
+                flush();
+                if (pruner_->passes_over(symbol, level)) continue;
+            }
             if (const Blocks::Entry* entry = blocks_.find(symbol, level)) {
                 if (entry->length > 0) hand_over(*entry);
             } else {
@@ -302,6 +307,7 @@ private:
     std::map<const Table*, UnitChains> chains_;  // made when a long chain is met
     Blocks blocks_;
     const std::function<void(std::uint64_t)>& watch_;
+    Pruner* pruner_;
     SymbolSink& sink_;
     std::vector<Frame> frames_;
     Word pending_;

@@ -38,6 +38,17 @@ class WordError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Lets a reader pass over parts of the word that it can account for otherwise: what lies before the bar to be played,
+/// what lies outside the page.
+class Pruner {
+public:
+    virtual ~Pruner() = default;
+    /// Asked before a symbol with `level` tables still to come is expanded, when every symbol before it was handed
+    /// over or passed over. True: its expansion is left out. Parts that are kept for reuse are asked about as one.
+    virtual bool passes_over(Symbol symbol, std::int64_t level) = 0;
+    bool active = true;  ///< while false, nothing is asked
+};
+
 struct DerivationOptions {
     /// Apply `interpret:` to the finished word.
     bool interpreted = false;
@@ -47,6 +58,8 @@ struct DerivationOptions {
     std::uint64_t whole_words = UINT64_MAX;
     /// Most symbols that the blocks hold together: what is kept to be handed out again.
     std::size_t block_memory = std::size_t{1} << 20;
+    /// Null: everything is handed over. Words kept whole are not pruned.
+    Pruner* pruner = nullptr;
     /// Called after each run with its number of symbols, and with 0 from time to time where nothing is handed over;
     /// may throw, to stop the derivation.
     std::function<void(std::uint64_t symbols)> watch;

@@ -196,7 +196,9 @@ public:
         put("\n\\header {{\n");
         if (!head_.title.empty()) put("  title = {}\n", quoted(head_.title));
         if (!head_.composer.empty()) put("  composer = {}\n", quoted(head_.composer));
-        put("  tagline = ##f\n}}\n\n\\score {{\n  <<\n");
+        put("  tagline = ##f\n}}\n\n");
+        // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
+        put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
         put("  >>\n  \\layout {{ }}\n  \\midi {{ }}\n}}\n");
         flush();
@@ -286,7 +288,11 @@ private:
                     put("R1*{}/{} ", head_.meter.beats, head_.meter.unit);
                     break;
                 case SymbolKind::gap:
-                    put("s1*{}/{} ", head_.meter.beats, head_.meter.unit);
+                    if (symbol.length == bar) {
+                        put("s1*{}/{} ", head_.meter.beats, head_.meter.unit);
+                    } else {
+                        put("s{} ", length_name(symbol.length));
+                    }
                     break;
             }
             const std::int64_t end = symbol.onset + symbol.length;

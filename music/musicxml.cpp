@@ -197,7 +197,7 @@ private:
         const std::int64_t end = (bar + 1) * notation_.bar_length;
         for (; next < symbols.size() && symbols[next].onset < end; ++next) {
             const NotatedSymbol& symbol = symbols[next];
-            if (symbol.kind == SymbolKind::gap) continue;
+            if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
             go_to(symbol.onset);
             write_symbol(symbol);
             here_ += symbol.length;
@@ -206,7 +206,7 @@ private:
 
     void write_symbol(const NotatedSymbol& symbol) {
         const bool is_note = symbol.kind == SymbolKind::note;
-        put("<note>");
+        put("<note{}>", symbol.kind == SymbolKind::gap ? " print-object=\"no\"" : "");
         if (is_note) {
             write_pitch(symbol);
         } else {

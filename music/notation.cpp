@@ -242,7 +242,7 @@ Staff Notator::make_staff(const Part& part, std::size_t first_voice, std::size_t
     if (staff.voices.empty()) staff.voices.push_back({static_cast<int>(first_voice), fill({}, part)});
     if (!keys.empty() && median(std::move(keys)) < middle_c) staff.clef = Clef::bass;
 
-    // A bar's rest is printed once, and not where another voice sounds.
+    // A bar's rest is printed once, and not where another voice sounds; rests of more than two voices have no room.
     const auto bars = static_cast<std::size_t>(notation_.bars);
     std::vector<bool> has_notes(bars, false);
     for (const NotatedVoice& voice : staff.voices) {
@@ -258,6 +258,7 @@ Staff Notator::make_staff(const Part& part, std::size_t first_voice, std::size_t
                 (i > 0 || has_notes[static_cast<std::size_t>(symbol.onset / notation_.bar_length)])) {
                 symbol.kind = SymbolKind::gap;
             }
+            if (symbol.kind == SymbolKind::rest && i > 1) symbol.kind = SymbolKind::gap;
         }
     }
     return staff;

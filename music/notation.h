@@ -32,7 +32,7 @@ enum class SymbolKind {
     note,
     rest,
     bar_rest,  ///< of a whole bar, whatever its length
-    gap        ///< a bar in which a voice is silent while another one of its staff has the rest or the notes
+    gap        ///< a rest that is not printed: a bar that other voices of the staff fill, or one of a third voice
 };
 
 /// A note or a rest of a length that has a sign of its own: a power of two from a 64th to a whole, or half as much

@@ -14,12 +14,12 @@ namespace sikku {
 /// Pitches above a tonic that repeat with a period, in cents. A melody that rises takes them from `ascent`, one that
 /// falls from `descent`; most scales have the same in both.
 struct Scale {
-    std::string id;               ///< `major`, `raga-bilahari`, `mela-29`, or a file's name
-    std::string title;            ///< as people write it; perhaps empty
-    std::string group;            ///< `western`, `pentatonic`, `raga`, `melakarta`, `maqam`, `scala`, …
-    std::vector<double> ascent;   ///< degree 0 (0 cents) first; of a Scala file in any order, else ascending
-    std::vector<double> descent;  ///< likewise, listed upwards as well
-    double period = 1200.0;       ///< above 0, or of a Scala file any but 0
+    std::string id;                  ///< `major`, `raga-bilahari`, `mela-29`, or a file's name
+    std::string title;               ///< as people write it; perhaps empty
+    std::string group;               ///< `western`, `pentatonic`, `raga`, `melakarta`, `maqam`, `scala`, …
+    std::vector<double> ascent;      ///< degree 0 (0 cents) first; of a Scala file in any order, else ascending
+    std::vector<double> descent;     ///< likewise, listed upwards as well
+    double period = 1200.0;          ///< above 0, or of a Scala file any but 0
     std::vector<std::string> names;  ///< other names it is known by
     std::string sources;             ///< who tells it, in words
 
@@ -45,16 +45,17 @@ std::vector<std::string> similar_scales(std::string_view name);
 struct KeyMap {
     int first = 0;
     int last = 127;
-    int middle = 60;                ///< the key of degree 0
-    int reference = 69;             ///< the key whose frequency is given
-    double frequency = 440.0;       ///< of it, in Hz
-    int octave_degree = 0;          ///< the degree of the formal octave; 0: the scale's period
+    int middle = 60;                          ///< the key of degree 0
+    int reference = 69;                       ///< the key whose frequency is given
+    double frequency = 440.0;                 ///< of it, in Hz
+    int octave_degree = 0;                    ///< the degree of the formal octave; 0: the scale's period
     std::vector<std::optional<int>> degrees;  ///< for each key of the pattern, from the middle one; empty: linear
 };
 
-/// Reads a Scala scale: comments, a description, a count, so many cents, ratios or whole numbers, each perhaps followed by anything.
-/// The last is the period. Not sorted, negative cents, periods other than 2/1 and UTF-8 or Latin-1 are fine.
-/// Mistakes go to `diagnostics` with their place. Source: the Scala file format, as Op de Coul describes it.
+/// Reads a Scala scale: comments, a description, a count, so many cents, ratios or whole numbers, each perhaps
+/// followed by anything. The last is the period. Not sorted, negative cents, periods other than 2/1 and UTF-8 or
+/// Latin-1 are fine. Mistakes go to `diagnostics` with their place. Source: the Scala file format, as Op de Coul
+/// describes it.
 std::optional<Scale> read_scl(const Source& source, Diagnostics& diagnostics);
 
 /// Reads a Scala key map.

@@ -45,7 +45,7 @@ class ScoreError : public std::runtime_error {
 
 struct Meter {
     int beats = 4;
-    int unit = 4;  ///< a power of two, 1 to 64
+    int unit = 4;                                                              ///< a power of two, 1 to 64
     std::int64_t bar() const { return 4 * ticks_per_quarter * beats / unit; }  ///< ticks
 };
 
@@ -64,8 +64,8 @@ struct KeySignature {
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
-    int program = 0;   ///< General MIDI, 0 to 127
-    int voices = 1;    ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
+    int program = 0;  ///< General MIDI, 0 to 127
+    int voices = 1;   ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
     std::optional<KeySignature> key;      ///< only for major, minor and the modes
     std::array<Spelling, 12> spelling{};  ///< of each pitch class from C
 };

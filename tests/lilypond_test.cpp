@@ -27,7 +27,8 @@ std::string lilypond_of(const TestScore& score) {
 std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
     static const std::map<char, int> semitones = {{'c', 0}, {'d', 2}, {'e', 4}, {'f', 5},
                                                   {'g', 7}, {'a', 9}, {'b', 11}};
-    static const std::regex token(R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)|r(\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
+    static const std::regex token(
+        R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)|[rs](\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
     std::vector<PlainNote> list;
     std::istringstream stream(text);
     bool in_voice = false;
@@ -115,6 +116,10 @@ TEST(LilyPond, WritesALineForEachBar) {
 \header {
   title = "A \"quoted\" \\ title"
   tagline = ##f
+}
+
+\paper {
+  page-breaking-system-system-spacing.padding = #6
 }
 
 \score {

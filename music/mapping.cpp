@@ -1,0 +1,1117 @@
+#include "music/mapping.h"
+
+#include "engine/lattice.h"
+#include "music/melody_fold.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t farthest = std::int64_t{1} << 62;  // of a coordinate
+constexpr std::size_t notes_in_block = 1024;
+constexpr std::int64_t margin_units = 64;  // walked before a bar, so that what leads up to it is known
+constexpr std::size_t deepest = std::size_t{1} << 20;
+
+/// The end of the piece was reached; nothing after it is of interest.
+struct Enough {};
+
+/// Degrees become keys, and notes reach the sink: cut to the piece that is wanted, counted, a block at a time.
+class Emitter {
+public:
+    Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
+        : melody_(melody), sink_(sink), options_(options) {
+        block_.reserve(notes_in_block);
+        for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
+    }
+
+    /// What a voice remembers between its notes.
+    struct Line {
+        int voice = -1;
+        std::int64_t last_degree = unknown;
+        bool falling = false;
+    };
+
+    void note(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
+              glm::dvec2 to) {
+        if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
+        line.last_degree = degree;
+        lowest_degree = std::min(lowest_degree, degree);
+        highest_degree = std::max(highest_degree, degree);
+        if (end <= onset) {
+            ++report.lost;
+            return;
+        }
+        if (end <= options_.from || onset >= options_.to) return;
+        const Placed placed = key_of(degree, line.falling);
+        if (placed.is_silent) {
+            ++report.lost;
+            return;
+        }
+        if (line.voice < 0) line.voice = free_voice(onset);
+        if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
+        busy_until_[static_cast<std::size_t>(line.voice)] = end;
+        report.moved += placed.is_moved ? 1 : 0;
+        ++report.notes;
+        report.lowest = std::min(report.lowest, placed.key);
+        report.highest = std::max(report.highest, placed.key);
+        onset = std::max(onset, options_.from);
+        Note& note = block_.emplace_back();
+        note.onset = onset - options_.from;
+        note.duration = std::min(end, options_.to) - onset;
+        note.key = placed.key;
+        note.voice = static_cast<std::int16_t>(line.voice);
+        note.velocity = static_cast<std::uint8_t>(std::clamp(velocity, 1, 127));
+        note.from = from;
+        note.to = to;
+        if (block_.size() == notes_in_block) flush();
+    }
+
+    /// Lines that are there from the beginning have their voices from the beginning.
+    void take(Line& line, int voice) {
+        line.voice = voice;
+        if (held_.size() <= static_cast<std::size_t>(voice)) held_.resize(voice + 1U, 0);
+        held_[static_cast<std::size_t>(voice)] = 1;
+    }
+
+    /// A branch may take the voice of one that has ended.
+    void release(const Line& line) {
+        if (line.voice >= 0) held_[static_cast<std::size_t>(line.voice)] = false;
+    }
+
+    void finish(std::int64_t end) {
+        flush();
+        end = std::max<std::int64_t>(0, std::min(end, options_.to) - options_.from);
+        for (const std::int64_t busy : busy_until_) {
+            end = std::max(end, std::min(busy, options_.to) - options_.from);
+        }
+        report.end = end;
+        report.voices = static_cast<int>(busy_until_.size());
+        sink_.finish(end);
+    }
+
+    PlayReport report;
+    std::int64_t lowest_degree = std::numeric_limits<std::int64_t>::max();
+    std::int64_t highest_degree = std::numeric_limits<std::int64_t>::min();
+
+private:
+    struct Placed {
+        double key = std::numeric_limits<double>::quiet_NaN();  // not looked up yet
+        bool is_moved = false;
+        bool is_silent = false;
+    };
+
+    void flush() {
+        if (!block_.empty()) sink_.notes(block_);
+        block_.clear();
+    }
+
+    int free_voice(std::int64_t onset) {
+        for (int voice = 0;; ++voice) {
+            const auto at = static_cast<std::size_t>(voice);
+            if (at >= held_.size()) held_.resize(at + 1, false);
+            if (held_[at] || (at < busy_until_.size() && busy_until_[at] > onset)) continue;
+            if (voice >= options_.most_voices) {
+                throw ScoreError(fmt::format(
+                    "too many voices: more than {} branches sound at once; a smaller n has fewer", voice));
+            }
+            held_[at] = true;
+            return voice;
+        }
+    }
+
+    Placed key_of(std::int64_t degree, bool falling) {
+        if (degree < -cached_degrees || degree >= cached_degrees) return look_up(degree, falling);
+        Placed& known = keys_[falling ? 1 : 0][static_cast<std::size_t>(degree + cached_degrees)];
+        if (std::isnan(known.key)) known = look_up(degree, falling);
+        return known;
+    }
+
+    bool is_within(double key) const { return key >= 0 && key <= 127; }
+
+    Placed look_up(std::int64_t degree, bool falling) {
+        const auto raw = melody_.key(degree, falling);
+        if (!raw) {
+            if (melody_.range == Range::refuse) refuse(degree, "no key at all");
+            return {0, false, true};
+        }
+        if (is_within(*raw)) return {*raw, false, false};
+        switch (melody_.range) {
+            case Range::refuse:
+                refuse(degree, fmt::format("key {:.0f}", *raw));
+            case Range::fold: {
+                const double period = std::fabs(melody_.scale.period) / 100;
+                double key = *raw;
+                if (std::isfinite(key) && period > 0 && period <= 127) {
+                    key -= period * (key > 127 ? std::ceil((key - 127) / period) : -std::ceil(-key / period));
+                }
+                return {std::clamp(key, 0.0, 127.0), true, false};
+            }
+            case Range::clamp:
+            case Range::reflect:
+                break;
+        }
+        find_bounds();
+        std::int64_t inside = std::clamp(degree, low_, high_);
+        if (melody_.range == Range::reflect && high_ > low_) {
+            const std::int64_t width = high_ - low_;
+            std::int64_t phase = (degree - low_) % (2 * width);
+            if (phase < 0) phase += 2 * width;
+            inside = low_ + (phase <= width ? phase : 2 * width - phase);
+        }
+        return {std::clamp(melody_.key(inside, falling).value_or(60.0), 0.0, 127.0), true, false};
+    }
+
+    [[noreturn]] static void refuse(std::int64_t degree, const std::string& key) {
+        throw ScoreError(fmt::format(
+            "degree {} of the scale would be {}, beyond the keys 0 to 127 of MIDI: `range: fold`, another "
+            "tonic or a smaller n helps",
+            degree, key));
+    }
+
+    /// The degrees around the tonic whose keys are within.
+    void find_bounds() {
+        if (low_ <= high_) return;
+        const auto fits = [&](std::int64_t degree) {
+            const auto up = melody_.key(degree, false);
+            const auto down = melody_.key(degree, true);
+            return up && down && is_within(*up) && is_within(*down);
+        };
+        low_ = high_ = 0;
+        while (high_ < 10'000 && fits(high_ + 1)) ++high_;
+        while (low_ > -10'000 && fits(low_ - 1)) --low_;
+    }
+
+    static constexpr std::int64_t cached_degrees = 2048;
+    const Melody& melody_;
+    NoteSink& sink_;
+    const PlayOptions& options_;
+    std::vector<Note> block_;
+    std::array<std::vector<Placed>, 2> keys_;
+    std::int64_t low_ = 1;
+    std::int64_t high_ = 0;
+    std::vector<std::int64_t> busy_until_;  // of each voice
+    std::vector<char> held_;                // by a branch that has not ended
+};
+
+/// Coordinates on the square grid, counted in steps, headings in quarter turns.
+class GridWalk {
+public:
+    using Number = std::int64_t;
+    struct Position {
+        std::int64_t x = 0, y = 0;
+        std::uint32_t heading = 0;
+    };
+    struct Step {
+        std::int64_t x, y;
+    };
+    GridWalk(const Grammar& grammar, const Lattice& lattice, int first) : lattice_(lattice) {
+        (void)grammar;
+        start.heading = static_cast<std::uint32_t>(first);
+    }
+    Step step(const Position& at, Symbol symbol) const {
+        const std::int64_t length = lattice_.length[symbol];
+        switch (at.heading) {
+            case 0:
+                return {length, 0};
+            case 1:
+                return {0, length};
+            case 2:
+                return {-length, 0};
+            default:
+                return {0, -length};
+        }
+    }
+    void turn(Position& at, Symbol symbol) const { at.heading = (at.heading + lattice_.turn[symbol]) & 3; }
+    static bool is_level(std::int64_t rise) { return rise == 0; }
+    static bool same_direction(const Step& a, const Step& b) {
+        return (a.x > 0) == (b.x > 0) && (a.x < 0) == (b.x < 0) && (a.y > 0) == (b.y > 0) && (a.y < 0) == (b.y < 0);
+    }
+    static std::int64_t ticks(std::int64_t steps, std::int64_t unit) { return steps * unit; }
+    static std::int64_t degree(std::int64_t twice) { return twice >= 0 ? (twice + 1) / 2 : -((-twice) / 2); }
+    static bool in_range(const Position& at) {
+        return at.x < farthest && at.x > -farthest && at.y < farthest && at.y > -farthest;
+    }
+
+    Position start;
+
+private:
+    const Lattice& lattice_;
+};
+
+/// Doubles, any angle.
+class PlaneWalk {
+public:
+    using Number = double;
+    struct Position {
+        double x = 0, y = 0;
+        std::uint32_t heading = 0;
+        double degrees = 0;
+    };
+    struct Step {
+        double x, y;
+    };
+    PlaneWalk(const Grammar& grammar, const Lattice& lattice, int) : grammar_(grammar), lattice_(lattice) {}
+    Step step(const Position& at, Symbol symbol) const {
+        const double length = grammar_.symbols()[symbol].command.value;
+        const glm::dvec2 ahead =
+            lattice_.headings > 0 ? lattice_.direction[at.heading] : unit_vector(lattice_.first_heading + at.degrees);
+        return {length * ahead.x, length * ahead.y};
+    }
+    void turn(Position& at, Symbol symbol) const {
+        if (lattice_.headings > 0) {
+            at.heading = (at.heading + lattice_.turn[symbol]) % lattice_.headings;
+        } else {
+            at.degrees = std::fmod(at.degrees + grammar_.symbols()[symbol].command.angle.degrees, 360.0);
+        }
+    }
+    static bool is_level(double rise) { return std::fabs(rise) < 1e-9; }
+    static bool same_direction(const Step& a, const Step& b) {
+        const double dot = a.x * b.x + a.y * b.y;
+        const double cross = a.x * b.y - a.y * b.x;
+        return dot > 0 && std::fabs(cross) <= 1e-9 * dot;
+    }
+    static double ticks(double steps, std::int64_t unit) { return steps * static_cast<double>(unit); }
+    static std::int64_t degree(double twice) {
+        return static_cast<std::int64_t>(std::clamp(std::floor(twice / 2 + 0.5), -1e15, 1e15));
+    }
+    static bool in_range(const Position& at) { return std::isfinite(at.x) && std::isfinite(at.y); }
+
+    Position start;
+
+private:
+    const Grammar& grammar_;
+    const Lattice& lattice_;
+};
+
+/// The y that sounds the tonic, doubled; unknown: that of the first note. The x is where the turtle starts.
+struct Origin {
+    std::int64_t y = unknown;
+};
+
+class Reader : public SymbolSink {
+public:
+    /// Times and positions after a part that is passed over. Of Readers on the grid only.
+    virtual bool skip(const GridStretch&) { return false; }
+    virtual std::int64_t lowest_vertex() const { return 0; }
+    virtual std::int64_t highest_vertex() const { return 0; }
+    virtual std::int64_t first_degree() const { return 0; }
+};
+
+/// The runs of a curve, as notes.
+template <class Walk>
+class RunReader final : public Reader {
+public:
+    RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, Emitter& emitter,
+              Origin origin, const PlayOptions& options, bool has_brackets)
+        : grammar_(grammar),
+          melody_(melody),
+          emitter_(emitter),
+          origin_(origin),
+          options_(options),
+          walk_(grammar, lattice, first),
+          may_stop_(!has_brackets) {
+        for (const SymbolInfo& symbol : grammar.symbols()) {
+            const Command& command = symbol.command;
+            const bool finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
+            actions_.push_back(finite || (command.action != Action::draw && command.action != Action::move &&
+                                          command.action != Action::turn)
+                                   ? command.action
+                                   : Action::width_set);
+        }
+        state_.at = walk_.start;
+        state_.run.from = state_.at;
+        if (melody.vertical == Vertical::voice) {
+            emitter_.take(state_.line, 0);
+            emitter_.take(state_.other, 1);
+        }
+    }
+
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            switch (actions_[symbol]) {
+                case Action::draw:
+                    draw(symbol);
+                    break;
+                case Action::move:
+                    move(symbol);
+                    break;
+                case Action::turn:
+                    walk_.turn(state_.at, symbol);
+                    break;
+                case Action::push:
+                    push();
+                    break;
+                case Action::pop:
+                    pop();
+                    break;
+                case Action::width_set:
+                    if (!std::isfinite(grammar_.symbols()[symbol].command.value) ||
+                        !std::isfinite(grammar_.symbols()[symbol].command.angle.degrees)) {
+                        throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
+                    }
+                    break;
+                default:
+                    break;
+            }
+        }
+        if (!Walk::in_range(state_.at)) {
+            throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
+                                        position_ + 1));
+        }
+    }
+
+    void finish() override {
+        if (!stack_.empty()) {
+            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().position));
+        }
+        end_run();
+        release_held();
+        emitter_.finish(ticks(std::max(state_.time, state_.other_time)));
+    }
+
+    bool skip(const GridStretch& stretch) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            const bool is_level = state_.at.heading % 2 == 0;
+            const Integer& across = stretch.length[is_level ? 0 : 1];
+            const Integer& up = stretch.length[is_level ? 1 : 0];
+            const bool both = melody_.vertical == Vertical::rest || melody_.vertical == Vertical::extend ||
+                              melody_.vertical == Vertical::glissando;
+            Integer longest = both ? Integer(across + up) : across;
+            if (melody_.vertical == Vertical::voice) longest = std::max(across, up);
+            const std::int64_t room =
+                options_.from / melody_.unit - margin_units - std::max(state_.time, state_.other_time);
+            if (room < 0 || longest > room) return false;
+            end_run();
+            release_held();
+            for (int axis = 0; axis < 2; ++axis) {
+                const Integer& by = stretch.move[static_cast<std::size_t>(axis)];
+                if (by >= farthest || by <= -farthest) {
+                    throw ScoreError("the curve is too large to be played from its middle: a smaller n is needed");
+                }
+                const auto length = by.convert_to<std::int64_t>();
+                switch ((state_.at.heading + static_cast<std::uint32_t>(axis)) & 3) {
+                    case 0:
+                        state_.at.x += length;
+                        break;
+                    case 1:
+                        state_.at.y += length;
+                        break;
+                    case 2:
+                        state_.at.x -= length;
+                        break;
+                    default:
+                        state_.at.y -= length;
+                }
+            }
+            state_.time += (both ? Integer(across + up) : across).convert_to<std::int64_t>();
+            if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
+            state_.at.heading = (state_.at.heading + static_cast<std::uint32_t>(stretch.turn)) & 3;
+            state_.has_sounded = true;
+            return true;
+        } else {
+            (void)stretch;
+            return false;
+        }
+    }
+
+    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
+    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
+    std::int64_t first_degree() const override { return first_degree_; }
+
+private:
+    using Number = typename Walk::Number;
+    using Position = typename Walk::Position;
+    using Step = typename Walk::Step;
+
+    struct Pending {
+        bool is_open = false;
+        Step direction{};
+        Position from;
+        Number steps = 0;  // drawn so far: their number times their length
+        int turned = 0;    // sign of the turn that led into it
+    };
+    struct Held {
+        bool is_open = false;
+        std::int64_t degree = 0;
+        Number onset = 0, end = 0;
+        int velocity = 80;
+        glm::dvec2 from{0.0}, to{0.0};
+    };
+    struct State {
+        Position at;
+        Pending run;
+        Emitter::Line line;
+        Emitter::Line other;  // of vertical runs as a voice
+        Number time = 0;      // steps
+        Number other_time = 0;
+        Held held;        // a note that the next vertical run may make longer
+        Number lead = 0;  // vertical steps before the first note
+        bool has_sounded = false;
+    };
+    struct Saved {
+        State state;
+        std::uint64_t position;
+    };
+
+    std::int64_t ticks(Number steps) const {
+        if constexpr (std::is_same_v<Number, double>) {
+            return std::llround(std::min(Walk::ticks(steps, melody_.unit), 4e18));
+        } else {
+            return Walk::ticks(steps, melody_.unit);
+        }
+    }
+    static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
+
+    void draw(Symbol symbol) {
+        const Step step = walk_.step(state_.at, symbol);
+        if (step.x == 0 && step.y == 0) return;
+        Pending& run = state_.run;
+        if (!run.is_open || !Walk::same_direction(run.direction, step) || melody_.runs == Runs::each_step) {
+            int turned = 0;
+            if (run.is_open) {
+                const auto cross = run.direction.x * step.y - run.direction.y * step.x;
+                turned = cross > 0 ? 1 : cross < 0 ? -1 : 0;
+            }
+            end_run();
+            run.is_open = true;
+            run.direction = step;
+            run.from = state_.at;
+            run.turned = turned;
+        }
+        state_.at.x += step.x;
+        state_.at.y += step.y;
+    }
+
+    void move(Symbol symbol) {
+        end_run();
+        const Step step = walk_.step(state_.at, symbol);
+        state_.at.x += step.x;
+        state_.at.y += step.y;
+        note_vertex();
+        const Number wide = step.x < 0 ? -step.x : step.x;
+        const Number high = step.y < 0 ? -step.y : step.y;
+        release_held();
+        state_.time += wide;
+        if (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice && Walk::is_level(step.x)) {
+            state_.time += high;
+        }
+        if (melody_.vertical == Vertical::voice) state_.other_time += high;
+    }
+
+    void note_vertex() {
+        lowest_ = std::min(lowest_, state_.at.y);
+        highest_ = std::max(highest_, state_.at.y);
+    }
+
+    void end_run() {
+        Pending& run = state_.run;
+        if (!run.is_open) return;
+        run.is_open = false;
+        note_vertex();
+        const Number wide = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
+        const Number high = state_.at.y > run.from.y ? state_.at.y - run.from.y : run.from.y - state_.at.y;
+        const int velocity = loudness(run, wide > high ? wide : high);
+        if (Walk::is_level(high)) {
+            sound(run.from.y + state_.at.y, wide, velocity, run);
+        } else if (Walk::is_level(wide)) {
+            vertical_run(run, high, velocity);
+        } else if (melody_.sloped == Sloped::project) {
+            sound(run.from.y + state_.at.y, wide, velocity, run);
+        } else if (melody_.sloped == Sloped::refuse) {
+            throw ScoreError(fmt::format(
+                "before symbol {} of the word the curve slopes, and `sloped: refuse` is asked for", position_));
+        }
+        if (may_stop_ && ticks(state_.time) >= options_.to &&
+            (melody_.vertical != Vertical::voice || ticks(state_.other_time) >= options_.to)) {
+            release_held();
+            throw Enough();
+        }
+    }
+
+    /// A note at the height `twice` / 2.
+    void sound(Number twice, Number steps, int velocity, const Pending& run) {
+        if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
+        if (origin_.y == unknown) origin_.y = 2 * Walk::degree(twice);
+        const std::int64_t degree = Walk::degree(twice - static_cast<Number>(origin_.y));
+        if (melody_.vertical != Vertical::extend) {
+            emitter_.note(state_.line, degree, ticks(state_.time), ticks(state_.time + steps), velocity,
+                          point(run.from), point(state_.at));
+            state_.time += steps;
+            return;
+        }
+        release_held();
+        steps += state_.lead;
+        state_.lead = 0;
+        state_.held = {true, degree, state_.time, state_.time + steps, velocity, point(run.from), point(state_.at)};
+        state_.time += steps;
+        state_.has_sounded = true;
+    }
+
+    void release_held() {
+        Held& held = state_.held;
+        if (!held.is_open) return;
+        held.is_open = false;
+        emitter_.note(state_.line, held.degree, ticks(held.onset), ticks(held.end), held.velocity, held.from,
+                      held.to);
+    }
+
+    void vertical_run(const Pending& run, Number steps, int velocity) {
+        switch (melody_.vertical) {
+            case Vertical::ignore:
+                break;
+            case Vertical::rest:
+                state_.time += steps;
+                break;
+            case Vertical::extend:
+                if (state_.held.is_open) {
+                    state_.held.end += steps;
+                    state_.time += steps;
+                } else if (!state_.has_sounded) {
+                    state_.lead += steps;
+                } else {
+                    state_.time += steps;
+                }
+                break;
+            case Vertical::glissando:
+                glissando(run, velocity);
+                break;
+            case Vertical::voice: {
+                const std::int64_t degree = Walk::degree(2 * state_.at.x);
+                emitter_.note(state_.other, degree, ticks(state_.other_time), ticks(state_.other_time + steps),
+                              velocity, point(run.from), point(state_.at));
+                state_.other_time += steps;
+                break;
+            }
+        }
+    }
+
+    /// A note for each height on the way, the last included.
+    void glissando(const Pending& run, int velocity) {
+        const Number sign = state_.at.y > run.from.y ? 1 : -1;
+        Position from = run.from;
+        while (from.y * sign < state_.at.y * sign) {
+            Position to = from;
+            to.y += sign;
+            if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
+            if (origin_.y == unknown) origin_.y = 2 * Walk::degree(2 * to.y);
+            if (first_degree_ == unknown) first_degree_ = Walk::degree(2 * to.y);
+            const Number steps = (to.y - from.y) * sign;
+            emitter_.note(state_.line, Walk::degree(2 * to.y - static_cast<Number>(origin_.y)), ticks(state_.time),
+                          ticks(state_.time + steps), velocity, point(from), point(to));
+            state_.time += steps;
+            from = to;
+        }
+    }
+
+    int loudness(const Pending& run, Number steps) const {
+        switch (melody_.loudness) {
+            case Loudness::fixed:
+                return 80;
+            case Loudness::by_turn:
+                return 80 + 18 * run.turned;
+            case Loudness::by_depth:
+                return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(stack_.size(), 10)));
+            case Loudness::by_length: {
+                // Long notes carry weight; a phrase of four bars swells towards its middle.
+                const double weight = 8.0 * std::min(4.0, static_cast<double>(steps));
+                const auto phrase = static_cast<double>(4 * melody_.meter.bar());
+                const double within = std::fmod(static_cast<double>(ticks(state_.time)), phrase) / phrase;
+                return static_cast<int>(std::lround(58 + weight + 40 * within * (1 - within)));
+            }
+        }
+        return 80;
+    }
+
+    void push() {
+        if (stack_.size() >= deepest) {
+            throw WordError(fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
+        }
+        stack_.push_back({state_, position_});
+        state_.run.is_open = false;
+        state_.held.is_open = false;
+        state_.line = state_.other = {};
+        state_.has_sounded = false;
+        state_.lead = 0;
+        if (stack_.back().state.run.is_open) {
+            // The branch begins where and when the stem is, which may be within a run.
+            const Pending& run = stack_.back().state.run;
+            const Number gone = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
+            state_.time += gone;
+        }
+    }
+
+    void pop() {
+        if (stack_.empty()) throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
+        end_run();
+        release_held();
+        emitter_.release(state_.line);
+        emitter_.release(state_.other);
+        state_ = stack_.back().state;
+        stack_.pop_back();
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    Origin origin_;
+    const PlayOptions& options_;
+    Walk walk_;
+    bool may_stop_;
+    std::vector<Action> actions_;
+    State state_;
+    std::vector<Saved> stack_;
+    std::uint64_t position_ = 0;
+    Number lowest_ = 0;
+    Number highest_ = 0;
+    std::int64_t first_degree_ = unknown;
+};
+
+/// Two voices: one sounds y for as long as it stays, the other x, an octave lower.
+template <class Walk>
+class CounterpointReader final : public Reader {
+public:
+    CounterpointReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody,
+                       Emitter& emitter, Origin origin, const PlayOptions& options)
+        : grammar_(grammar),
+          melody_(melody),
+          emitter_(emitter),
+          options_(options),
+          walk_(grammar, lattice, first),
+          lower_(static_cast<std::int64_t>(melody.scale.size())) {
+        at_ = walk_.start;
+        voices_[0].origin = origin.y == unknown ? 0 : origin.y;
+        emitter_.take(voices_[0].line, 0);
+        emitter_.take(voices_[1].line, 1);
+    }
+
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            const Command& command = grammar_.symbols()[symbol].command;
+            if (!std::isfinite(command.value) || !std::isfinite(command.angle.degrees)) {
+                throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
+            }
+            switch (command.action) {
+                case Action::draw:
+                case Action::move: {
+                    const auto step = walk_.step(at_, symbol);
+                    const double length = std::hypot(static_cast<double>(step.x), static_cast<double>(step.y));
+                    at_.x += step.x;
+                    at_.y += step.y;
+                    lowest_ = std::min(lowest_, at_.y);
+                    highest_ = std::max(highest_, at_.y);
+                    advance(length, command.action == Action::draw);
+                    break;
+                }
+                case Action::turn:
+                    walk_.turn(at_, symbol);
+                    break;
+                case Action::push:
+                    stack_.push_back(at_);
+                    break;
+                case Action::pop:
+                    if (stack_.empty()) {
+                        throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
+                    }
+                    at_ = stack_.back();
+                    stack_.pop_back();
+                    break;
+                default:
+                    break;
+            }
+        }
+        if (!Walk::in_range(at_)) throw WordError("the turtle leaves the range of its coordinates");
+    }
+
+    void finish() override {
+        for (std::size_t i = 0; i < 2; ++i) end_note(i);
+        emitter_.finish(ticks(time_));
+    }
+
+    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
+    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
+    std::int64_t first_degree() const override { return 0; }
+
+private:
+    using Number = typename Walk::Number;
+    struct Voice {
+        std::int64_t origin = 0;
+        std::int64_t degree = unknown;  // of the note that sounds
+        double onset = 0;
+        glm::dvec2 from{0.0};
+        Emitter::Line line;
+    };
+
+    std::int64_t ticks(double steps) const {
+        return std::llround(std::min(steps * static_cast<double>(melody_.unit), 4e18));
+    }
+
+    /// The note that the turtle came to sounds while it makes this step.
+    void advance(double length, bool is_drawn) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            Voice& voice = voices_[i];
+            const Number coordinate = i == 0 ? at_.y : at_.x;
+            std::int64_t degree = Walk::degree(2 * coordinate - static_cast<Number>(voice.origin));
+            if (i == 1) degree -= lower_;
+            if (!is_drawn) degree = unknown;
+            if (degree == voice.degree) continue;
+            end_note(i);
+            voice.degree = degree;
+            voice.onset = time_;
+            voice.from = here_;
+        }
+        time_ += length;
+        here_ = {static_cast<double>(at_.x), static_cast<double>(at_.y)};
+        if (ticks(time_) < options_.to) return;
+        for (std::size_t i = 0; i < 2; ++i) end_note(i);
+        throw Enough();
+    }
+
+    void end_note(std::size_t i) {
+        Voice& voice = voices_[i];
+        if (voice.degree == unknown) return;
+        emitter_.note(voice.line, voice.degree, ticks(voice.onset), ticks(time_), i == 0 ? 88 : 72, voice.from,
+                      here_);
+        voice.degree = unknown;
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    const PlayOptions& options_;
+    Walk walk_;
+    std::int64_t lower_;
+    typename Walk::Position at_;
+    glm::dvec2 here_{0.0};
+    std::vector<typename Walk::Position> stack_;
+    std::array<Voice, 2> voices_;
+    double time_ = 0;
+    std::uint64_t position_ = 0;
+    Number lowest_ = 0;
+    Number highest_ = 0;
+};
+
+/// The word itself, symbol by symbol.
+class SymbolReader final : public Reader {
+public:
+    SymbolReader(const Grammar& grammar, const Melody& melody, Emitter& emitter, const PlayOptions& options,
+                 bool has_brackets)
+        : grammar_(grammar), melody_(melody), emitter_(emitter), options_(options), may_stop_(!has_brackets) {}
+
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            const SymbolInfo& info = grammar_.symbols()[symbol];
+            const Command& command = info.command;
+            switch (command.action) {
+                case Action::draw:
+                    require_finite(command.value);
+                    sound(std::fabs(command.value));
+                    break;
+                case Action::move:
+                    require_finite(command.value);
+                    end_note();
+                    state_.time += std::fabs(command.value);
+                    stop_if_done();
+                    break;
+                case Action::turn:
+                    if (info.letter == "+") ++state_.degree;
+                    if (info.letter == "-") --state_.degree;
+                    break;
+                case Action::push:
+                    if (stack_.size() >= deepest) {
+                        throw WordError(
+                            fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
+                    }
+                    end_note();
+                    stack_.push_back({state_, position_});
+                    state_.line = {};
+                    break;
+                case Action::pop:
+                    if (stack_.empty()) {
+                        throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
+                    }
+                    end_note();
+                    emitter_.release(state_.line);
+                    state_ = stack_.back().first;
+                    stack_.pop_back();
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+
+    void finish() override {
+        if (!stack_.empty()) {
+            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().second));
+        }
+        end_note();
+        emitter_.finish(ticks(state_.time));
+    }
+
+private:
+    struct State {
+        double time = 0;
+        double onset = 0;
+        std::int64_t degree = 0;
+        std::int64_t sounding = unknown;
+        Emitter::Line line;
+    };
+
+    void require_finite(double value) const {
+        if (!std::isfinite(value)) {
+            throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
+        }
+    }
+    std::int64_t ticks(double steps) const {
+        return std::llround(std::min(steps * static_cast<double>(melody_.unit), 4e18));
+    }
+
+    /// Equal symbols side by side are one long note, unless each step is to be heard.
+    void sound(double length) {
+        if (state_.sounding != state_.degree || melody_.runs == Runs::each_step) {
+            end_note();
+            state_.sounding = state_.degree;
+            state_.onset = state_.time;
+        }
+        state_.time += length;
+        if (may_stop_ && ticks(state_.time) >= options_.to) end_note();
+        stop_if_done();
+    }
+
+    void end_note() {
+        if (state_.sounding == unknown) return;
+        const auto height = static_cast<double>(state_.sounding);
+        const int velocity = melody_.loudness == Loudness::by_depth
+                                 ? std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(stack_.size(), 10)))
+                                 : 80;
+        emitter_.note(state_.line, state_.sounding, ticks(state_.onset), ticks(state_.time), velocity,
+                      {state_.onset, height}, {state_.time, height});
+        state_.sounding = unknown;
+    }
+
+    void stop_if_done() const {
+        if (may_stop_ && ticks(state_.time) >= options_.to) throw Enough();
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    const PlayOptions& options_;
+    bool may_stop_;
+    State state_;
+    std::vector<std::pair<State, std::uint64_t>> stack_;
+    std::uint64_t position_ = 0;
+};
+
+/// Passes over what lies before the piece.
+class Seeker final : public Pruner {
+public:
+    Seeker(const MelodyFold& fold, Reader& reader) : fold_(fold), reader_(reader) {}
+    bool passes_over(Symbol symbol, std::int64_t level) override {
+        const GridStretch* stretch = fold_.stretch(symbol, level);
+        if (stretch && reader_.skip(*stretch)) return true;
+        // What is that short is walked: the piece is near.
+        if (level == 0 || (stretch && stretch->length[0] + stretch->length[1] < 4096)) active = false;
+        return false;
+    }
+
+private:
+    const MelodyFold& fold_;
+    Reader& reader_;
+};
+
+/// Everything a reader needs, made ready once.
+class Player {
+public:
+    Player(const Grammar& grammar, const Melody& melody, const PlayOptions& options)
+        : grammar_(grammar), melody_(melody), options_(options), lattice_(make_lattice(grammar)) {
+        is_grid_ = is_on_grid(grammar, lattice_, first_);
+        const std::vector<char> reached = grammar.reachable();
+        for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+            if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
+        }
+        if (melody.mapping == Mapping::runs) fold_ = MelodyFold::make(grammar);
+    }
+
+    PlayReport play(NoteSink& sink) {
+        const Origin origin = find_origin();
+        Emitter emitter(melody_, sink, options_);
+        const auto reader = make_reader(emitter, origin, options_);
+        DerivationOptions derivation = derivation_options();
+        std::optional<Seeker> seeker;
+        if (fold_ && options_.from > 0) {
+            seeker.emplace(*fold_, *reader);
+            derivation.pruner = &*seeker;
+        }
+        // A piece may be short where the whole is beyond all measure.
+        const bool is_piece = !has_brackets_ && options_.to < INT64_MAX;
+        if (!is_piece) require_affordable(grammar_, true, options_.budget);
+        try {
+            derive(grammar_, *reader, derivation);
+        } catch (const Enough&) {
+            emitter.finish(options_.to);
+        }
+        return emitter.report;
+    }
+
+private:
+    DerivationOptions derivation_options() const {
+        DerivationOptions derivation;
+        derivation.interpreted = true;
+        derivation.watch = [this, visited = 0.0](std::uint64_t symbols) mutable {
+            // Where nothing is handed over, watches come every 2^16 nodes.
+            visited += symbols > 0 ? static_cast<double>(symbols) : 65536.0;
+            if (visited > 2 * options_.budget) {
+                throw BudgetError(fmt::format(
+                    "the piece lies too far inside: more than {:.0f} nodes would be visited to reach its end",
+                    options_.budget));
+            }
+            if (options_.watch) options_.watch(symbols);
+        };
+        return derivation;
+    }
+
+    std::unique_ptr<Reader> make_reader(Emitter& emitter, Origin origin, const PlayOptions& options) const {
+        if (melody_.mapping == Mapping::symbols) {
+            return std::make_unique<SymbolReader>(grammar_, melody_, emitter, options, has_brackets_);
+        }
+        const auto make = [&]<class Walk>() -> std::unique_ptr<Reader> {
+            if (melody_.mapping == Mapping::counterpoint) {
+                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody_, emitter,
+                                                                  origin, options);
+            }
+            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody_, emitter, origin, options,
+                                                     has_brackets_);
+        };
+        return is_grid_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
+    }
+
+    /// The y that sounds the tonic. The first note is met on the way; but a piece from the middle has to know it.
+    Origin find_origin() const {
+        if (melody_.mapping == Mapping::symbols) return {};
+        if (melody_.anchor == Anchor::first_note) {
+            if (options_.from == 0 || melody_.mapping == Mapping::counterpoint) return {};
+            return {first_note()};
+        }
+        if (fold_) {
+            const GridStretch& whole = fold_->whole();
+            const auto number = [](const Integer& value) {
+                if (value >= farthest / 2 || value <= -farthest / 2) {
+                    throw ScoreError("the curve is too large for its anchor: a smaller n is needed");
+                }
+                return value.convert_to<std::int64_t>();
+            };
+            if (melody_.anchor == Anchor::lowest_note) {
+                return {whole.crossings[0] ? 2 * number(whole.crossings[0]->low) : 0};
+            }
+            if (melody_.anchor == Anchor::lowest_vertex) return {2 * number(whole.box[1].low)};
+            return {2 * number((whole.box[1].low + whole.box[1].high) >> 1)};
+        }
+        return survey();
+    }
+
+    /// The sink of a pass that only looks.
+    class Nobody : public NoteSink {
+    public:
+        void notes(std::span<const Note>) override {}
+        void finish(std::int64_t) override {}
+    };
+
+    Origin survey() const {
+        require_affordable(grammar_, true, options_.budget);
+        PlayOptions all = options_;
+        all.from = 0;
+        all.to = INT64_MAX;
+        all.most_voices = std::numeric_limits<int>::max();
+        Melody silent = melody_;
+        silent.range = Range::clamp;
+        Nobody nobody;
+        Emitter emitter(silent, nobody, all);
+        const Player looking(grammar_, silent, all);
+        const auto reader = looking.make_reader(emitter, {0}, all);
+        derive(grammar_, *reader, derivation_options());
+        switch (melody_.anchor) {
+            case Anchor::lowest_note:
+                return {emitter.report.notes > 0 ? 2 * emitter.lowest_degree : 0};
+            case Anchor::lowest_vertex:
+                return {2 * reader->lowest_vertex()};
+            default: {
+                const std::int64_t sum = reader->lowest_vertex() + reader->highest_vertex();
+                return {2 * (sum >= 0 ? sum / 2 : -((1 - sum) / 2))};
+            }
+        }
+    }
+
+    std::int64_t first_note() const {
+        PlayOptions beginning = options_;
+        beginning.from = 0;
+        beginning.to = 1;
+        Melody silent = melody_;
+        silent.range = Range::clamp;
+        Nobody nobody;
+        Emitter emitter(silent, nobody, beginning);
+        const Player looking(grammar_, silent, beginning);
+        const auto reader = looking.make_reader(emitter, {0}, beginning);
+        try {
+            derive(grammar_, *reader, derivation_options());
+        } catch (const Enough&) {
+        }
+        return reader->first_degree() == unknown ? 0 : 2 * reader->first_degree();
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    const PlayOptions& options_;
+    Lattice lattice_;
+    bool is_grid_ = false;
+    int first_ = 0;
+    bool has_brackets_ = false;
+    std::optional<MelodyFold> fold_;
+};
+
+}  // namespace
+
+PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, const PlayOptions& options) {
+    DerivationOptions whole_words;
+    whole_words.limit_whole_words(options.budget);
+    whole_words.watch = options.watch;
+    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    return Player(grammar, melody, options).play(sink);
+}
+
+std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
+    if (melody.mapping != Mapping::runs || given.whole_word_steps() > 0) return std::nullopt;
+    const Grammar grammar = shorten(given);
+    const auto fold = MelodyFold::make(grammar);
+    if (!fold) return std::nullopt;
+    const GridStretch& whole = fold->whole();
+    MelodyCensus result;
+    const bool each = melody.runs == Runs::each_step;
+    result.notes = each ? whole.length[0] : whole.runs[0];
+    Integer steps = whole.length[0];
+    if (melody.vertical == Vertical::glissando) result.notes += whole.length[1];
+    if (melody.vertical == Vertical::voice) result.notes += each ? whole.length[1] : whole.runs[1];
+    if (melody.vertical == Vertical::voice) steps = std::max(steps, whole.length[1]);
+    if (melody.vertical == Vertical::rest || melody.vertical == Vertical::extend ||
+        melody.vertical == Vertical::glissando) {
+        steps += whole.length[1];
+    }
+    result.ticks = steps * melody.unit;
+    if (whole.crossings[0]) {
+        result.height = whole.crossings[0]->high - whole.crossings[0]->low;
+    }
+    return result;
+}
+
+}  // namespace sikku

@@ -1,0 +1,430 @@
+// tests/mapping_test.cpp: curves as notes, against sequences worked out by hand and by another road.
+#include "music/mapping.h"
+
+#include "music/melody_fold.h"
+#include "tests/hilbert.h"
+#include "tests/reference.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+using reference::grammar_of;
+
+class Collector : public NoteSink {
+public:
+    void notes(std::span<const Note> some) override { all.insert(all.end(), some.begin(), some.end()); }
+    void finish(std::int64_t at) override {
+        end = at;
+        ++finished;
+    }
+    std::vector<Note> all;
+    std::int64_t end = -1;
+    int finished = 0;
+};
+
+constexpr std::int64_t unit = 240;
+
+/// A melody in which a key is a degree above key 40.
+Melody plain() {
+    Melody melody;
+    melody.scale.ascent.clear();
+    for (int i = 0; i < 12; ++i) melody.scale.ascent.push_back(100.0 * i);
+    melody.scale.descent = melody.scale.ascent;
+    melody.scale.period = 1200;
+    melody.tonic = 40;
+    melody.unit = unit;
+    melody.anchor = Anchor::lowest_vertex;
+    return melody;
+}
+
+Collector played(const Grammar& grammar, const Melody& melody, const PlayOptions& options = {}) {
+    Collector collector;
+    play(grammar, melody, collector, options);
+    EXPECT_EQ(collector.finished, 1);
+    return collector;
+}
+
+/// `3:1 r:1 2:2`: degrees and units; rests between notes and at the ends are `r`.
+std::string told(const Collector& collector, std::size_t most = 40) {
+    std::string text;
+    std::int64_t now = 0;
+    std::size_t count = 0;
+    const auto add = [&](const std::string& item) { text += (text.empty() ? "" : " ") + item; };
+    for (const Note& note : collector.all) {
+        if (count++ == most) return text;
+        if (note.onset > now) add(fmt::format("r:{}", (note.onset - now) / unit));
+        add(fmt::format("{}:{}", note.key - 40, note.duration / unit));
+        now = note.onset + note.duration;
+    }
+    if (collector.end > now) add(fmt::format("r:{}", (collector.end - now) / unit));
+    return text;
+}
+
+Grammar hilbert(int n, const std::string& more = "turn: left\n") {
+    return grammar_of(
+        fmt::format("derivation length: {}\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n{}", n, more));
+}
+Grammar peano(int n, const std::string& more) {
+    return grammar_of(
+        fmt::format("derivation length: {}\naxiom: X\nturn: left\n{}X --> XFYFX+F+YFXFY-F-XFYFX\n"
+                    "Y --> YFXFY-F-XFYFX+F+YFXFY\n",
+                    n, more));
+}
+Grammar dragon(int n, const std::string& more) {
+    return grammar_of(
+        fmt::format("derivation length: {}\naxiom: FX\nturn: left\n{}X --> X+YF+\nY --> -FX-Y\n", n, more));
+}
+const std::string right = "turn: left\nheading: 0\n";
+
+TEST(Runs, SequencesOfHilbert) {
+    EXPECT_EQ(told(played(hilbert(2), plain())), "1:1 0:2 1:1 2:1 3:2 2:1");
+    EXPECT_EQ(told(played(hilbert(2, right), plain())), "3:1 2:1 0:1 1:1 0:1 2:1 3:1");
+    EXPECT_EQ(
+        told(played(hilbert(3), plain())),
+        "0:1 1:1 3:1 2:1 3:1 1:1 0:2 1:1 0:2 1:1 2:1 3:2 2:1 5:1 4:2 5:1 6:1 7:2 6:1 7:2 6:1 4:1 5:1 4:1 6:1 7:1");
+    EXPECT_EQ(told(played(hilbert(3, right), plain())),
+              "6:1 7:2 6:1 5:1 4:2 5:1 3:1 2:1 0:1 1:1 0:1 2:1 3:3 2:1 0:1 1:1 0:1 2:1 3:1 5:1 4:2 5:1 6:1 7:2 6:1");
+    EXPECT_EQ(told(played(hilbert(3, "heading: 0\n"), plain())),
+              "1:1 0:2 1:1 2:1 3:2 2:1 4:1 5:1 7:1 6:1 7:1 5:1 4:3 5:1 7:1 6:1 7:1 5:1 4:1 2:1 3:2 2:1 1:1 0:2 1:1");
+    // Heading up, the sense of + and the axiom make no difference.
+    EXPECT_EQ(told(played(hilbert(4), plain()), 999), told(played(hilbert(4, ""), plain()), 999));
+}
+
+TEST(Runs, SequencesOfPeanoAndTheDragon) {
+    EXPECT_EQ(told(played(peano(1, "heading: 90\n"), plain())), "2:1 0:1");
+    EXPECT_EQ(told(played(peano(2, "heading: 0\n"), plain())),
+              "0:2 1:2 2:5 1:2 0:5 1:2 2:2 3:2 4:2 5:5 4:2 3:5 4:2 5:2 6:2 7:2 8:5 7:2 6:5 7:2 8:2");
+    EXPECT_EQ(told(played(dragon(4, "heading: 90\n"), plain())), "5:1 4:1 3:1 2:1 1:1 2:1 1:1 0:1");
+    EXPECT_EQ(told(played(dragon(6, "heading: 0\n"), plain()), 12),
+              "9:1 10:1 11:1 10:1 11:1 10:1 9:1 8:1 9:1 8:1 7:1 8:1");
+    EXPECT_EQ(played(dragon(10, "heading: 0\n"), plain()).all.size(), 512u);
+}
+
+TEST(Runs, WhatVerticalRunsAre) {
+    Melody melody = plain();
+    melody.vertical = Vertical::rest;
+    EXPECT_EQ(told(played(hilbert(2), melody)), "r:1 1:1 r:1 0:2 r:1 1:1 r:1 2:1 r:1 3:2 r:1 2:1 r:1");
+    EXPECT_EQ(told(played(hilbert(2, right), melody)), "3:1 r:1 2:1 r:2 0:1 r:1 1:1 r:1 0:1 r:2 2:1 r:1 3:1");
+    melody.vertical = Vertical::extend;
+    EXPECT_EQ(told(played(hilbert(2), melody)), "1:3 0:3 1:2 2:2 3:3 2:2");
+    EXPECT_EQ(told(played(hilbert(2, right), melody)), "3:2 2:3 0:2 1:2 0:3 2:2 3:1");
+    EXPECT_EQ(
+        told(played(hilbert(3), melody)),
+        "0:2 1:3 3:2 2:2 3:3 1:2 0:3 1:2 0:3 1:2 2:2 3:3 2:4 5:2 4:3 5:2 6:2 7:3 6:2 7:3 6:3 4:2 5:2 4:3 6:2 7:1");
+    melody.vertical = Vertical::glissando;
+    EXPECT_EQ(told(played(hilbert(1, right), melody)), "0:1 0:1 1:1");
+    melody.vertical = Vertical::voice;
+    const Collector two = played(hilbert(4), melody);
+    std::int64_t across = 0;
+    std::int64_t up = 0;
+    for (const Note& note : two.all) (note.voice == 0 ? across : up) += note.duration / unit;
+    EXPECT_EQ(across + up, 255);
+    EXPECT_EQ(std::max(across, up) * unit, two.end);
+}
+
+TEST(Runs, PublishedInvariantsOfHilbert) {
+    const std::vector<std::size_t> up = {2, 6, 26, 102, 410, 1638, 6554, 26214};
+    const std::vector<std::size_t> level = {1, 7, 25, 103, 409, 1639, 6553, 26215};
+    const std::vector<std::uint64_t> sums_up = {5, 82, 2385, 70519, 2189641, 68945503};
+    const std::vector<std::uint64_t> sums_right = {1, 72, 1872, 56992, 1738400, 54657920};
+    for (int n = 1; n <= 8; ++n) {
+        Melody melody = plain();
+        melody.tonic = 0;
+        melody.scale.period = 120;  // tenths of a semitone, so that 256 degrees are within the keys
+        for (double& cents : melody.scale.ascent) cents /= 10;
+        melody.scale.descent = melody.scale.ascent;
+        for (const bool is_up : {true, false}) {
+            const Collector found = played(hilbert(n, is_up ? "turn: left\n" : right), melody);
+            const auto& notes = found.all;
+            ASSERT_EQ(notes.size(), (is_up ? up : level)[static_cast<std::size_t>(n - 1)]);
+            const std::int64_t total = (std::int64_t{1} << (2 * n)) / 2 - (is_up ? 0 : 1);
+            std::int64_t sum = 0;
+            std::uint64_t check = 0;
+            std::set<std::int64_t> degrees;
+            for (std::size_t i = 0; i < notes.size(); ++i) {
+                const auto degree = static_cast<std::int64_t>(std::lround(notes[i].key * 10));
+                const std::int64_t duration = notes[i].duration / unit;
+                EXPECT_EQ(notes[i].onset, sum * unit);
+                sum += duration;
+                degrees.insert(degree);
+                EXPECT_TRUE(duration >= 1 && duration <= 3);
+                check = (check + (i + 1) * static_cast<std::uint64_t>((degree + 1) * duration)) % 1'000'000'007;
+                // Lying, a palindrome; upright, backwards and upside down itself.
+                const Note& mirror = notes[notes.size() - 1 - i];
+                EXPECT_EQ(mirror.duration, notes[i].duration);
+                const auto other = static_cast<std::int64_t>(std::lround(mirror.key * 10));
+                EXPECT_EQ(other, is_up ? (std::int64_t{1} << n) - 1 - degree : degree);
+            }
+            EXPECT_EQ(sum, total);
+            EXPECT_EQ(found.end, total * unit);
+            if (n <= 6) {
+                EXPECT_EQ(check, (is_up ? sums_up : sums_right)[static_cast<std::size_t>(n - 1)]);
+            }
+            if (n >= 2) {
+                EXPECT_EQ(degrees.size(), std::size_t{1} << n);
+            }
+        }
+    }
+}
+
+TEST(Runs, TheOtherForm) {
+    // Horizontal runs of the bit-twiddling form of the curve, x and y exchanged: heading up.
+    for (int n = 1; n <= 7; ++n) {
+        const int side = 1 << n;
+        std::string expected;
+        std::int64_t run = 0;
+        std::int64_t height = 0;
+        const auto end_run = [&] {
+            if (run > 0) expected += fmt::format("{}{}:{}", expected.empty() ? "" : " ", height, run);
+            run = 0;
+        };
+        glm::dvec2 last = hilbert_point(side, 0);
+        int direction = 0;
+        for (int d = 1; d < side * side; ++d) {
+            const glm::dvec2 next = hilbert_point(side, d);
+            // Exchanged: what it calls y is across.
+            const int here = next.y > last.y ? 1 : next.y < last.y ? -1 : 0;
+            if (here == 0 || here != direction) end_run();
+            if (here != 0) {
+                ++run;
+                height = static_cast<std::int64_t>(next.x);
+            }
+            direction = here;
+            last = next;
+        }
+        end_run();
+        Melody melody = plain();
+        melody.tonic = 40;
+        melody.range = Range::refuse;
+        melody.scale.period = 12;
+        for (double& cents : melody.scale.ascent) cents /= 100;
+        melody.scale.descent = melody.scale.ascent;
+        Collector found = played(hilbert(n), melody);
+        for (Note& note : found.all) note.key = 40 + std::round((note.key - 40) * 100);
+        EXPECT_EQ(told(found, 99999), expected) << n;
+    }
+}
+
+TEST(Runs, Anchors) {
+    Melody melody = plain();
+    melody.anchor = Anchor::first_note;
+    EXPECT_EQ(played(hilbert(4, right), melody).all.front().key, 40);
+    melody.anchor = Anchor::centre;
+    EXPECT_EQ(told(played(hilbert(2), melody)), "0:1 -1:2 0:1 1:1 2:2 1:1");
+    // The lowest note may lie above the lowest vertex: a curve that dives and comes back.
+    const std::string dive = "turn: left\nheading: 0\naxiom: F-FF+f+FFF-F\n";
+    melody.anchor = Anchor::lowest_note;
+    EXPECT_EQ(told(played(grammar_of(dive), melody)), "0:1 r:1 1:1");
+    melody.anchor = Anchor::lowest_vertex;
+    EXPECT_EQ(told(played(grammar_of(dive), melody)), "2:1 r:1 3:1");
+    // With brackets only looking tells.
+    const std::string branch = "turn: left\nheading: 0\naxiom: F[-FFF]F\n";
+    EXPECT_EQ(told(played(grammar_of(branch), melody)), "3:2");
+}
+
+TEST(Runs, StepsAreHeardOneByOneOnRequest) {
+    Melody melody = plain();
+    melody.runs = Runs::each_step;
+    EXPECT_EQ(told(played(hilbert(2), melody)), "1:1 0:1 0:1 1:1 2:1 3:1 3:1 2:1");
+}
+
+TEST(Runs, SlopingRuns) {
+    Melody melody = plain();
+    const std::string koch = "angle factor: 6\nheading: 0\nturn: left\naxiom: F+F--F+F\n";
+    const Collector found = played(grammar_of(koch), melody);
+    ASSERT_EQ(found.all.size(), 4u);
+    EXPECT_EQ(found.all[1].duration, unit / 2);
+    EXPECT_EQ(found.all[1].key, 40);  // its middle is at 0.43
+    EXPECT_EQ(found.end, 3 * unit);
+    melody.sloped = Sloped::skip;
+    EXPECT_EQ(played(grammar_of(koch), melody).all.size(), 2u);
+    melody.sloped = Sloped::refuse;
+    EXPECT_THROW(played(grammar_of(koch), melody), ScoreError);
+}
+
+TEST(Runs, Ranges) {
+    Melody melody = plain();
+    melody.tonic = 120;
+    const auto keys = [&](Range range) {
+        melody.range = range;
+        Collector collector;
+        const PlayReport report = play(hilbert(4), melody, collector, {});
+        EXPECT_EQ(report.moved > 0, true);
+        double lowest = 200;
+        double highest = -200;
+        for (const Note& note : collector.all) {
+            lowest = std::min(lowest, note.key);
+            highest = std::max(highest, note.key);
+        }
+        return std::pair(lowest, highest);
+    };
+    EXPECT_EQ(keys(Range::fold), std::pair(116.0, 127.0));
+    EXPECT_EQ(keys(Range::clamp), std::pair(120.0, 127.0));
+    EXPECT_EQ(keys(Range::reflect).second, 127.0);
+    melody.range = Range::refuse;
+    EXPECT_THROW(played(hilbert(4), melody), ScoreError);
+}
+
+TEST(Runs, BranchesAreVoices) {
+    Melody melody = plain();
+    const Grammar grammar = grammar_of("turn: left\nheading: 0\naxiom: FF[+F-FFF]FF[-F+FF]F\n");
+    const Collector found = played(grammar, melody);
+    // The stem goes straight on through its branches.
+    std::vector<std::vector<std::pair<std::int64_t, std::int64_t>>> voices(3);
+    for (const Note& note : found.all) {
+        ASSERT_LT(note.voice, 3);
+        voices[static_cast<std::size_t>(note.voice)].emplace_back(note.onset / unit, note.duration / unit);
+    }
+    using Times = std::vector<std::pair<std::int64_t, std::int64_t>>;
+    std::sort(voices.begin(), voices.end());
+    EXPECT_EQ(voices[0], (Times{{0, 5}}));
+    EXPECT_EQ(voices[1], (Times{{2, 3}}));
+    EXPECT_EQ(voices[2], (Times{{4, 2}}));
+    PlayOptions few;
+    few.most_voices = 2;
+    Collector collector;
+    EXPECT_THROW(play(grammar, melody, collector, few), ScoreError);
+}
+
+TEST(OtherMappings, CounterpointHasTwoVoicesThatFillTheTime) {
+    Melody melody = plain();
+    melody.mapping = Mapping::counterpoint;
+    melody.tonic = 64;
+    const Collector found = played(dragon(8, ""), melody);
+    for (int voice = 0; voice < 2; ++voice) {
+        std::int64_t now = 0;
+        for (const Note& note : found.all) {
+            if (note.voice != voice) continue;
+            EXPECT_EQ(note.onset, now);
+            now += note.duration;
+        }
+        EXPECT_EQ(now, 256 * unit);
+    }
+}
+
+TEST(OtherMappings, Symbols) {
+    Melody melody = plain();
+    melody.mapping = Mapping::symbols;
+    EXPECT_EQ(told(played(grammar_of("axiom: F+FF-fF--F\n"), melody)), "0:1 1:2 r:1 0:1 -2:1");
+    const Collector two = played(grammar_of("axiom: F[+F]F\n"), melody);
+    ASSERT_EQ(two.all.size(), 3u);
+    EXPECT_EQ(two.all[1].onset, two.all[2].onset);
+    EXPECT_NE(two.all[1].voice, two.all[2].voice);
+}
+
+TEST(Census, EqualsWhatIsPlayed) {
+    for (int n = 1; n <= 6; ++n) {
+        for (const std::string& more : {std::string(), right, std::string("heading: 180\n")}) {
+            for (const Grammar& grammar :
+                 {hilbert(n, more), dragon(2 * n, "heading: 0\n"), peano(std::min(n, 3), "heading: 270\n")}) {
+                Melody melody = plain();
+                melody.range = Range::clamp;
+                for (const Vertical vertical :
+                     {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::glissando, Vertical::voice}) {
+                    melody.vertical = vertical;
+                    const auto told = census(grammar, melody);
+                    ASSERT_TRUE(told);
+                    const Collector found = played(grammar, melody);
+                    EXPECT_EQ(told->notes, found.all.size());
+                    EXPECT_EQ(told->ticks, found.end);
+                }
+            }
+        }
+    }
+    const auto large = census(hilbert(12), plain());
+    EXPECT_EQ(large->notes, 6'710'886);
+    EXPECT_EQ(large->height, 4095);
+    EXPECT_EQ(census(hilbert(40), plain())->ticks, (Integer(1) << 79) * unit);
+    EXPECT_FALSE(census(grammar_of("axiom: F[F]F\n"), plain()));
+    EXPECT_FALSE(census(grammar_of("angle factor: 6\naxiom: F+F\n"), plain()));
+}
+
+TEST(Pieces, FromTheMiddleEqualTheWholeCut) {
+    for (const Vertical vertical : {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::voice}) {
+        for (const Anchor anchor : {Anchor::first_note, Anchor::lowest_note, Anchor::lowest_vertex, Anchor::centre}) {
+            Melody melody = plain();
+            melody.vertical = vertical;
+            melody.anchor = anchor;
+            melody.range = Range::clamp;
+            const Grammar grammar = hilbert(7);
+            const Collector whole = played(grammar, melody);
+            std::mt19937 random(7);
+            for (int i = 0; i < 20; ++i) {
+                PlayOptions options;
+                options.from = static_cast<std::int64_t>(random() % static_cast<unsigned>(whole.end));
+                options.to = options.from + static_cast<std::int64_t>(random() % 20'000) + 1;
+                std::vector<std::tuple<int, std::int64_t, std::int64_t, double>> expected;
+                for (const Note& note : whole.all) {
+                    const std::int64_t from = std::max(note.onset, options.from);
+                    const std::int64_t to = std::min(note.onset + note.duration, options.to);
+                    if (to > from) expected.emplace_back(note.voice, from - options.from, to - from, note.key);
+                }
+                Collector piece;
+                play(grammar, melody, piece, options);
+                std::vector<std::tuple<int, std::int64_t, std::int64_t, double>> found;
+                for (const Note& note : piece.all) {
+                    found.emplace_back(note.voice, note.onset, note.duration, note.key);
+                }
+                std::sort(expected.begin(), expected.end());
+                std::sort(found.begin(), found.end());
+                EXPECT_EQ(found, expected) << static_cast<int>(vertical) << " " << options.from;
+            }
+        }
+    }
+}
+
+TEST(Pieces, AnyOrderStartsAnywhere) {
+    Melody melody = plain();
+    melody.range = Range::clamp;
+    PlayOptions options;
+    options.from = 1'000'000'000LL * melody.meter.bar();
+    options.to = options.from + 16 * melody.meter.bar();
+    std::uint64_t visited = 0;
+    options.watch = [&](std::uint64_t symbols) { visited += symbols; };
+    Collector piece;
+    const PlayReport report = play(hilbert(40), melody, piece, options);
+    EXPECT_LT(visited, 50'000u);
+    EXPECT_EQ(piece.end, 16 * melody.meter.bar());
+    EXPECT_GT(report.notes, 50u);
+    // Order 20 holds bar 10^9, too, and order 40 begins as it does, turned or not, by self-similarity.
+    Collector smaller;
+    Melody first = melody;
+    first.anchor = Anchor::first_note;
+    play(hilbert(20), first, smaller, options);
+    Collector larger;
+    play(hilbert(40), first, larger, options);
+    ASSERT_EQ(smaller.all.size(), larger.all.size());
+    for (std::size_t i = 0; i < smaller.all.size(); ++i) {
+        EXPECT_EQ(smaller.all[i].onset, larger.all[i].onset);
+        EXPECT_EQ(smaller.all[i].key, larger.all[i].key);
+    }
+    // A piece of a tree in brackets is cut out, too.
+    Melody symbols = plain();
+    symbols.mapping = Mapping::symbols;
+    Collector branch;
+    PlayOptions piece_options;
+    piece_options.from = 480;
+    piece_options.to = 960;
+    play(grammar_of("derivation length: 2\naxiom: F\nF --> FF[+F]F\n"), symbols, branch, piece_options);
+    EXPECT_EQ(branch.end, 480);
+}
+
+TEST(Runs, MistakesOfTheWord) {
+    EXPECT_THROW(played(grammar_of("axiom: F]\n"), plain()), WordError);
+    EXPECT_THROW(played(grammar_of("axiom: [F\n"), plain()), WordError);
+    EXPECT_THROW(played(grammar_of("axiom: F(1/0)\n"), plain()), WordError);
+    EXPECT_THROW(played(hilbert(40), plain()), BudgetError);
+}
+
+}  // namespace
+}  // namespace sikku
