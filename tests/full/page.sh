@@ -17,5 +17,5 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 npm install --silent --no-audit --no-fund --no-save playwright-core > npm.log 2>&1 ||
     skip "npm cannot install playwright-core: $(tail -n 1 npm.log)"
-"$program" play hilbert -n 3 -o x.html
+"$program" --quiet play hilbert -n 3 -o x.html
 timeout 120 node "$here/page.mjs" "$folder" "$browser" x.html $screenshot
