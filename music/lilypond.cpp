@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -252,24 +251,16 @@ private:
             if (i == 0) {
                 put("        \\clef {} {}{}\\time {}/{}\n", staff.clef == Clef::treble ? "treble" : "bass",
                     told.key ? key_name(*told.key) : "", told.key ? " " : "", head_.meter.beats, head_.meter.unit);
-                if (has_tempo) write_tempo();
+                if (has_tempo) {
+                    // A whole number: LilyPond takes no other, and its MIDI files cut fractions off.
+                    put("        \\tempo 4 = {}\n", std::max<long long>(1, std::llround(head_.tempo)));
+                }
             }
             if (staff.voices.size() > 1) put("        \\voice{}\n", numbers[i % 4]);
             write_voice(staff.voices[i]);
             put("      }}\n");
         }
         put("    >>\n");
-    }
-
-    void write_tempo() {
-        // The printed number is a whole one; what is heard is exact to a thousandth.
-        const auto thousandths = std::max<long long>(1, std::llround(1000.0 * head_.tempo));
-        put("        \\tempo 4 = {}\n", std::max<long long>(1, (thousandths + 500) / 1000));
-        if (thousandths % 1000 != 0) {
-            const long long common = std::gcd(thousandths, 4000LL);
-            put("        \\set Score.tempoWholesPerMinute = #(ly:make-moment {}/{})\n", thousandths / common,
-                4000 / common);
-        }
     }
 
     void write_voice(const NotatedVoice& voice) {
