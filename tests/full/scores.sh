@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# What LilyPond and MuseScore make of our scores: their MIDI files have the onsets and keys of ours.
+# usage: tests/full/scores.sh PROGRAM
+set -euo pipefail
+[ $# -eq 1 ] || { echo "usage: tests/full/scores.sh PROGRAM" >&2; exit 2; }
+program=$(realpath "$1")
+
+# mido of Debian is known to Debian's Python alone.
+python=
+for candidate in python3 /usr/bin/python3; do
+    if "$candidate" -c 'import mido' 2> /dev/null; then python=$candidate; break; fi
+done
+[ -n "$python" ] || { echo "skipped: scores through LilyPond and MuseScore (python3-mido is not installed)"; exit 0; }
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+cat > same.py << 'END'
+import sys
+from collections import Counter
+
+import mido
+
+
+def notes_of(name):
+    """(onset, end, key) of every note, in ticks of a 480th of a quarter."""
+    song = mido.MidiFile(name)
+    notes = []
+    for track in song.tracks:
+        now, sounding = 0, {}
+        for message in track:
+            now += message.time
+            if message.type not in ("note_on", "note_off"):
+                continue
+            began = sounding.setdefault((message.channel, message.note), [])
+            if message.type == "note_on" and message.velocity > 0:
+                began.append(now)
+            elif began:
+                onset = began.pop(0)
+                notes.append((round(onset * 480 / song.ticks_per_beat), round(now * 480 / song.ticks_per_beat),
+                              message.note))
+    return notes
+
+
+ours, theirs = notes_of(sys.argv[1]), notes_of(sys.argv[2])
+assert ours, "no notes"
+starts = lambda notes: Counter((onset, key) for onset, end, key in notes)
+extra = starts(theirs) - starts(ours)
+assert not extra, f"{sys.argv[2]} has (onset, key) that {sys.argv[1]} has not: {sorted(extra)[:10]}"
+# Where two voices meet on one key, the voices of a staff share a channel, and one note is heard.
+missing = starts(ours) - starts(theirs)
+for onset, key in missing:
+    there = sum(1 for begin, end, other in ours if other == key and begin <= onset <= end)
+    assert there > 1, f"{sys.argv[2]} lacks key {key} at {onset}"
+assert len(missing) < len(ours) / 4, f"{sys.argv[2]} lacks {len(missing)} of {len(ours)} notes"
+shared = f", {sum(missing.values())} of them on a key that sounds already" if missing else ""
+print(f"{sys.argv[2]}: {len(ours)} notes as in {sys.argv[1]}{shared}")
+END
+
+# Durations of five units, seven flats, a descent of its own, blues, voices from branches, two parts.
+scores=(hilbert peano keys bilahari blues voices parts)
+hilbert() { "$program" play hilbert -n 3 -o "$1"; }
+peano() { "$program" play peano-pentatonic -n 3 --unit 1/16 --meter 7/8 -o "$1"; }
+keys() { "$program" play hilbert-in-c -n 4 --tonic Cb4 --meter 5/8 -o "$1"; }
+bilahari() { "$program" play sierpinski-bilahari -n 4 --meter 3/4 -o "$1"; }
+blues() { "$program" play dragon-blues -n 7 -o "$1"; }
+voices() { "$program" play tree-in-voices -n 2 -o "$1"; }
+parts() { "$program" play hilbert-in-c peano-pentatonic -n 2 -o "$1"; }
+for score in "${scores[@]}"; do
+    for ending in mid musicxml ly; do "$score" "$score.$ending" > log 2>&1 || { cat log; exit 1; }; done
+done
+
+if command -v lilypond > /dev/null; then
+    for score in "${scores[@]}"; do
+        lilypond --loglevel=WARNING -o "$score-lilypond" "$score.ly" > log 2>&1 || { cat log; exit 1; }
+        [ ! -s log ] || { cat log; echo "LilyPond warns about $score.ly"; exit 1; }
+        [ -s "$score-lilypond.pdf" ] || { echo "LilyPond made no print of $score.ly"; exit 1; }
+        "$python" same.py "$score.mid" "$score-lilypond.midi"
+    done
+else
+    echo "skipped: scores through LilyPond (it is not installed)"
+fi
+
+if command -v mscore3 > /dev/null; then
+    for score in "${scores[@]}"; do
+        QT_QPA_PLATFORM=offscreen mscore3 -o "$score-musescore.mid" "$score.musicxml" > log 2>&1 || { cat log; exit 1; }
+        "$python" same.py "$score.mid" "$score-musescore.mid"
+    done
+else
+    echo "skipped: scores through MuseScore (musescore3 is not installed)"
+fi
