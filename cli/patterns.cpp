@@ -128,11 +128,13 @@ void add_show(CLI::App& app, bool& quiet) {
 }
 
 void add_check(CLI::App& app) {
-    auto* command = app.add_subcommand("check", "Tell every mistake of pattern files, and every fault of MIDI files, with its place");
+    auto* command = app.add_subcommand(
+        "check", "Tell every mistake of pattern files, and every fault of MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
     command->add_option("FILE", *files, "Pattern files, names, -, or MIDI files")->required();
     command->footer(
-        "Says nothing and exits with 0 if there is none, with 2 else, with 1 for MIDI files.\n\nExamples:\n  sikku check my.lsys "
+        "Says nothing and exits with 0 if there is none, with 2 else, with 1 for MIDI files.\n\nExamples:\n  sikku "
+        "check my.lsys "
         "patterns/*/*.lsys");
     command->callback([files] {
         bool good = true;

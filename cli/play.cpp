@@ -366,7 +366,7 @@ void run(const Options& options, bool quiet) {
         midi.microtonal = midi.microtonal || player.melody.is_microtonal();
         if (!as_midi || playing.to < INT64_MAX) continue;
         const auto known = census(player.loaded.grammar, player.melody);
-        if (known && known->notes > 0xFFFFFFFF / 9) {
+        if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(
                 fmt::format("{} notes would make a file of over 4 GiB, which MIDI cannot write: "
                             "`--bars` or `--seconds` plays a piece of it",
@@ -411,6 +411,8 @@ void run(const Options& options, bool quiet) {
         }
         case ScoreFormat::wav:
         case ScoreFormat::flac: {
+            if (!output.can_insert())
+                throw UsageError(fmt::format("-o {}: sound goes to a file only", options.output));
             const std::filesystem::path beside = output.temporary().string() + ".mid";
             {
                 OutputFile file(beside);
@@ -425,7 +427,9 @@ void run(const Options& options, bool quiet) {
             };
             try {
                 render_audio(beside, output.temporary(),
-                             format == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac);
+                             format == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac, [](double) {
+                                 if (interrupted()) throw Interrupted();
+                             });
             } catch (...) {
                 remove();
                 throw;

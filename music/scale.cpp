@@ -1,6 +1,6 @@
 #include "music/scale.h"
 
-#include "scales_data.h"
+#include <scales_data.h>
 
 #include <fmt/format.h>
 

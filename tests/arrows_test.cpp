@@ -68,6 +68,7 @@ TEST(Arrows, ArtSeesArtAndEngine) {
 }
 
 TEST(Arrows, MusicSeesMusicAndEngine) {
+    ASSERT_FALSE(includes_of("music").empty());
     for (const auto& [file, name, quoted] : includes_of("music")) {
         EXPECT_TRUE(!quoted || is_in(name, "music") || is_in(name, "engine")) << file << " includes " << name;
         for (const char* folder : {"cli", "art", "tests", "CLI"}) {

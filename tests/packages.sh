@@ -3,8 +3,9 @@
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libpugixml-dev libtbb-dev zlib1g-dev)
 # For tests: the framework, and independent readers of what the program writes.
-test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck)
-full_packages=(clang libclang-rt-14-dev inkscape)
+test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
+    midicsv python3-mido)
+full_packages=(clang libclang-rt-14-dev inkscape lilypond musescore3 fluidsynth timgm6mb-soundfont flac chromium npm)
 
 # Installs those of its arguments that are missing, saying which.
 install_packages() {

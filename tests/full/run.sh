@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What needs heavy tools: the fuzz targets for a minute each (clang), an SVG through Inkscape.
+# What needs heavy tools: the fuzz targets for a minute each (clang), an SVG through Inkscape, scores through LilyPond
+# and MuseScore, sound through FluidSynth, a page in Chromium.
 # usage: tests/full/run.sh PROGRAM
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: tests/full/run.sh PROGRAM" >&2; exit 2; }
@@ -41,3 +42,7 @@ if command -v inkscape > /dev/null; then
 else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
+
+for music in scores sound page; do
+    tests/full/"$music".sh "$program"
+done

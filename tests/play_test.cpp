@@ -1,0 +1,129 @@
+// tests/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
+#include "tests/files.h"
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// Plays `pattern` into a file that must not be there after a failure.
+Outcome played(const std::string& pattern, std::vector<std::string> arguments, const std::string& name = "x.mid",
+               bool* is_written = nullptr) {
+    const ScratchFolder folder;
+    arguments.insert(arguments.begin(), {"play", "-", "-o", folder.file(name)});
+    const Outcome outcome = run(arguments, {.input = pattern, .folder = folder.path()});
+    const bool exists = std::filesystem::exists(folder.file(name));
+    if (is_written) *is_written = exists;
+    EXPECT_EQ(exists, outcome.status == 0) << outcome.errors;
+    EXPECT_EQ(folder.names().size(), outcome.status == 0 ? 1U : 0U) << "nothing is left behind";
+    return outcome;
+}
+
+const std::string hilbert = "axiom: X\nderivation length: 3\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n";
+
+TEST(Play, WritesEveryKindOfScore) {
+    for (const char* name : {"x.mid", "x.MIDI", "x.musicxml", "x.ly", "x.svg", "x.html"}) {
+        const Outcome outcome = played(hilbert, {}, name);
+        EXPECT_EQ(outcome.status, 0) << name << outcome.errors;
+        EXPECT_NE(outcome.errors.find("26 notes, 4 bars, 8.0 s"), std::string::npos) << outcome.errors;
+    }
+}
+
+TEST(Play, WhatItWritesIsCleanAndTheSameEveryTime) {
+    const ScratchFolder folder;
+    std::vector<std::string> names;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/melodies")) {
+        names.push_back(entry.path().stem().string());
+    }
+    ASSERT_EQ(names.size(), 9u);
+    for (const std::string& name : names) {
+        for (const char* ending : {".mid", ".musicxml", ".ly", ".svg", ".html"}) {
+            const std::string one = folder.file(name + ending);
+            const std::string two = folder.file(name + "-2" + ending);
+            ASSERT_EQ(run({"-q", "play", name, "-o", one}).status, 0) << name << ending;
+            ASSERT_EQ(run({"-q", "play", name, "-o", two}, {.environment = {{"LC_ALL", "de_DE.UTF-8"}}}).status, 0);
+            EXPECT_EQ(contents(one), contents(two)) << name << ending;
+            if (ending == std::string(".mid")) {
+                const Outcome checked = run({"check", one});
+                EXPECT_EQ(checked.status, 0) << checked.output;
+            }
+        }
+    }
+    // Several patterns are tracks of one score.
+    ASSERT_EQ(run({"play", names[0], names[1], "--transpose", "-12", "--humanise", "0.5", "-o", folder.file("all.mid")})
+                  .status,
+              0);
+    EXPECT_EQ(run({"check", folder.file("all.mid")}).status, 0);
+}
+
+TEST(Play, TellsWithoutPlaying) {
+    const Outcome outcome = run({"play", "-", "-n", "40"}, {.input = hilbert});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.output.find("notes     483570327845851669882470"), std::string::npos) << outcome.output;
+}
+
+TEST(Play, APieceOfAnyOrder) {
+    const Outcome outcome = played(hilbert, {"-n", "40", "--from-bar", "1000000000", "--bars", "16"});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find(" 16 bars, 32.0 s"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(played(hilbert, {"-n", "40", "--seconds", "10"}).status, 0);
+}
+
+TEST(Play, Mistakes) {
+    const auto refused = [](const std::string& pattern, std::vector<std::string> arguments, int status,
+                            std::string_view message, const std::string& name = "x.mid") {
+        const Outcome outcome = played(pattern, std::move(arguments), name);
+        EXPECT_EQ(outcome.status, status) << outcome.errors;
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    };
+    refused(hilbert, {"--scale", "majr"}, 2, "there is no scale 'majr'; near it are major");
+    refused(hilbert, {"--tempo", "0"}, 2, "quarter notes a minute");
+    refused(hilbert, {"--tempo", "nan"}, 2, "quarter notes a minute");
+    refused(hilbert, {"--meter", "4/0"}, 2, "expected a meter");
+    refused(hilbert, {"--meter", "0/4"}, 2, "expected a meter");
+    refused(hilbert, {"--meter", "4"}, 2, "expected a meter");
+    refused(hilbert, {"--unit", "0"}, 2, "the value of a step");
+    refused(hilbert, {"--unit", "1/7"}, 2, "the value of a step");
+    refused(hilbert, {"--tonic", "H9"}, 2, "expected a note such as C4");
+    refused(hilbert, {"--tonic", "C12"}, 2, "expected a note such as C4");
+    refused(hilbert, {"--tonic", "99999 Hz"}, 2, "beyond what MIDI can write");
+    refused(hilbert, {"--instrument", "kazooo"}, 2, "instrument");
+    refused(hilbert, {"--instrument", "129"}, 2, "1 to 128");
+    refused(hilbert, {"--anchor", "lowest"}, 2, "'anchor:' is one of");
+    refused(hilbert, {"--range", "refuse", "-n", "8"}, 2, "beyond the keys 0 to 127");
+    refused(hilbert, {"--scale", "no.scl"}, 2, "cannot be read");
+    refused(hilbert, {"-n", "40"}, 1, "over 4 GiB");
+    refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
+    refused(hilbert, {"-n", "11"}, 2, "--bars", "x.musicxml");
+    refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
+    refused(hilbert, {"--from-bar", "1000"}, 2, "there is no note in this piece");
+    refused(hilbert, {}, 2, "unknown extension", "x.ogg");
+    refused("axiom: FFF\n", {}, 2, "no horizontal run");
+    refused("axiom: F]\n", {"--set", "heading=0"}, 2, "']' without '['");
+    std::string branches = "heading: 0\naxiom: ";
+    for (int i = 0; i < 20; ++i) branches += "[FFFF]";
+    refused(branches + "\n", {}, 2, "too many voices");
+    refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: there is no scale");
+}
+
+TEST(Play, ScalesOfFiles) {
+    const ScratchFolder folder;
+    folder.write("third.scl", "! third.scl\nA third tone scale\n 6\n200.\n400.\n600.\n800.\n1000.\n2/1\n");
+    folder.write("broken.scl", "x\n 2\n100.\nabc\n");
+    folder.write("p.lsys", "heading: 0\nscale: third.scl\n" + hilbert);
+    const Outcome good = run({"play", folder.file("p.lsys"), "-o", folder.file("x.mid")});
+    EXPECT_EQ(good.status, 0) << good.errors;
+    const Outcome bad = run({"play", folder.file("p.lsys"), "--scale", "broken.scl", "-o", folder.file("y.mid")});
+    EXPECT_EQ(bad.status, 2);
+    EXPECT_NE(bad.errors.find("broken.scl:4:1"), std::string::npos) << bad.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("y.mid")));
+}
+
+}  // namespace
+}  // namespace sikku
