@@ -112,7 +112,7 @@ void add_patterns(CLI::App& app) {
     auto* command = app.add_subcommand("patterns", "List the patterns that come along");
     auto kind = std::make_shared<std::string>();
     auto names_only = std::make_shared<bool>(false);
-    command->add_option("KIND", *kind, "Only those of one kind: kolams, tilings, curves, plants, words");
+    command->add_option("KIND", *kind, "Only those of one kind: kolams, tilings, curves, plants, words, melodies");
     command->add_flag("--names", *names_only, "Names only, one a line");
     command->footer("Examples:\n  sikku patterns\n  sikku patterns kolams");
     command->callback([kind, names_only] { list_patterns(*kind, *names_only); });
