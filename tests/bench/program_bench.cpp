@@ -102,6 +102,23 @@ void png_of_a_kolam_at_a0(benchmark::State& state) {
     std::filesystem::remove(file);
 }
 
+/// 1,677,722 notes for order 11, four times as many for order 12.
+void play_hilbert(benchmark::State& state) {
+    const std::string file = output("sikku_bench.mid");
+    measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", std::to_string(state.range(0)), "-o", file});
+    const double notes = state.range(0) == 11 ? 1'677'722 : 6'710'886;
+    state.counters["notes/s"] =
+        benchmark::Counter(notes * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    state.counters["file_MB"] = static_cast<double>(std::filesystem::file_size(file)) / 1e6;
+    std::filesystem::remove(file);
+}
+void bar_of_hilbert_40(benchmark::State& state) {
+    const std::string file = output("sikku_bench.mid");
+    measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", "40", "--from-bar", "1000000000", "--bars", "1", "-o",
+                    file});
+    std::filesystem::remove(file);
+}
+
 // Zeros and symbols take turns (--benchmark_enable_random_interleaving=true), so that both see the same machine.
 BENCHMARK(zeros_to_pipe)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1)->Repetitions(9);
 BENCHMARK(derive_to_pipe)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1)->Repetitions(9);
@@ -109,6 +126,8 @@ BENCHMARK(version)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(measure_hilbert_60)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(measure_dragon_100)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(svg_of_a_million_segments)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(play_hilbert)->Arg(11)->Arg(12)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(bar_of_hilbert_40)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(png_of_a_kolam_at_a0)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
