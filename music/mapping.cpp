@@ -63,14 +63,9 @@ public:
         report.lowest = std::min(report.lowest, placed.key);
         report.highest = std::max(report.highest, placed.key);
         onset = std::max(onset, options_.from);
-        Note& note = block_.emplace_back();
-        note.onset = onset - options_.from;
-        note.duration = std::min(end, options_.to) - onset;
-        note.key = placed.key;
-        note.voice = static_cast<std::int16_t>(line.voice);
-        note.velocity = static_cast<std::uint8_t>(std::clamp(velocity, 1, 127));
-        note.from = from;
-        note.to = to;
+        block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
+                          static_cast<std::int16_t>(line.voice),
+                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to});
         if (block_.size() == notes_in_block) flush();
     }
 
@@ -189,7 +184,7 @@ private:
         while (low_ > -10'000 && fits(low_ - 1)) --low_;
     }
 
-    static constexpr std::int64_t cached_degrees = 2048;
+    static constexpr std::int64_t cached_degrees = 8192;
     const Melody& melody_;
     NoteSink& sink_;
     const PlayOptions& options_;
@@ -216,8 +211,10 @@ public:
         (void)grammar;
         start.heading = static_cast<std::uint32_t>(first);
     }
-    Step step(const Position& at, Symbol symbol) const {
-        const std::int64_t length = lattice_.length[symbol];
+    std::int64_t length(Symbol symbol) const { return lattice_.length[symbol]; }
+    std::uint32_t quarters(Symbol symbol) const { return lattice_.turn[symbol]; }
+    Step step(const Position& at, Symbol symbol) const { return ahead(at, length(symbol)); }
+    Step ahead(const Position& at, std::int64_t length) const {
         switch (at.heading) {
             case 0:
                 return {length, 0};
@@ -231,8 +228,11 @@ public:
     }
     void turn(Position& at, Symbol symbol) const { at.heading = (at.heading + lattice_.turn[symbol]) & 3; }
     static bool is_level(std::int64_t rise) { return rise == 0; }
+    /// Both lie along an axis and neither is nothing. In doubles, as their product may be too large.
     static bool same_direction(const Step& a, const Step& b) {
-        return (a.x > 0) == (b.x > 0) && (a.x < 0) == (b.x < 0) && (a.y > 0) == (b.y > 0) && (a.y < 0) == (b.y < 0);
+        return static_cast<double>(a.x) * static_cast<double>(b.x) +
+                   static_cast<double>(a.y) * static_cast<double>(b.y) >
+               0;
     }
     static std::int64_t ticks(std::int64_t steps, std::int64_t unit) { return steps * unit; }
     static std::int64_t degree(std::int64_t twice) { return twice >= 0 ? (twice + 1) / 2 : -((-twice) / 2); }
@@ -335,11 +335,14 @@ public:
     }
 
     void symbols(const Run& run) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            if (run.block >= 0 && play_block(run)) return;
+        }
         for (const Symbol symbol : run.symbols) {
             ++position_;
             switch (actions_[symbol]) {
                 case Action::draw:
-                    draw(symbol);
+                    draw(walk_.step(state_.at, symbol));
                     break;
                 case Action::move:
                     move(symbol);
@@ -471,14 +474,68 @@ private:
     }
     static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
 
-    void draw(Symbol symbol) {
-        const Step step = walk_.step(state_.at, symbol);
+    /// A part of the word that recurs, as its straight runs.
+    struct Block {
+        struct Straight {
+            std::uint32_t turn;  ///< quarters, before it
+            std::int64_t length;
+        };
+        std::vector<Straight> runs;
+        std::uint32_t turn = 0;  ///< after the last
+        bool is_known = false;
+        bool is_simple = false;  ///< nothing but steps drawn and turns
+    };
+
+    /// False if the block holds what has to be read symbol by symbol.
+    bool play_block(const Run& run) {
+        const auto number = static_cast<std::size_t>(run.block);
+        if (number >= blocks_.size()) blocks_.resize(number + 1);
+        Block& block = blocks_[number];
+        if (!block.is_known) learn(block, run.symbols);
+        if (!block.is_simple) return false;
+        position_ += run.symbols.size();
+        for (const auto& [turn, length] : block.runs) {
+            state_.at.heading = (state_.at.heading + turn) & 3;
+            draw(walk_.ahead(state_.at, length));
+        }
+        state_.at.heading = (state_.at.heading + block.turn) & 3;
+        if (!Walk::in_range(state_.at)) {
+            throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
+                                        position_ + 1));
+        }
+        return true;
+    }
+
+    void learn(Block& block, std::span<const Symbol> symbols) {
+        block.is_known = true;
+        for (const Symbol symbol : symbols) {
+            if (actions_[symbol] == Action::turn) {
+                block.turn = (block.turn + walk_.quarters(symbol)) & 3;
+            } else if (actions_[symbol] == Action::draw) {
+                const std::int64_t length = walk_.length(symbol);
+                const bool goes_on = block.turn == 0 && !block.runs.empty() && melody_.runs == Runs::merged &&
+                                     length > 0 && block.runs.back().length > 0;
+                if (goes_on) {
+                    block.runs.back().length += length;
+                } else {
+                    block.runs.push_back({block.turn, length});
+                }
+                block.turn = 0;
+            } else if (actions_[symbol] != Action::pass) {
+                return;
+            }
+        }
+        block.is_simple = true;
+    }
+
+    void draw(const Step& step) {
         if (step.x == 0 && step.y == 0) return;
         Pending& run = state_.run;
         if (!run.is_open || !Walk::same_direction(run.direction, step) || melody_.runs == Runs::each_step) {
             int turned = 0;
             if (run.is_open) {
-                const auto cross = run.direction.x * step.y - run.direction.y * step.x;
+                const double cross = static_cast<double>(run.direction.x) * static_cast<double>(step.y) -
+                                     static_cast<double>(run.direction.y) * static_cast<double>(step.x);
                 turned = cross > 0 ? 1 : cross < 0 ? -1 : 0;
             }
             end_run();
@@ -669,6 +726,7 @@ private:
     std::vector<Action> actions_;
     State state_;
     std::vector<Saved> stack_;
+    std::vector<Block> blocks_;
     std::uint64_t position_ = 0;
     Number lowest_ = 0;
     Number highest_ = 0;
