@@ -1,6 +1,6 @@
 #include "art/colour.h"
 
-#include "art/text.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include "art/pdf.h"
 #include "art/raster.h"
 #include "art/svg.h"
-#include "art/text.h"
 #include "engine/fold.h"
 #include "engine/spline.h"
+#include "engine/text.h"
 #include "engine/turtle.h"
 
 #include <glm/vec3.hpp>

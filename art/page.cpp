@@ -1,7 +1,7 @@
 #include "art/page.h"
 
-#include "art/text.h"
 #include "engine/lattice.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "art/style.h"
 
 #include "art/page.h"
-#include "art/text.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 

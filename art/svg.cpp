@@ -2,6 +2,7 @@
 
 #include "art/vector_writer.h"
 #include "engine/diagnostic.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -32,68 +33,6 @@ constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 /// the short ones share paths of about this size.
 constexpr int single_strokes = 256;
 constexpr std::uint64_t shared_path_bytes = 4096;
-
-/// The length of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
-std::size_t xml_character(std::string_view text) {
-    const auto byte = static_cast<unsigned char>(text.front());
-    if (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') return 0;
-    // U+FFFE and U+FFFF are no characters.
-    if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
-    return utf8_length(text);
-}
-
-bool fits_xml(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = xml_character(text.substr(i));
-        if (length == 0) return false;
-        i += length;
-    }
-    return true;
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    result.reserve(text.size());
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = xml_character(text.substr(i));
-        if (length == 0) {
-            result += "\xEF\xBF\xBD";
-            ++i;
-            continue;
-        }
-        switch (text[i]) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\r':
-                result += "&#13;";
-                break;  // a parser would turn it into a line feed
-            default:
-                result.append(text, i, length);
-        }
-        i += length;
-    }
-    return result;
-}
-
-std::string to_hex(std::string_view bytes) {
-    std::string result;
-    result.reserve(2 * bytes.size());
-    for (const char byte : bytes) {
-        result += "0123456789abcdef"[static_cast<unsigned char>(byte) >> 4];
-        result += "0123456789abcdef"[static_cast<unsigned char>(byte) & 15];
-    }
-    return result;
-}
 
 std::optional<std::string> from_hex(std::string_view digits) {
     std::string result;
@@ -224,9 +163,9 @@ private:
                         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" xmlns:sikku=\"{}\"\n"
                         "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\">\n",
                         name_space, width, height, width, height));
-        file_.write(fmt::format("<title>{}</title>\n<desc>", escaped(print_.title)));
-        file_.write(escaped(print_.pattern));
-        file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", escaped(print_.made)));
+        file_.write(fmt::format("<title>{}</title>\n<desc>", xml_escaped(print_.title)));
+        file_.write(xml_escaped(print_.pattern));
+        file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(print_.made)));
         if (!fits_xml(print_.pattern)) {
             file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
         }

@@ -1,6 +1,7 @@
 // cli/measure.cpp: `sikku measure`: what is known of a word without deriving it.
 #include "cli/command.h"
 #include "engine/extent.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -9,22 +10,6 @@
 
 namespace sikku {
 namespace {
-
-/// A string of JSON.
-std::string json_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char byte : text) {
-        if (byte == '"' || byte == '\\') {
-            result += '\\';
-            result += byte;
-        } else if (static_cast<unsigned char>(byte) < 0x20) {
-            result += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
-        } else {
-            result += byte;
-        }
-    }
-    return result + '"';
-}
 
 std::string number(double value) {
     if (!std::isfinite(value)) return "null";

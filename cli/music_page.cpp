@@ -1,6 +1,7 @@
 #include "cli/music_page.h"
 
 #include "engine/diagnostic.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -16,66 +17,6 @@ namespace sikku {
 namespace {
 
 // ---- texts and numbers
-
-constexpr std::string_view replacement = "\xEF\xBF\xBD";
-
-/// The length of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
-std::size_t text_character(std::string_view text) {
-    const auto byte = static_cast<unsigned char>(text.front());
-    if ((byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F) return 0;
-    if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
-    return utf8_length(text);
-}
-
-bool fits_text(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = text_character(text.substr(i));
-        if (length == 0) return false;
-        i += length;
-    }
-    return true;
-}
-
-/// For XML and HTML, in elements and in attributes between double quotes.
-std::string escaped(std::string_view text) {
-    std::string result;
-    result.reserve(text.size());
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = text_character(text.substr(i));
-        if (length == 0) {
-            result += replacement;
-            ++i;
-            continue;
-        }
-        switch (text[i]) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\r':
-                result += "&#13;";
-                break;
-            default:
-                result.append(text, i, length);
-        }
-        i += length;
-    }
-    return result;
-}
-
-std::string to_hex(std::string_view bytes) {
-    std::string result;
-    for (const char byte : bytes) result += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-    return result;
-}
 
 /// At most `places` decimals, no zeros at the end, no -0.
 void put(std::string& out, double value, int places) {
@@ -882,22 +823,22 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
         "     width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\" font-family=\"'DejaVu Sans', Helvetica, "
         "Arial, "
         "sans-serif\">\n<title>{2}</title>\n<desc>",
-        number(page_width), number(page_height), escaped(title));
-    out.text() += escaped(head.pattern);
-    out.text() += fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", escaped(head.made));
-    if (!fits_text(head.pattern)) {
+        number(page_width), number(page_height), xml_escaped(title));
+    out.text() += xml_escaped(head.pattern);
+    out.text() += fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(head.made));
+    if (!fits_xml(head.pattern)) {
         out.text() += fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(head.pattern));
     }
     out.text() += fmt::format(
         "</metadata>\n<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n"
         "<text fill=\"#22222a\" font-size=\"6.5\" x=\"{}\" y=\"20\">{}</text>\n"
         "<text fill=\"#5c5c68\" font-size=\"3.2\" x=\"{}\" y=\"26.5\">{}</text>\n",
-        number(page_width), number(page_height), number(page_margin), escaped(shortened(title, 64)),
-        number(page_margin), escaped(subtitle(head, melody)));
+        number(page_width), number(page_height), number(page_margin), xml_escaped(shortened(title, 64)),
+        number(page_margin), xml_escaped(subtitle(head, melody)));
     if (!head.made.empty()) {
         out.text() += fmt::format(
             "<text fill=\"#8a8a95\" font-size=\"2.6\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>\n",
-            number(page_width - page_margin), number(page_height - 8.0), escaped(shortened(head.made, 140)));
+            number(page_width - page_margin), number(page_height - 8.0), xml_escaped(shortened(head.made, 140)));
     }
     Panel roll{page_margin + key_names_width, panels_top, page_width - 2.0 * page_margin - key_names_width,
                panels_bottom - panels_top};
@@ -919,7 +860,7 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
 void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& sink) {
     const Melody melody = survey(notes, end);
     Pieces out(sink);
-    const std::string title = escaped(title_of(head));
+    const std::string title = xml_escaped(title_of(head));
     // The slider reaches a quarter and four times of the tempo, whatever that is.
     const double slowest = head.tempo < 8.0 ? head.tempo / 4.0 : std::floor(head.tempo / 4.0);
     const double fastest = std::ceil(head.tempo * 4.0);
@@ -929,7 +870,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "style-src 'unsafe-inline'; img-src data:\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
         "<meta name=\"generator\" content=\"{}\"/>\n<link rel=\"icon\" href=\"data:,\"/>\n<title>{}</title>\n<style>",
-        escaped(head.made), title);
+        xml_escaped(head.made), title);
     out.text() += page_style;
     out.text() += fmt::format(
         "</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n<p class=\"about\">{}</p>\n"
@@ -940,7 +881,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "value=\"0\"/> <output id=\"place-text\"></output></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
         "<output id=\"tempo-text\"></output></label>\n</div>\n",
-        title, escaped(subtitle(head, melody)), number(slowest, 4), number(fastest, 4), number(head.tempo, 4));
+        title, xml_escaped(subtitle(head, melody)), number(slowest, 4), number(fastest, 4), number(head.tempo, 4));
     out.text() +=
         "<div class=\"panels\" id=\"panels\">\n"
         "<figure class=\"curve\"><canvas id=\"curve\" role=\"img\" aria-label=\"The curve, drawn note by note as "
@@ -954,7 +895,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         out.text() += "<details>\n<summary>The pattern</summary>\n<pre tabindex=\"0\">";
         // HTML drops a line feed that stands first.
         if (head.pattern.front() == '\n') out.text() += '\n';
-        out.text() += escaped(head.pattern);
+        out.text() += xml_escaped(head.pattern);
         out.text() += "</pre>\n</details>\n";
     }
     out.text() += fmt::format(

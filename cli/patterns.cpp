@@ -3,6 +3,7 @@
 #include "art/pdf_provenance.h"
 #include "art/svg.h"
 #include "cli/command.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +16,6 @@
 
 namespace sikku {
 namespace {
-
-bool ends_with_caseless(std::string name, std::string_view ending) {
-    for (char& byte : name) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
-    return name.ends_with(ending);
-}
 
 void list_patterns(const std::string& kind, bool names_only) {
     std::string last;
@@ -53,20 +47,21 @@ void list_patterns(const std::string& kind, bool names_only) {
 bool is_picture(const std::string& name) {
     constexpr std::array<std::string_view, 6> endings = {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"};
     return std::any_of(endings.begin(), endings.end(),
-                       [&](std::string_view ending) { return ends_with_caseless(name, ending); });
+                       [&](std::string_view ending) { return lower_case(name).ends_with(ending); });
 }
 
 void show(const std::string& what, bool quiet) {
     Provenance found;
-    const bool is_print = ends_with_caseless(what, ".svg") || ends_with_caseless(what, ".pdf") || is_picture(what);
+    const bool is_print =
+        lower_case(what).ends_with(".svg") || lower_case(what).ends_with(".pdf") || is_picture(what);
     if (std::error_code error; is_print && !std::filesystem::exists(what, error)) {
         throw UsageError(what + ": No such file or directory");
     }
-    if (ends_with_caseless(what, ".svg")) {
+    if (lower_case(what).ends_with(".svg")) {
         const auto provenance = svg_provenance(what);
         if (!provenance) throw std::runtime_error(what + ": this is no SVG of sikku's");
         found = *provenance;
-    } else if (ends_with_caseless(what, ".pdf")) {
+    } else if (lower_case(what).ends_with(".pdf")) {
         const auto provenance = pdf_provenance(what);
         if (!provenance) throw std::runtime_error(what + ": this PDF holds no pattern");
         found = *provenance;
@@ -140,7 +135,7 @@ void add_check(CLI::App& app) {
         bool good = true;
         bool is_score_good = true;
         for (const std::string& file : *files) {
-            if (ends_with_caseless(file, ".mid") || ends_with_caseless(file, ".midi")) {
+            if (lower_case(file).ends_with(".mid") || lower_case(file).ends_with(".midi")) {
                 is_score_good = check_midi_file(file) && is_score_good;
             } else {
                 good = check(file) && good;

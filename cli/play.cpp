@@ -1,8 +1,8 @@
 // cli/play.cpp: `sikku play`: a curve as music.
 #include "art/output_file.h"
-#include "art/text.h"
 #include "cli/command.h"
 #include "cli/music_page.h"
+#include "engine/text.h"
 #include "music/audio.h"
 #include "music/lilypond.h"
 #include "music/mapping.h"

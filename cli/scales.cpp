@@ -1,8 +1,8 @@
 // cli/scales.cpp: `sikku scales`: the scales that come along, and those in Scala files.
 #include "music/scale.h"
 
-#include "art/text.h"
 #include "cli/command.h"
+#include "engine/text.h"
 #include "music/spelling.h"
 
 #include <fmt/format.h>
@@ -24,21 +24,6 @@ std::string key_of(std::string_view text) {
 }
 
 // --- JSON -------------------------------------------------------------------------------------------------------
-
-std::string json_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char byte : text) {
-        if (byte == '"' || byte == '\\') {
-            result += '\\';
-            result += byte;
-        } else if (static_cast<unsigned char>(byte) < 0x20) {
-            result += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
-        } else {
-            result += byte;
-        }
-    }
-    return result + '"';
-}
 
 /// The shortest digits that give the number again; no -0.
 std::string number(double value) {

@@ -129,7 +129,7 @@ private:
         return known;
     }
 
-    bool is_within(double key) const { return key >= 0 && key <= 127; }
+    bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
 
     Placed look_up(std::int64_t degree, bool falling) {
         const auto raw = melody_.key(degree, falling);
@@ -144,10 +144,11 @@ private:
             case Range::fold: {
                 const double period = std::fabs(melody_.scale.period) / 100;
                 double key = *raw;
-                if (std::isfinite(key) && period > 0 && period <= 127) {
-                    key -= period * (key > 127 ? std::ceil((key - 127) / period) : -std::ceil(-key / period));
+                if (std::isfinite(key) && period > 0 && period <= melody_.highest - melody_.lowest) {
+                    key += key > melody_.highest ? -period * std::ceil((key - melody_.highest) / period)
+                                                 : period * std::ceil((melody_.lowest - key) / period);
                 }
-                return {std::clamp(key, 0.0, 127.0), true, false};
+                return {std::clamp(key, melody_.lowest, melody_.highest), true, false};
             }
             case Range::clamp:
             case Range::reflect:
@@ -161,14 +162,15 @@ private:
             if (phase < 0) phase += 2 * width;
             inside = low_ + (phase <= width ? phase : 2 * width - phase);
         }
-        return {std::clamp(melody_.key(inside, falling).value_or(60.0), 0.0, 127.0), true, false};
+        return {std::clamp(melody_.key(inside, falling).value_or(60.0), melody_.lowest, melody_.highest), true,
+                false};
     }
 
-    [[noreturn]] static void refuse(std::int64_t degree, const std::string& key) {
+    [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const {
         throw ScoreError(fmt::format(
-            "degree {} of the scale would be {}, beyond the keys 0 to 127 of MIDI: `range: fold`, another "
+            "degree {} of the scale would be {}, beyond the keys {:.0f} to {:.0f}: `range: fold`, another "
             "tonic or a smaller n helps",
-            degree, key));
+            degree, key, melody_.lowest, melody_.highest));
     }
 
     /// The degrees around the tonic whose keys are within.
@@ -207,8 +209,7 @@ public:
     struct Step {
         std::int64_t x, y;
     };
-    GridWalk(const Grammar& grammar, const Lattice& lattice, int first) : lattice_(lattice) {
-        (void)grammar;
+    GridWalk(const Grammar&, const Lattice& lattice, int first) : lattice_(lattice) {
         start.heading = static_cast<std::uint32_t>(first);
     }
     std::int64_t length(Symbol symbol) const { return lattice_.length[symbol]; }
@@ -291,6 +292,38 @@ private:
     const Lattice& lattice_;
 };
 
+[[noreturn]] void fault(std::uint64_t position, std::string_view what) {
+    throw WordError(fmt::format("symbol {} of the word: {}", position, what));
+}
+
+/// What is kept between '[' and ']'.
+template <class State>
+class Brackets {
+public:
+    void open(State state, std::uint64_t position) {
+        if (saved_.size() >= deepest) fault(position, "brackets nest deeper than 1,048,576");
+        saved_.push_back({std::move(state), position});
+    }
+    State close(std::uint64_t position) {
+        if (saved_.empty()) fault(position, "']' without '['");
+        State state = std::move(saved_.back().first);
+        saved_.pop_back();
+        return state;
+    }
+    void require_closed() const {
+        if (!saved_.empty()) fault(saved_.back().second, "this '[' is not closed");
+    }
+    std::size_t depth() const { return saved_.size(); }
+
+private:
+    std::vector<std::pair<State, std::uint64_t>> saved_;
+};
+
+/// Less with every bracket around it.
+int loudness_of_depth(std::size_t depth) {
+    return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
+}
+
 /// The y that sounds the tonic, doubled; unknown: that of the first note. The x is where the turtle starts.
 struct Origin {
     std::int64_t y = unknown;
@@ -305,6 +338,27 @@ public:
     virtual std::int64_t first_degree() const { return 0; }
 };
 
+/// What a symbol is to the reader of runs.
+enum class Part : std::uint8_t { nothing, draw, move, turn, open, close, not_finite };
+
+Part part_of(const Command& command) {
+    const bool is_finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
+    switch (command.action) {
+        case Action::draw:
+            return is_finite ? Part::draw : Part::not_finite;
+        case Action::move:
+            return is_finite ? Part::move : Part::not_finite;
+        case Action::turn:
+            return is_finite ? Part::turn : Part::not_finite;
+        case Action::push:
+            return Part::open;
+        case Action::pop:
+            return Part::close;
+        default:
+            return Part::nothing;
+    }
+}
+
 /// The runs of a curve, as notes.
 template <class Walk>
 class RunReader final : public Reader {
@@ -318,14 +372,7 @@ public:
           options_(options),
           walk_(grammar, lattice, first),
           may_stop_(!has_brackets) {
-        for (const SymbolInfo& symbol : grammar.symbols()) {
-            const Command& command = symbol.command;
-            const bool finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
-            actions_.push_back(finite || (command.action != Action::draw && command.action != Action::move &&
-                                          command.action != Action::turn)
-                                   ? command.action
-                                   : Action::width_set);
-        }
+        for (const SymbolInfo& symbol : grammar.symbols()) parts_.push_back(part_of(symbol.command));
         state_.at = walk_.start;
         state_.run.from = state_.at;
         if (melody.vertical == Vertical::voice) {
@@ -340,42 +387,33 @@ public:
         }
         for (const Symbol symbol : run.symbols) {
             ++position_;
-            switch (actions_[symbol]) {
-                case Action::draw:
+            switch (parts_[symbol]) {
+                case Part::draw:
                     draw(walk_.step(state_.at, symbol));
                     break;
-                case Action::move:
+                case Part::move:
                     move(symbol);
                     break;
-                case Action::turn:
+                case Part::turn:
                     walk_.turn(state_.at, symbol);
                     break;
-                case Action::push:
-                    push();
+                case Part::open:
+                    open();
                     break;
-                case Action::pop:
-                    pop();
+                case Part::close:
+                    close();
                     break;
-                case Action::width_set:
-                    if (!std::isfinite(grammar_.symbols()[symbol].command.value) ||
-                        !std::isfinite(grammar_.symbols()[symbol].command.angle.degrees)) {
-                        throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
-                    }
-                    break;
-                default:
+                case Part::not_finite:
+                    fault(position_, "its parameter is not finite");
+                case Part::nothing:
                     break;
             }
         }
-        if (!Walk::in_range(state_.at)) {
-            throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
-                                        position_ + 1));
-        }
+        require_in_range();
     }
 
     void finish() override {
-        if (!stack_.empty()) {
-            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().position));
-        }
+        stack_.require_closed();
         end_run();
         release_held();
         emitter_.finish(ticks(std::max(state_.time, state_.other_time)));
@@ -460,11 +498,6 @@ private:
         Number lead = 0;  // vertical steps before the first note
         bool has_sounded = false;
     };
-    struct Saved {
-        State state;
-        std::uint64_t position;
-    };
-
     std::int64_t ticks(Number steps) const {
         if constexpr (std::is_same_v<Number, double>) {
             return std::llround(std::min(Walk::ticks(steps, melody_.unit), 4e18));
@@ -499,19 +532,22 @@ private:
             draw(walk_.ahead(state_.at, length));
         }
         state_.at.heading = (state_.at.heading + block.turn) & 3;
-        if (!Walk::in_range(state_.at)) {
-            throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
-                                        position_ + 1));
-        }
+        require_in_range();
         return true;
+    }
+
+    void require_in_range() const {
+        if (Walk::in_range(state_.at)) return;
+        throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
+                                    position_ + 1));
     }
 
     void learn(Block& block, std::span<const Symbol> symbols) {
         block.is_known = true;
         for (const Symbol symbol : symbols) {
-            if (actions_[symbol] == Action::turn) {
+            if (parts_[symbol] == Part::turn) {
                 block.turn = (block.turn + walk_.quarters(symbol)) & 3;
-            } else if (actions_[symbol] == Action::draw) {
+            } else if (parts_[symbol] == Part::draw) {
                 const std::int64_t length = walk_.length(symbol);
                 const bool goes_on = block.turn == 0 && !block.runs.empty() && melody_.runs == Runs::merged &&
                                      length > 0 && block.runs.back().length > 0;
@@ -521,7 +557,7 @@ private:
                     block.runs.push_back({block.turn, length});
                 }
                 block.turn = 0;
-            } else if (actions_[symbol] != Action::pass) {
+            } else if (parts_[symbol] != Part::nothing) {
                 return;
             }
         }
@@ -676,7 +712,7 @@ private:
             case Loudness::by_turn:
                 return 80 + 18 * run.turned;
             case Loudness::by_depth:
-                return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(stack_.size(), 10)));
+                return loudness_of_depth(stack_.depth());
             case Loudness::by_length: {
                 // Long notes carry weight; a phrase of four bars swells towards its middle.
                 const double weight = 8.0 * std::min(4.0, static_cast<double>(steps));
@@ -688,32 +724,26 @@ private:
         return 80;
     }
 
-    void push() {
-        if (stack_.size() >= deepest) {
-            throw WordError(fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
+    /// The branch begins where and when the stem is, which may be within a run.
+    void open() {
+        stack_.open(state_, position_);
+        if (state_.run.is_open) {
+            const Number gone = state_.at.x - state_.run.from.x;
+            state_.time += gone < 0 ? -gone : gone;
         }
-        stack_.push_back({state_, position_});
         state_.run.is_open = false;
         state_.held.is_open = false;
         state_.line = state_.other = {};
         state_.has_sounded = false;
         state_.lead = 0;
-        if (stack_.back().state.run.is_open) {
-            // The branch begins where and when the stem is, which may be within a run.
-            const Pending& run = stack_.back().state.run;
-            const Number gone = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
-            state_.time += gone;
-        }
     }
 
-    void pop() {
-        if (stack_.empty()) throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
+    void close() {
         end_run();
         release_held();
         emitter_.release(state_.line);
         emitter_.release(state_.other);
-        state_ = stack_.back().state;
-        stack_.pop_back();
+        state_ = stack_.close(position_);
     }
 
     const Grammar& grammar_;
@@ -723,9 +753,9 @@ private:
     const PlayOptions& options_;
     Walk walk_;
     bool may_stop_;
-    std::vector<Action> actions_;
+    std::vector<Part> parts_;
     State state_;
-    std::vector<Saved> stack_;
+    Brackets<State> stack_;
     std::vector<Block> blocks_;
     std::uint64_t position_ = 0;
     Number lowest_ = 0;
@@ -755,35 +785,30 @@ public:
         for (const Symbol symbol : run.symbols) {
             ++position_;
             const Command& command = grammar_.symbols()[symbol].command;
-            if (!std::isfinite(command.value) || !std::isfinite(command.angle.degrees)) {
-                throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
-            }
-            switch (command.action) {
-                case Action::draw:
-                case Action::move: {
+            switch (const Part part = part_of(command)) {
+                case Part::draw:
+                case Part::move: {
                     const auto step = walk_.step(at_, symbol);
                     const double length = std::hypot(static_cast<double>(step.x), static_cast<double>(step.y));
                     at_.x += step.x;
                     at_.y += step.y;
                     lowest_ = std::min(lowest_, at_.y);
                     highest_ = std::max(highest_, at_.y);
-                    advance(length, command.action == Action::draw);
+                    advance(length, part == Part::draw);
                     break;
                 }
-                case Action::turn:
+                case Part::turn:
                     walk_.turn(at_, symbol);
                     break;
-                case Action::push:
-                    stack_.push_back(at_);
+                case Part::open:
+                    stack_.open(at_, position_);
                     break;
-                case Action::pop:
-                    if (stack_.empty()) {
-                        throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
-                    }
-                    at_ = stack_.back();
-                    stack_.pop_back();
+                case Part::close:
+                    at_ = stack_.close(position_);
                     break;
-                default:
+                case Part::not_finite:
+                    fault(position_, "its parameter is not finite");
+                case Part::nothing:
                     break;
             }
         }
@@ -791,6 +816,7 @@ public:
     }
 
     void finish() override {
+        stack_.require_closed();
         for (std::size_t i = 0; i < 2; ++i) end_note(i);
         emitter_.finish(ticks(time_));
     }
@@ -850,7 +876,7 @@ private:
     std::int64_t lower_;
     typename Walk::Position at_;
     glm::dvec2 here_{0.0};
-    std::vector<typename Walk::Position> stack_;
+    Brackets<typename Walk::Position> stack_;
     std::array<Voice, 2> voices_;
     double time_ = 0;
     std::uint64_t position_ = 0;
@@ -870,49 +896,39 @@ public:
             ++position_;
             const SymbolInfo& info = grammar_.symbols()[symbol];
             const Command& command = info.command;
-            switch (command.action) {
-                case Action::draw:
-                    require_finite(command.value);
+            switch (part_of(command)) {
+                case Part::draw:
                     sound(std::fabs(command.value));
                     break;
-                case Action::move:
-                    require_finite(command.value);
+                case Part::move:
                     end_note();
                     state_.time += std::fabs(command.value);
                     stop_if_done();
                     break;
-                case Action::turn:
+                case Part::turn:
                     if (info.letter == "+") ++state_.degree;
                     if (info.letter == "-") --state_.degree;
                     break;
-                case Action::push:
-                    if (stack_.size() >= deepest) {
-                        throw WordError(
-                            fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
-                    }
+                case Part::open:
                     end_note();
-                    stack_.push_back({state_, position_});
+                    stack_.open(state_, position_);
                     state_.line = {};
                     break;
-                case Action::pop:
-                    if (stack_.empty()) {
-                        throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
-                    }
+                case Part::close:
                     end_note();
                     emitter_.release(state_.line);
-                    state_ = stack_.back().first;
-                    stack_.pop_back();
+                    state_ = stack_.close(position_);
                     break;
-                default:
+                case Part::not_finite:
+                    fault(position_, "its parameter is not finite");
+                case Part::nothing:
                     break;
             }
         }
     }
 
     void finish() override {
-        if (!stack_.empty()) {
-            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().second));
-        }
+        stack_.require_closed();
         end_note();
         emitter_.finish(ticks(state_.time));
     }
@@ -926,11 +942,6 @@ private:
         Emitter::Line line;
     };
 
-    void require_finite(double value) const {
-        if (!std::isfinite(value)) {
-            throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
-        }
-    }
     std::int64_t ticks(double steps) const {
         return std::llround(std::min(steps * static_cast<double>(melody_.unit), 4e18));
     }
@@ -950,9 +961,7 @@ private:
     void end_note() {
         if (state_.sounding == unknown) return;
         const auto height = static_cast<double>(state_.sounding);
-        const int velocity = melody_.loudness == Loudness::by_depth
-                                 ? std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(stack_.size(), 10)))
-                                 : 80;
+        const int velocity = melody_.loudness == Loudness::by_depth ? loudness_of_depth(stack_.depth()) : 80;
         emitter_.note(state_.line, state_.sounding, ticks(state_.onset), ticks(state_.time), velocity,
                       {state_.onset, height}, {state_.time, height});
         state_.sounding = unknown;
@@ -968,7 +977,7 @@ private:
     const PlayOptions& options_;
     bool may_stop_;
     State state_;
-    std::vector<std::pair<State, std::uint64_t>> stack_;
+    Brackets<State> stack_;
     std::uint64_t position_ = 0;
 };
 
@@ -994,7 +1003,7 @@ class Player {
 public:
     Player(const Grammar& grammar, const Melody& melody, const PlayOptions& options)
         : grammar_(grammar), melody_(melody), options_(options), lattice_(make_lattice(grammar)) {
-        is_grid_ = is_on_grid(grammar, lattice_, first_);
+        is_grid_ = is_on_grid(lattice_, first_);
         const std::vector<char> reached = grammar.reachable();
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
             if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
@@ -1005,7 +1014,7 @@ public:
     PlayReport play(NoteSink& sink) {
         const Origin origin = find_origin();
         Emitter emitter(melody_, sink, options_);
-        const auto reader = make_reader(emitter, origin, options_);
+        const auto reader = make_reader(melody_, emitter, origin, options_);
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
         if (fold_ && options_.from > 0) {
@@ -1040,16 +1049,17 @@ private:
         return derivation;
     }
 
-    std::unique_ptr<Reader> make_reader(Emitter& emitter, Origin origin, const PlayOptions& options) const {
-        if (melody_.mapping == Mapping::symbols) {
-            return std::make_unique<SymbolReader>(grammar_, melody_, emitter, options, has_brackets_);
+    std::unique_ptr<Reader> make_reader(const Melody& melody, Emitter& emitter, Origin origin,
+                                        const PlayOptions& options) const {
+        if (melody.mapping == Mapping::symbols) {
+            return std::make_unique<SymbolReader>(grammar_, melody, emitter, options, has_brackets_);
         }
         const auto make = [&]<class Walk>() -> std::unique_ptr<Reader> {
-            if (melody_.mapping == Mapping::counterpoint) {
-                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody_, emitter,
-                                                                  origin, options);
+            if (melody.mapping == Mapping::counterpoint) {
+                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody, emitter, origin,
+                                                                  options);
             }
-            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody_, emitter, origin, options,
+            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody, emitter, origin, options,
                                                      has_brackets_);
         };
         return is_grid_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
@@ -1096,8 +1106,7 @@ private:
         silent.range = Range::clamp;
         Nobody nobody;
         Emitter emitter(silent, nobody, all);
-        const Player looking(grammar_, silent, all);
-        const auto reader = looking.make_reader(emitter, {0}, all);
+        const auto reader = make_reader(silent, emitter, {0}, all);
         derive(grammar_, *reader, derivation_options());
         switch (melody_.anchor) {
             case Anchor::lowest_note:
@@ -1119,8 +1128,7 @@ private:
         silent.range = Range::clamp;
         Nobody nobody;
         Emitter emitter(silent, nobody, beginning);
-        const Player looking(grammar_, silent, beginning);
-        const auto reader = looking.make_reader(emitter, {0}, beginning);
+        const auto reader = make_reader(silent, emitter, {0}, beginning);
         try {
             derive(grammar_, *reader, derivation_options());
         } catch (const Enough&) {

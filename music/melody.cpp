@@ -1,6 +1,7 @@
 #include "music/melody.h"
 
 #include "engine/diagnostic.h"
+#include "engine/text.h"
 #include "music/spelling.h"
 
 #include <fmt/format.h>
@@ -15,14 +16,6 @@ namespace sikku {
 namespace {
 
 constexpr double most_tempo = 1000;
-
-std::string lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& byte : result) {
-        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-    }
-    return result;
-}
 
 /// A choice among words; several words may mean the same.
 template <class Choice>
@@ -54,9 +47,7 @@ public:
         choose<Runs>("runs", melody_.runs, {{"merged", Runs::merged}, {"each step", Runs::each_step}});
         choose<Sloped>("sloped", melody_.sloped,
                        {{"project", Sloped::project}, {"skip", Sloped::skip}, {"refuse", Sloped::refuse}});
-        choose<Range>(
-            "range", melody_.range,
-            {{"fold", Range::fold}, {"reflect", Range::reflect}, {"clamp", Range::clamp}, {"refuse", Range::refuse}});
+        read_range();
         choose<Loudness>("velocity", melody_.loudness,
                          {{"fixed", Loudness::fixed},
                           {"by turn", Loudness::by_turn},
@@ -73,8 +64,13 @@ private:
     template <class Choice>
     void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices) {
         const Key* key = pattern_.find(name);
-        if (!key) return;
-        std::string wanted = lower_case(key->value.view());
+        if (key) choose(name, key->value.view(), chosen, choices);
+    }
+
+    template <class Choice>
+    void choose(std::string_view name, std::string_view text, Choice& chosen, const Choices<Choice>& choices) {
+        const Key* key = pattern_.find(name);
+        std::string wanted = lower_case(text);
         std::replace(wanted.begin(), wanted.end(), '-', ' ');
         std::vector<std::string_view> words;
         std::string list;
@@ -170,6 +166,29 @@ private:
         below = 1;
         return whole(text.substr(0, slash), above) &&
                (slash == std::string_view::npos || whole(text.substr(slash + 1), below));
+    }
+
+    /// `fold`, or `fold C2-C7`.
+    void read_range() {
+        const Key* key = pattern_.find("range");
+        if (!key) return;
+        const std::string_view text = key->value.view();
+        const std::size_t blank = text.find(' ');
+        choose<Range>(
+            "range", text.substr(0, blank), melody_.range,
+            {{"fold", Range::fold}, {"reflect", Range::reflect}, {"clamp", Range::clamp}, {"refuse", Range::refuse}});
+        if (blank == std::string_view::npos) return;
+        const std::string_view keys = text.substr(text.find_first_not_of(' ', blank));
+        // A dash may belong to an octave: C-1-C7.
+        for (std::size_t dash = keys.find('-'); dash != std::string_view::npos; dash = keys.find('-', dash + 1)) {
+            const auto low = parse_note(keys.substr(0, dash));
+            const auto high = parse_note(keys.substr(dash + 1));
+            if (!low || !high || low->key < 0 || high->key > 127 || low->key > high->key) continue;
+            melody_.lowest = low->key;
+            melody_.highest = high->key;
+            return;
+        }
+        diagnostics_.error(key->value, "expected the lowest and the highest note, such as `fold C2-C7`");
     }
 
     void read_unit() {

@@ -31,8 +31,8 @@ enum class Runs { merged, each_step };
 /// What a run is that is neither horizontal nor vertical: a note as long as it is wide, at the height of its middle;
 /// nothing; a mistake.
 enum class Sloped { project, skip, refuse };
-/// What becomes of a note beyond the keys 0 to 127: moved by whole periods; mirrored at the last degree within;
-/// that degree; a mistake.
+/// What becomes of a note beyond the lowest and the highest key: moved by whole periods; mirrored at the last degree
+/// within; that degree; a mistake.
 enum class Range { fold, reflect, clamp, refuse };
 /// What decides how loud a note is.
 enum class Loudness { fixed, by_turn, by_depth, by_length };
@@ -50,6 +50,8 @@ struct Melody {
     Runs runs = Runs::merged;
     Sloped sloped = Sloped::project;
     Range range = Range::fold;
+    double lowest = 0.0;     ///< MIDI keys between which `range` keeps the melody
+    double highest = 127.0;  ///< not below `lowest`
     Loudness loudness = Loudness::fixed;
     double tempo = 120.0;  ///< quarters a minute
     Meter meter;

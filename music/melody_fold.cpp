@@ -78,19 +78,18 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
 
 }  // namespace
 
-bool is_on_grid(const Grammar& grammar, const Lattice& lattice, int& first_direction) {
+bool is_on_grid(const Lattice& lattice, int& first_direction) {
     if (lattice.headings != 4 || lattice.rank != 2 || lattice.unit != 1.0) return false;
     const double quarters = lattice.first_heading / 90.0;
     if (quarters != std::floor(quarters)) return false;
     first_direction = (static_cast<int>(quarters) % 4 + 4) % 4;
-    (void)grammar;
     return true;
 }
 
 std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar) {
     const Lattice lattice = make_lattice(grammar);
     MelodyFold fold;
-    if (grammar.whole_word_steps() > 0 || !is_on_grid(grammar, lattice, fold.first_direction_)) return std::nullopt;
+    if (grammar.whole_word_steps() > 0 || !is_on_grid(lattice, fold.first_direction_)) return std::nullopt;
     const std::vector<char> needed = grammar.reachable();
     std::size_t levels = 1 + (grammar.interpretation() ? 1 : 0);
     for (const ScheduleRun& run : grammar.schedule()) levels += static_cast<std::size_t>(run.steps);

@@ -54,8 +54,8 @@ private:
     int first_direction_ = 0;
 };
 
-/// True if the turtle of `grammar` walks on the square grid in whole steps along its axes, brackets or not;
+/// True if the turtle of this lattice walks on the square grid in whole steps along its axes, brackets or not;
 /// `first_direction` is then its first heading in quarter turns from the x axis.
-bool is_on_grid(const Grammar& grammar, const Lattice& lattice, int& first_direction);
+bool is_on_grid(const Lattice& lattice, int& first_direction);
 
 }  // namespace sikku

@@ -1,6 +1,6 @@
 #include "music/musicxml.h"
 
-#include "engine/diagnostic.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -17,48 +17,6 @@ namespace {
 
 constexpr std::size_t flush_bytes = std::size_t{1} << 16;
 constexpr int voices_per_staff = 4;
-
-/// Bytes of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
-std::size_t xml_character(std::string_view text) {
-    const auto byte = static_cast<unsigned char>(text.front());
-    if (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') return 0;
-    // U+FFFE and U+FFFF are no characters.
-    if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
-    return utf8_length(text);
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    result.reserve(text.size());
-    while (!text.empty()) {
-        const std::size_t length = xml_character(text);
-        if (length == 0) {
-            result += "\xEF\xBF\xBD";
-        } else {
-            switch (text.front()) {
-                case '&':
-                    result += "&amp;";
-                    break;
-                case '<':
-                    result += "&lt;";
-                    break;
-                case '>':
-                    result += "&gt;";
-                    break;
-                case '"':
-                    result += "&quot;";
-                    break;
-                case '\r':
-                    result += "&#13;";
-                    break;  // readers make a line feed of a bare one
-                default:
-                    result += text.substr(0, length);
-            }
-        }
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return result;
-}
 
 std::string_view type_name(int divisor) {
     switch (divisor) {
@@ -114,16 +72,16 @@ private:
             "<!DOCTYPE score-partwise PUBLIC \"-//Recordare//DTD MusicXML 4.0 Partwise//EN\" "
             "\"http://www.musicxml.org/dtds/partwise.dtd\">\n"
             "<score-partwise version=\"4.0\">\n");
-        if (!head_.title.empty()) put("<work><work-title>{}</work-title></work>\n", escaped(head_.title));
+        if (!head_.title.empty()) put("<work><work-title>{}</work-title></work>\n", xml_escaped(head_.title));
         put("<identification>\n");
-        if (!head_.composer.empty()) put("<creator type=\"composer\">{}</creator>\n", escaped(head_.composer));
+        if (!head_.composer.empty()) put("<creator type=\"composer\">{}</creator>\n", xml_escaped(head_.composer));
         const std::string software = head_.made.substr(0, head_.made.find(','));
         put("<encoding><software>{}</software>"
             "<supports element=\"accidental\" type=\"yes\"/><supports element=\"beam\" type=\"no\"/></encoding>\n",
-            escaped(software.empty() ? "sikku" : software));
+            xml_escaped(software.empty() ? "sikku" : software));
         put("<miscellaneous>\n");
-        put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", escaped(head_.made));
-        put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", escaped(head_.pattern));
+        put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", xml_escaped(head_.made));
+        put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", xml_escaped(head_.pattern));
         put("</miscellaneous>\n</identification>\n<part-list>\n");
         for (std::size_t i = 0; i < head_.parts.size(); ++i) {
             const Part& part = head_.parts[i];
@@ -133,7 +91,7 @@ private:
                 "<score-instrument id=\"P{0}-I1\"><instrument-name>{1}</instrument-name></score-instrument>"
                 "<midi-instrument id=\"P{0}-I1\"><midi-channel>{2}</midi-channel>"
                 "<midi-program>{3}</midi-program></midi-instrument></score-part>\n",
-                i + 1, escaped(part.name), channel, part.program + 1);
+                i + 1, xml_escaped(part.name), channel, part.program + 1);
         }
         put("</part-list>\n");
     }

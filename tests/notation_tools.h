@@ -1,9 +1,9 @@
-// tests/notation_tools.h: what the tests of printed scores share: random melodies, memory to write to, other
-// people's programs.
+// tests/notation_tools.h: what the tests of printed scores share: random melodies, memory to write to.
 #pragma once
 
 #include "music/notation.h"
 #include "music/spelling.h"
+#include "tests/tools.h"
 
 #include <algorithm>
 #include <array>
@@ -141,27 +141,6 @@ inline TestScore random_score(unsigned seed, bool quarter_tones) {
         }
     }
     return score;
-}
-
-inline bool has_program(const std::string& name) {
-    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-/// Standard output and error of a command, and whether it succeeded.
-struct ToolOutcome {
-    bool ok = false;
-    std::string text;
-};
-inline ToolOutcome run_tool(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return {};
-    ToolOutcome outcome;
-    std::array<char, 4096> block{};
-    while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
-        outcome.text.append(block.data(), count);
-    }
-    outcome.ok = ::pclose(pipe) == 0;
-    return outcome;
 }
 
 }  // namespace sikku

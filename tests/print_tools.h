@@ -4,10 +4,10 @@
 #include "art/output_file.h"
 #include "art/print.h"
 #include "tests/files.h"
+#include "tests/tools.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,27 +16,6 @@
 #include <vector>
 
 namespace sikku {
-
-inline bool has_program(const std::string& name) {
-    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-/// Standard output and error of a command, and whether it succeeded.
-struct ToolOutcome {
-    bool ok = false;
-    std::string text;
-};
-inline ToolOutcome run(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return {};
-    ToolOutcome outcome;
-    std::array<char, 4096> block{};
-    while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
-        outcome.text.append(block.data(), count);
-    }
-    outcome.ok = ::pclose(pipe) == 0;
-    return outcome;
-}
 
 /// A picture as pdftoppm writes it.
 struct Pixels {
