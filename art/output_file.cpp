@@ -217,6 +217,11 @@ void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
     if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
 }
 
+const std::filesystem::path& OutputFile::temporary() {
+    flush();
+    return temporary_;
+}
+
 void OutputFile::commit() {
     flush();
     // By name: a library may have made the file anew.

@@ -30,8 +30,9 @@ public:
     void insert(std::uint64_t position, std::string_view bytes);
     /// Replaces bytes that were written, where insert() may be used.
     void overwrite(std::uint64_t position, std::string_view bytes);
-    /// The temporary file, for a library that opens files by itself. Do not mix with write().
-    const std::filesystem::path& temporary() const { return temporary_; }
+    /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
+    /// not write() after that.
+    const std::filesystem::path& temporary();
     /// Flushes and renames. To be called once, last.
     void commit();
 

@@ -48,6 +48,10 @@ std::vector<std::uint8_t> read_bytes(const std::string& file) {
 
 }  // namespace
 
+MidiFile read_midi_file(const std::string& file) {
+    return read_midi(read_bytes(file));
+}
+
 bool check_midi_file(const std::string& file) {
     const auto faults = check_midi(read_bytes(file));
     for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);

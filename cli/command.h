@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/grammar.h"
+#include "music/midi_check.h"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,9 @@ double expected_symbols(const Grammar& grammar, bool interpreted);
 
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();
+
+/// @throws UsageError if the file cannot be read
+MidiFile read_midi_file(const std::string& file);
 
 /// `sikku check` of a MIDI file: prints its faults; true if there is none.
 bool check_midi_file(const std::string& file);

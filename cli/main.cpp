@@ -25,12 +25,21 @@ extern "C" void note_signal(int) {
     signal_seen = 1;
 }
 
+/// Whoever read what is told has gone: the program ends, as usual, but leaves nothing behind.
+extern "C" void pipe_signal(int) {
+    sikku::remove_unfinished_files();
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+}
+
 void catch_signals() {
     struct sigaction action = {};
     action.sa_handler = note_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     sigaction(SIGHUP, &action, nullptr);
+    action.sa_handler = pipe_signal;
+    sigaction(SIGPIPE, &action, nullptr);
     // A file that grows over the limit of the shell is an error like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -163,6 +163,7 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
     std::string text = fmt::format("{} {}, {} quarters a minute, {}/{}", melody.notes.size(),
                                    melody.notes.size() == 1 ? "note" : "notes", number(head.tempo, 2),
                                    head.meter.beats, head.meter.unit);
+    for (const Part& part : head.parts) text += fmt::format(" · {}, {}", part.name, part.scale);
     return head.composer.empty() ? text : fmt::format("{} · {}", shortened(head.composer, 90), text);
 }
 

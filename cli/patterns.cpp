@@ -4,6 +4,8 @@
 #include "art/svg.h"
 #include "cli/command.h"
 #include "engine/text.h"
+#include "music/midi_check.h"
+#include "music/scale.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string_view>
 
@@ -50,6 +53,15 @@ bool is_picture(const std::string& name) {
                        [&](std::string_view ending) { return lower_case(name).ends_with(ending); });
 }
 
+/// Also a MIDI file of another name.
+bool begins_as_midi(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;
+    std::array<char, 4> head{};
+    std::ifstream stream(file, std::ios::binary);
+    return stream.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == "MThd";
+}
+
 void show(const std::string& what, bool quiet) {
     Provenance found;
     const bool is_print =
@@ -70,6 +82,10 @@ void show(const std::string& what, bool quiet) {
         if (!text) throw std::runtime_error(what + ": this cannot be read as an image");
         if (text->description.empty()) throw std::runtime_error(what + ": this image holds no pattern");
         found = {text->description, text->software};
+    } else if (begins_as_midi(what)) {
+        const MidiFile score = read_midi_file(what);
+        if (score.pattern.empty()) throw std::runtime_error(what + ": this MIDI file holds no pattern");
+        found = {score.pattern, score.made};
     } else {
         PatternText text = read_pattern_text(what);
         if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
@@ -80,6 +96,20 @@ void show(const std::string& what, bool quiet) {
     }
     std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
     if (!found.made.empty() && !quiet) tell("made with {}\n", found.made);
+}
+
+/// True if the file is without mistakes.
+bool check_scale_file(const std::string& file) {
+    const PatternText text = read_pattern_text(file);
+    const Source source(text.name, text.text);
+    Diagnostics diagnostics;
+    if (lower_case(file).ends_with(".scl")) {
+        read_scl(source, diagnostics);
+    } else {
+        read_kbm(source, diagnostics);
+    }
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());
+    return !diagnostics.has_errors();
 }
 
 /// True if the file is without mistakes.
@@ -116,7 +146,9 @@ void add_patterns(CLI::App& app) {
 void add_show(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("show", "Print the text of a pattern, also of one that a print was made from");
     auto what = std::make_shared<std::string>();
-    command->add_option("PATTERN", *what, "A name, a pattern file, -, or a print: SVG, PDF, PNG, TIFF, JPEG, EXR")
+    command
+        ->add_option("PATTERN", *what,
+                     "A name, a pattern file, -, a print (SVG, PDF, PNG, TIFF, JPEG, EXR) or a MIDI file")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });
@@ -124,9 +156,9 @@ void add_show(CLI::App& app, bool& quiet) {
 
 void add_check(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "check", "Tell every mistake of pattern files, and every fault of MIDI files, with its place");
+        "check", "Tell every mistake of pattern, .scl and .kbm files, and every fault of MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
-    command->add_option("FILE", *files, "Pattern files, names, -, or MIDI files")->required();
+    command->add_option("FILE", *files, "Pattern files, names, -, scales, key maps, or MIDI files")->required();
     command->footer(
         "Says nothing and exits with 0 if there is none, with 2 else, with 1 for MIDI files.\n\nExamples:\n  sikku "
         "check my.lsys "
@@ -135,7 +167,10 @@ void add_check(CLI::App& app) {
         bool good = true;
         bool is_score_good = true;
         for (const std::string& file : *files) {
-            if (lower_case(file).ends_with(".mid") || lower_case(file).ends_with(".midi")) {
+            const std::string name = lower_case(file);
+            if (name.ends_with(".scl") || name.ends_with(".kbm")) {
+                good = check_scale_file(file) && good;
+            } else if (name.ends_with(".mid") || name.ends_with(".midi") || begins_as_midi(file)) {
                 is_score_good = check_midi_file(file) && is_score_good;
             } else {
                 good = check(file) && good;

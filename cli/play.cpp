@@ -20,6 +20,7 @@
 #include <fstream>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 namespace sikku {
 namespace {
@@ -30,7 +31,7 @@ struct Options {
     PatternOptions pattern;
     std::vector<std::string> patterns;
     std::string output;
-    std::vector<std::string> keys = std::vector<std::string>(melody_keys().size());
+    std::vector<std::optional<std::string>> keys = std::vector<std::optional<std::string>>(melody_keys().size());
     std::int64_t from_bar = 1;
     std::int64_t bars = 0;
     double seconds = 0;
@@ -91,13 +92,16 @@ private:
 class Humaniser : public NoteSink {
 public:
     /// @param amount  0 to 1: of 60 ticks and of 24 steps of velocity
-    Humaniser(NoteSink& sink, double amount, std::uint64_t seed) : sink_(sink), amount_(amount), seed_(seed) {}
+    /// @param from    ticks before the first: a piece from the middle sounds as it does in the whole, but for notes
+    ///                that its edges cut
+    Humaniser(NoteSink& sink, double amount, std::uint64_t seed, std::int64_t from)
+        : sink_(sink), amount_(amount), seed_(seed), from_(from) {}
     void notes(std::span<const Note> notes) override {
         changed_.assign(notes.begin(), notes.end());
         for (Note& note : changed_) {
-            // From the note's place alone: a piece from the middle sounds as it does in the whole.
-            const std::uint64_t chance = scrambled(seed_ ^ scrambled(static_cast<std::uint64_t>(note.onset) * 16 +
-                                                                     static_cast<std::uint64_t>(note.voice)));
+            const std::uint64_t chance =
+                scrambled(seed_ ^ scrambled(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
+                                            static_cast<std::uint64_t>(note.voice)));
             const double late = static_cast<double>(chance >> 40) / 0x1p24;
             const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
             const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
@@ -121,6 +125,7 @@ private:
     NoteSink& sink_;
     double amount_;
     std::uint64_t seed_;
+    std::int64_t from_;
     std::vector<Note> changed_;
 };
 
@@ -157,34 +162,49 @@ private:
     std::string waiting_;
 };
 
-std::string read_file_near(const std::filesystem::path& folder, const std::string& name) {
+/// @param first, then  folders where it is looked for
+std::string read_small_file(const std::filesystem::path& first, const std::filesystem::path& then,
+                            const std::string& name) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 20;
     std::error_code error;
-    std::filesystem::path path = folder / name;
-    if (!std::filesystem::is_regular_file(path, error)) path = name;
+    const bool is_there = std::filesystem::exists(first / name, error);
+    const std::filesystem::path path = (is_there ? first : then) / name;
     std::ifstream stream(path, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    if (!stream || text.empty()) throw std::runtime_error(fmt::format("{}: this file cannot be read", name));
-    if (text.size() > (std::size_t{1} << 20)) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
+    std::string text(most_bytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (!stream.eof() && text.size() <= most_bytes) {
+        throw std::runtime_error(fmt::format("{}: this file cannot be read", name));
+    }
+    if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
+    if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
     return text;
 }
 
 Player load_player(const Options& options, const std::string& name, bool quiet) {
     PatternOptions one = options.pattern;
     one.pattern = name;
+    std::vector<std::string> given;
     const auto keys = melody_keys();
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (!options.keys[i].empty()) {
-            one.more.push_back({"--" + std::string(keys[i]), std::string(keys[i]), options.keys[i]});
-        }
+        if (!options.keys[i]) continue;
+        one.more.push_back({"--" + std::string(keys[i]), std::string(keys[i]), *options.keys[i]});
+        given.push_back(*options.keys[i]);
     }
     Player player{load(one, quiet), {}, 0};
     Diagnostics diagnostics;
-    const std::filesystem::path folder =
-        name == "-" ? std::filesystem::path() : std::filesystem::path(name).parent_path();
+    const std::filesystem::path here;
+    const std::filesystem::path beside = name == "-" ? here : std::filesystem::path(name).parent_path();
     player.melody = read_melody(
-        player.loaded.pattern, [&](const std::string& file) { return read_file_near(folder, file); }, diagnostics);
+        player.loaded.pattern,
+        [&](const std::string& file) {
+            // What the pattern names lies beside it, what the command line names is seen from here.
+            const bool is_option = std::find(given.begin(), given.end(), file) != given.end();
+            return is_option ? read_small_file(here, beside, file) : read_small_file(beside, here, file);
+        },
+        diagnostics);
     diagnostics.throw_if_errors();
-    player.melody.transpose = options.transpose;
+    transpose(player.melody, options.transpose);
     return player;
 }
 
@@ -194,12 +214,13 @@ std::string made_with(const Options& options, const std::vector<Player>& players
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
     const auto keys = melody_keys();
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (!options.keys[i].empty()) text += fmt::format(" --{} '{}'", keys[i], options.keys[i]);
+        if (options.keys[i]) text += fmt::format(" --{} '{}'", keys[i], *options.keys[i]);
     }
     if (options.from_bar != 1) text += fmt::format(" --from-bar {}", options.from_bar);
     if (options.bars != 0) text += fmt::format(" --bars {}", options.bars);
     if (options.seconds != 0) text += fmt::format(" --seconds {}", options.seconds);
     if (options.transpose != 0) text += fmt::format(" --transpose {}", options.transpose);
+    if (options.tuning != "bend") text += " --tuning " + options.tuning;
     if (options.humanise != 0) text += fmt::format(" --humanise {} --seed {}", options.humanise, options.seed);
     return text;
 }
@@ -239,6 +260,11 @@ int voices_of(const Player& player, const PlayOptions& playing) {
     return std::max(1, play(player.loaded.grammar, melody, nobody, playing).voices);
 }
 
+std::string scale_of(const Melody& melody) {
+    const auto spelling = spell(melody.scale, melody.tonic_spelling);
+    return fmt::format("{} from {}", melody.scale.title, note_name(melody.tonic + melody.transpose, spelling));
+}
+
 ScoreHead head_of(const Options& options, std::vector<Player>& players, const PlayOptions& playing) {
     ScoreHead head;
     const Melody& first = players.front().melody;
@@ -256,6 +282,7 @@ ScoreHead head_of(const Options& options, std::vector<Player>& players, const Pl
         head.pattern += pattern.source->text();
         Part part;
         part.name = instrument_names()[static_cast<std::size_t>(melody.program)];
+        part.scale = scale_of(melody);
         part.program = melody.program;
         part.key = key_signature(melody.scale, melody.tonic_spelling);
         part.spelling = spell(melody.scale, melody.tonic_spelling);
@@ -280,62 +307,127 @@ std::string time_text(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// What the fold knows, without a note being played.
-void tell_census(const std::vector<Player>& players) {
+std::string counted(const Integer& count, std::string_view what) {
+    return fmt::format("{} {}{}", count.str(), what, count == 1 ? "" : "s");
+}
+
+Integer bars_of(const Integer& ticks, const Meter& meter) {
+    return (ticks + meter.bar() - 1) / meter.bar();
+}
+
+std::string time_of(const Integer& ticks, double tempo) {
+    return time_text(ticks.convert_to<double>() / static_cast<double>(ticks_per_quarter) * 60 / tempo);
+}
+
+std::string range_of(const PlayReport& report, const Melody& melody) {
+    const auto spelling = spell(melody.scale, melody.tonic_spelling);
+    return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
+}
+
+/// What there is to know before a score is written: by playing to nobody, or, of what is too long for that, by the
+/// fold.
+void describe(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
+    PlayOptions playing = piece;
+    playing.budget = std::min(piece.budget, 20e6);
     for (const Player& player : players) {
-        const auto known = census(player.loaded.grammar, player.melody);
+        const Melody& melody = player.melody;
         const std::string title = player.loaded.pattern.text("title");
-        fmt::print("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), player.loaded.grammar.steps());
-        if (!known) {
-            fmt::print("Only playing tells how many notes there are.\n");
-            continue;
+        const auto known = is_whole ? census(player.loaded.grammar, melody) : std::nullopt;
+        std::optional<PlayReport> played;
+        try {
+            Nobody nobody;
+            played = play(player.loaded.grammar, melody, nobody, playing);
+        } catch (const BudgetError&) {
+            if (!known) throw;
         }
-        const double ticks = known->ticks.convert_to<double>();
-        const Integer bars = (known->ticks + player.melody.meter.bar() - 1) / player.melody.meter.bar();
-        fmt::print("notes     {}\nbars      {}\ntime      {}\nheight    {} degrees\n", known->notes.str(), bars.str(),
-                   time_text(ticks / static_cast<double>(ticks_per_quarter) * 60 / player.melody.tempo),
-                   known->height.str());
+        fmt::print("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), player.loaded.grammar.steps());
+        const Integer notes = played ? Integer(played->notes) : known->notes;
+        const Integer ticks = played ? Integer(played->end) : known->ticks;
+        fmt::print("scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
+                   bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
+        if (played && played->notes > 0) fmt::print("range     {}\n", range_of(*played, melody));
+        if (known) fmt::print("height    {}\n", counted(known->height, "degree"));
     }
 }
 
-/// Plays all parts into `sink`; tells on standard error what became of them.
-void play_all(const std::vector<Player>& players, const PlayOptions& playing, NoteSink& sink, bool quiet) {
-    std::int64_t end = 0;
+/// Plays all parts into `sink`.
+PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playing, NoteSink& sink) {
     PlayReport all;
+    all.past = true;
     for (const Player& player : players) {
         PartSink part(sink, player.first_voice);
         const PlayReport report = play(player.loaded.grammar, player.melody, part, playing);
-        if (report.notes == 0) {
-            const bool is_runs = player.melody.mapping == Mapping::runs;
-            throw ScoreError(fmt::format("there is no note{}{}",
-                                         playing.from > 0 || playing.to < INT64_MAX ? " in this piece" : "",
-                                         is_runs ? ": the curve has no horizontal run there. `--vertical voice` or "
-                                                   "`glissando`, another `--set heading=…`, `--sloped project` or "
-                                                   "`--mapping symbols` finds some"
-                                                 : ""));
-        }
         all.notes += report.notes;
         all.moved += report.moved;
         all.lost += report.lost;
         all.lowest = std::min(all.lowest, report.lowest);
         all.highest = std::max(all.highest, report.highest);
-        end = std::max(end, report.end);
+        all.end = std::max(all.end, report.end);
+        all.past = all.past && report.past;
     }
-    sink.finish(end);
-    if (quiet) return;
+    if (all.notes > 0) {
+        sink.finish(all.end);
+        return all;
+    }
+    if (playing.from > 0 && all.past) {
+        throw ScoreError(
+            "there is no note in this piece: the music ends before it begins; without -o its bars are told");
+    }
+    std::string why;
+    const Melody& melody = players.front().melody;
+    if (all.lost > 0) {
+        why = ": every note is shorter than a tick, or has no key in the key map";
+    } else if (melody.mapping == Mapping::runs) {
+        why = ": the curve has no horizontal run there";
+        if (melody.vertical != Vertical::voice) {
+            why += "; `--vertical voice`, `--set heading=…` or `--mapping symbols` may find some";
+        }
+    }
+    throw ScoreError(
+        fmt::format("there is no note{}{}", playing.from > 0 || playing.to < INT64_MAX ? " in this piece" : "", why));
+}
+
+/// What became of the notes, on standard error.
+void tell_of(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report) {
     const Melody& first = players.front().melody;
-    const auto spelling = spell(first.scale, first.tonic_spelling);
-    const double seconds = static_cast<double>(end) / static_cast<double>(ticks_per_quarter) * 60 / first.tempo;
-    tell("{} notes, {} bars, {}, {} to {}\n", all.notes, (end + first.meter.bar() - 1) / first.meter.bar(),
-         time_text(seconds), note_name(all.lowest, spelling), note_name(all.highest, spelling));
-    if (all.moved > 0) {
-        tell("sikku: warning: {} notes were beyond the keys of MIDI and were {}\n", all.moved,
-             first.range == Range::fold      ? "folded back by octaves"
+    tell("{}, {}, {}, {}\n", counted(report.notes, "note"), counted(bars_of(report.end, first.meter), "bar"),
+         time_of(report.end, first.tempo), range_of(report, first));
+    if (report.moved > 0) {
+        const auto spelling = spell(first.scale, first.tonic_spelling);
+        tell("sikku: warning: {} beyond {} to {} and {}{}\n",
+             report.moved == 1 ? "1 note was" : counted(report.moved, "note") + " were",
+             note_name(first.lowest, spelling), note_name(first.highest, spelling),
+             first.range == Range::fold      ? "folded back"
              : first.range == Range::reflect ? "reflected"
-                                             : "held at the last key");
+                                             : "held at the last key",
+             playing.from > 0 && first.anchor != Anchor::piece
+                 ? "; `--anchor piece` lets the piece begin with the tonic"
+                 : "");
     }
-    if (all.lost > 0)
-        tell("sikku: warning: {} notes are too short for a tick, or have no key, and are left out\n", all.lost);
+    if (report.lost > 0) {
+        tell("sikku: warning: {} too short for a tick, or without a key, left out\n", counted(report.lost, "note"));
+    }
+    for (const Player& player : players) {
+        const std::string name = printable(player.loaded.pattern.text("title"));
+        const Melody& melody = player.melody;
+        if (melody.tempo != first.tempo || melody.meter.beats != first.meter.beats ||
+            melody.meter.unit != first.meter.unit) {
+            tell("sikku: warning: {} keeps to the tempo and meter of the first pattern\n", name);
+        }
+    }
+}
+
+void tell_of(const Notation& notation) {
+    if (notation.moved > 0) {
+        tell(
+            "sikku: warning: {} not begin or end at a 64th and are written at the nearest; `--unit 1/8` or another "
+            "power of two keeps the rhythm\n",
+            notation.moved == 1 ? "1 note does" : counted(notation.moved, "note") + " do");
+    }
+    if (notation.bent > 0) {
+        tell("sikku: warning: {} written as the nearest quarter tone; .mid, .wav and .html keep the pitch\n",
+             notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are");
+    }
 }
 
 void run(const Options& options, bool quiet) {
@@ -351,13 +443,20 @@ void run(const Options& options, bool quiet) {
     if (!(options.humanise >= 0 && options.humanise <= 1)) throw UsageError("--humanise: expected 0 to 1");
     std::vector<Player> players;
     for (const std::string& name : options.patterns) players.push_back(load_player(options, name, quiet));
-    if (!known_format) return tell_census(players);
-    const ScoreFormat format = *known_format;
 
     PlayOptions playing = piece_of(options, players.front().melody);
     playing.budget = options.budget;
     Progress progress(0, quiet);
     playing.watch = progress.watch();
+    if (!known_format) {
+        return describe(players, playing, options.from_bar == 1 && options.bars == 0 && options.seconds == 0);
+    }
+    const ScoreFormat format = *known_format;
+    for (Player& player : players) {
+        // The lowest octave of MIDI is below what MusicXML can tell.
+        if (format == ScoreFormat::musicxml)
+            player.melody.lowest = std::max(player.melody.lowest, lowest_in_musicxml);
+    }
     MidiOptions midi;
     midi.format = options.format;
     midi.tuning = options.tuning == "mts" ? Tuning::mts : Tuning::bend;
@@ -377,9 +476,12 @@ void run(const Options& options, bool quiet) {
 
     OutputFile output(options.output);
     FileBytes bytes(output);
+    PlayReport report;
+    std::optional<Notation> notation;
+    bool is_silent = false;
     const auto play_into = [&](NoteSink& sink) {
-        Humaniser human(sink, options.humanise, options.seed);
-        play_all(players, playing, options.humanise > 0 ? static_cast<NoteSink&>(human) : sink, quiet);
+        Humaniser human(sink, options.humanise, options.seed, playing.from);
+        report = play_all(players, playing, options.humanise > 0 ? static_cast<NoteSink&>(human) : sink);
     };
     switch (format) {
         case ScoreFormat::midi: {
@@ -391,10 +493,11 @@ void run(const Options& options, bool quiet) {
         case ScoreFormat::lilypond: {
             Notator notator(head);
             play_into(notator);
+            notation = notator.notation();
             if (format == ScoreFormat::musicxml) {
-                write_musicxml(notator.notation(), head, bytes);
+                write_musicxml(*notation, head, bytes);
             } else {
-                write_lilypond(notator.notation(), head, bytes);
+                write_lilypond(*notation, head, bytes);
             }
             break;
         }
@@ -413,33 +516,33 @@ void run(const Options& options, bool quiet) {
         case ScoreFormat::flac: {
             if (!output.can_insert())
                 throw UsageError(fmt::format("-o {}: sound goes to a file only", options.output));
-            const std::filesystem::path beside = output.temporary().string() + ".mid";
-            {
-                OutputFile file(beside);
-                FileBytes midi_bytes(file);
-                const auto writer = write_midi(head, midi_bytes, midi);
-                play_into(*writer);
-                file.commit();
+            OutputFile score(output.temporary().string() + ".mid");  // never to be seen
+            FileBytes score_bytes(score);
+            const auto writer = write_midi(head, score_bytes, midi);
+            play_into(*writer);
+            const double seconds =
+                static_cast<double>(report.end) / static_cast<double>(ticks_per_quarter) * 60 / head.tempo;
+            if (seconds > most_audio_seconds) {
+                throw ScoreError(fmt::format(
+                    "{} of sound are too long: a WAV file holds 6 hours 45 minutes; `--seconds` plays a piece",
+                    time_text(seconds)));
             }
-            const auto remove = [&] {
-                std::error_code error;
-                std::filesystem::remove(beside, error);
-            };
-            try {
-                render_audio(beside, output.temporary(),
-                             format == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac, [](double) {
-                                 if (interrupted()) throw Interrupted();
-                             });
-            } catch (...) {
-                remove();
-                throw;
-            }
-            remove();
+            is_silent = render_audio(score.temporary(), output.temporary(),
+                                     format == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac, [](double) {
+                                         if (interrupted()) throw Interrupted();
+                                     }) == 0;
             break;
         }
     }
     bytes.finish();
     output.commit();
+    if (quiet) return;
+    tell_of(players, playing, report);
+    if (notation) tell_of(*notation);
+    if (is_silent) {
+        tell(
+            "sikku: warning: nothing is to be heard: the soundfont has no sound for these keys of this instrument\n");
+    }
 }
 
 }  // namespace
@@ -453,18 +556,19 @@ void add_play(CLI::App& app, bool& quiet) {
         ->required();
     add_override_options(*command, options->pattern);
     command->add_option("-o,--output", options->output,
-                        "The file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, the number of notes "
-                        "and the time are told");
+                        "The file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, notes, time and "
+                        "range are told");
     static const std::map<std::string_view, const char*> help = {
         {"scale", "A scale by name (`sikku scales` lists them), or a .scl file"},
         {"keyboard", "A Scala key map, .kbm"},
         {"tonic", "The note of degree 0: C4, F#3, Bb, or a frequency"},
-        {"anchor", "Which y sounds the tonic: first note, lowest note, lowest vertex, centre"},
-        {"unit", "The length of a step: 1/16 to 1/1"},
+        {"anchor",
+         "Which y sounds the tonic: first note, piece (its first note), lowest note, lowest vertex, centre"},
+        {"unit", "The length of a step, such as 1/16 or 1/8"},
         {"vertical", "Vertical runs: ignore, rest, extend, glissando, voice"},
         {"runs", "merged, or each step"},
         {"sloped", "Runs that slope: project, skip, refuse"},
-        {"range", "Notes beyond the keys of MIDI: fold, reflect, clamp, refuse"},
+        {"range", "Notes beyond the keys of MIDI, or of your own: fold, reflect, clamp, refuse; `fold C2-C7`"},
         {"tempo", "Quarter notes a minute"},
         {"meter", "Such as 4/4"},
         {"velocity", "fixed, by turn, by depth, by length"},
@@ -494,7 +598,7 @@ void add_play(CLI::App& app, bool& quiet) {
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"
-        "  sikku play hilbert -n 40 --from-bar 1000000000 --bars 16 -o piece.musicxml");
+        "  sikku play hilbert -n 40 --anchor piece --from-bar 1000000000 --bars 16 -o piece.musicxml");
     command->callback([options, &quiet] { run(*options, quiet); });
 }
 

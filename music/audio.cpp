@@ -753,7 +753,7 @@ std::filesystem::path find_soundfont() {
         fmt::format("sound needs a soundfont, and none was found: set SIKKU_SOUNDFONT to one, or {}", advice));
 }
 
-void render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
+double render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
                   const AudioWatch& watch) {
     const Rendering rendering = render(midi, output, watch);
     Output out(output);
@@ -763,6 +763,7 @@ void render_audio(const std::filesystem::path& midi, const std::filesystem::path
         write_flac(rendering, out);
     }
     out.close();
+    return rendering.peak;
 }
 
 }  // namespace sikku

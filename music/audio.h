@@ -13,6 +13,9 @@ enum class AudioFormat { wav, flac };
 /// Called about ten times a second of work; `seconds` of sound are rendered. What it throws ends the work.
 using AudioWatch = std::function<void(double seconds)>;
 
+/// Longer music is refused: what a WAV file of 4 GB holds, 6 hours 45 minutes.
+constexpr double most_audio_seconds = 24'347;
+
 /// The soundfont that render_audio takes: what the environment variable SIKKU_SOUNDFONT names, else the first of
 /// those that distributions install below /usr/share/sounds or /usr/share/soundfonts (default-GM before others, then
 /// alphabetically).
@@ -29,10 +32,11 @@ std::filesystem::path find_soundfont();
 /// second for some hundred seconds of music.
 ///
 /// `output` is not written before the rendering has succeeded, and always from front to back.
+/// @return the loudest sample before that, in units of full scale; 0 if the soundfont has no sound for these keys
 /// @throws std::runtime_error if fluidsynth or a soundfont is missing (it tells what to install), if fluidsynth fails
 ///         (with what it printed), if a file cannot be read or written, and for more sound than a WAV file of 4 GB
 ///         holds, 6 hours 45 minutes
-void render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
+double render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
                   const AudioWatch& watch = {});
 
 }  // namespace sikku

@@ -15,7 +15,8 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t farthest = std::int64_t{1} << 62;  // of a coordinate
+constexpr std::int64_t farthest = std::int64_t{1} << 61;  // of a coordinate, of a time in steps
+constexpr std::int64_t latest = std::int64_t{1} << 62;    // of ticks
 constexpr std::size_t notes_in_block = 1024;
 constexpr std::int64_t margin_units = 64;  // walked before a bar, so that what leads up to it is known
 constexpr std::size_t deepest = std::size_t{1} << 20;
@@ -43,21 +44,20 @@ public:
               glm::dvec2 to) {
         if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
         line.last_degree = degree;
-        lowest_degree = std::min(lowest_degree, degree);
-        highest_degree = std::max(highest_degree, degree);
         if (end <= onset) {
             ++report.lost;
             return;
         }
+        // Also before the piece, so that its voices are those of the whole.
+        if (line.voice < 0) line.voice = free_voice(onset);
+        if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
+        busy_until_[static_cast<std::size_t>(line.voice)] = end;
         if (end <= options_.from || onset >= options_.to) return;
         const Placed placed = key_of(degree, line.falling);
         if (placed.is_silent) {
             ++report.lost;
             return;
         }
-        if (line.voice < 0) line.voice = free_voice(onset);
-        if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
-        busy_until_[static_cast<std::size_t>(line.voice)] = end;
         report.moved += placed.is_moved ? 1 : 0;
         ++report.notes;
         report.lowest = std::min(report.lowest, placed.key);
@@ -83,18 +83,18 @@ public:
 
     void finish(std::int64_t end) {
         flush();
+        const bool past = end <= options_.from;
         end = std::max<std::int64_t>(0, std::min(end, options_.to) - options_.from);
         for (const std::int64_t busy : busy_until_) {
             end = std::max(end, std::min(busy, options_.to) - options_.from);
         }
         report.end = end;
+        report.past = past;
         report.voices = static_cast<int>(busy_until_.size());
         sink_.finish(end);
     }
 
     PlayReport report;
-    std::int64_t lowest_degree = std::numeric_limits<std::int64_t>::max();
-    std::int64_t highest_degree = std::numeric_limits<std::int64_t>::min();
 
 private:
     struct Placed {
@@ -181,7 +181,12 @@ private:
             const auto down = melody_.key(degree, true);
             return up && down && is_within(*up) && is_within(*down);
         };
-        low_ = high_ = 0;
+        low_ = 0;
+        // The tonic may itself be beyond: go to where the keys are.
+        const auto tonic = melody_.key(0, false);
+        const std::int64_t towards = tonic && *tonic > melody_.highest ? -1 : 1;
+        while (std::abs(low_) < 10'000 && !fits(low_)) low_ += towards;
+        high_ = low_;
         while (high_ < 10'000 && fits(high_ + 1)) ++high_;
         while (low_ > -10'000 && fits(low_ - 1)) --low_;
     }
@@ -212,11 +217,44 @@ public:
     GridWalk(const Grammar&, const Lattice& lattice, int first) : lattice_(lattice) {
         start.heading = static_cast<std::uint32_t>(first);
     }
-    std::int64_t length(Symbol symbol) const { return lattice_.length[symbol]; }
+    std::int64_t steps(Symbol symbol) const { return lattice_.length[symbol]; }
     std::uint32_t quarters(Symbol symbol) const { return lattice_.turn[symbol]; }
-    Step step(const Position& at, Symbol symbol) const { return ahead(at, length(symbol)); }
-    Step ahead(const Position& at, std::int64_t length) const {
-        switch (at.heading) {
+    Step step(const Position& at, Symbol symbol) const { return ahead(at, steps(symbol)); }
+    Step ahead(const Position& at, std::int64_t length) const { return along(at.heading, length); }
+    void turn(Position& at, Symbol symbol) const { at.heading = (at.heading + lattice_.turn[symbol]) & 3; }
+    static void skip(Position& at, const GridStretch& stretch) {
+        for (std::uint32_t axis = 0; axis < 2; ++axis) {
+            const Integer& by = stretch.move[axis];
+            if (by >= farthest || by <= -farthest) {
+                throw ScoreError("the curve is too large to be played from its middle: a smaller n is needed");
+            }
+            const Step step = along((at.heading + axis) & 3, by.convert_to<std::int64_t>());
+            at.x += step.x;
+            at.y += step.y;
+        }
+        at.heading = (at.heading + static_cast<std::uint32_t>(stretch.turn)) & 3;
+    }
+    static bool is_level(std::int64_t rise) { return rise == 0; }
+    /// Both lie along an axis and neither is nothing. In doubles, as their product may be too large.
+    static bool same_direction(const Step& a, const Step& b) {
+        return static_cast<double>(a.x) * static_cast<double>(b.x) +
+                   static_cast<double>(a.y) * static_cast<double>(b.y) >
+               0;
+    }
+    static std::int64_t ticks(std::int64_t steps, std::int64_t unit) {
+        return steps > latest / unit ? latest : steps * unit;
+    }
+    static std::int64_t length(const Step& step) { return std::abs(step.x) + std::abs(step.y); }
+    static std::int64_t degree(std::int64_t twice) { return twice >= 0 ? (twice + 1) / 2 : -((-twice) / 2); }
+    static bool in_range(const Position& at) {
+        return at.x < farthest && at.x > -farthest && at.y < farthest && at.y > -farthest;
+    }
+
+    Position start;
+
+private:
+    static Step along(std::uint32_t heading, std::int64_t length) {
+        switch (heading) {
             case 0:
                 return {length, 0};
             case 1:
@@ -227,23 +265,6 @@ public:
                 return {0, -length};
         }
     }
-    void turn(Position& at, Symbol symbol) const { at.heading = (at.heading + lattice_.turn[symbol]) & 3; }
-    static bool is_level(std::int64_t rise) { return rise == 0; }
-    /// Both lie along an axis and neither is nothing. In doubles, as their product may be too large.
-    static bool same_direction(const Step& a, const Step& b) {
-        return static_cast<double>(a.x) * static_cast<double>(b.x) +
-                   static_cast<double>(a.y) * static_cast<double>(b.y) >
-               0;
-    }
-    static std::int64_t ticks(std::int64_t steps, std::int64_t unit) { return steps * unit; }
-    static std::int64_t degree(std::int64_t twice) { return twice >= 0 ? (twice + 1) / 2 : -((-twice) / 2); }
-    static bool in_range(const Position& at) {
-        return at.x < farthest && at.x > -farthest && at.y < farthest && at.y > -farthest;
-    }
-
-    Position start;
-
-private:
     const Lattice& lattice_;
 };
 
@@ -279,7 +300,10 @@ public:
         const double cross = a.x * b.y - a.y * b.x;
         return dot > 0 && std::fabs(cross) <= 1e-9 * dot;
     }
-    static double ticks(double steps, std::int64_t unit) { return steps * static_cast<double>(unit); }
+    static std::int64_t ticks(double steps, std::int64_t unit) {
+        return std::llround(std::min(steps * static_cast<double>(unit), static_cast<double>(latest)));
+    }
+    static double length(const Step& step) { return std::hypot(step.x, step.y); }
     static std::int64_t degree(double twice) {
         return static_cast<std::int64_t>(std::clamp(std::floor(twice / 2 + 0.5), -1e15, 1e15));
     }
@@ -319,9 +343,33 @@ private:
     std::vector<std::pair<State, std::uint64_t>> saved_;
 };
 
-/// Less with every bracket around it.
-int loudness_of_depth(std::size_t depth) {
-    return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
+/// The velocity of a note.
+/// @param turned  the sign of the turn that led into it: to the left is louder
+/// @param steps   how long it is
+/// @param depth   brackets around it: softer with each
+int loudness(const Melody& melody, int turned, double steps, std::size_t depth, std::int64_t onset) {
+    switch (melody.loudness) {
+        case Loudness::fixed:
+            break;
+        case Loudness::by_turn:
+            return 80 + 18 * turned;
+        case Loudness::by_depth:
+            return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
+        case Loudness::by_length: {
+            // Long notes carry weight; a phrase of four bars swells towards its middle.
+            const double weight = 8.0 * std::min(4.0, steps);
+            const auto phrase = static_cast<double>(4 * melody.meter.bar());
+            const double within = std::fmod(static_cast<double>(onset), phrase) / phrase;
+            return static_cast<int>(std::lround(58 + weight + 40 * within * (1 - within)));
+        }
+    }
+    return 80;
+}
+
+/// 1 to the left, -1 to the right.
+int sign_of(const Angle& turn) {
+    const double degrees = std::remainder(turn.degrees, 360.0);
+    return degrees > 0 ? 1 : degrees < 0 ? -1 : 0;
 }
 
 /// The y that sounds the tonic, doubled; unknown: that of the first note. The x is where the turtle starts.
@@ -335,27 +383,30 @@ public:
     virtual bool skip(const GridStretch&) { return false; }
     virtual std::int64_t lowest_vertex() const { return 0; }
     virtual std::int64_t highest_vertex() const { return 0; }
+    /// Of the first note and of the lowest, before the origin is taken off; unknown without notes.
     virtual std::int64_t first_degree() const { return 0; }
+    virtual std::int64_t lowest_degree() const { return 0; }
+    bool seeks_first_note = false;  ///< Enough is thrown there
 };
 
 /// What a symbol is to the reader of runs.
-enum class Part : std::uint8_t { nothing, draw, move, turn, open, close, not_finite };
+enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, not_finite };
 
-Part part_of(const Command& command) {
+Kind kind_of(const Command& command) {
     const bool is_finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
     switch (command.action) {
         case Action::draw:
-            return is_finite ? Part::draw : Part::not_finite;
+            return is_finite ? Kind::draw : Kind::not_finite;
         case Action::move:
-            return is_finite ? Part::move : Part::not_finite;
+            return is_finite ? Kind::move : Kind::not_finite;
         case Action::turn:
-            return is_finite ? Part::turn : Part::not_finite;
+            return is_finite ? Kind::turn : Kind::not_finite;
         case Action::push:
-            return Part::open;
+            return Kind::open;
         case Action::pop:
-            return Part::close;
+            return Kind::close;
         default:
-            return Part::nothing;
+            return Kind::nothing;
     }
 }
 
@@ -372,13 +423,11 @@ public:
           options_(options),
           walk_(grammar, lattice, first),
           may_stop_(!has_brackets) {
-        for (const SymbolInfo& symbol : grammar.symbols()) parts_.push_back(part_of(symbol.command));
+        for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command));
         state_.at = walk_.start;
         state_.run.from = state_.at;
-        if (melody.vertical == Vertical::voice) {
-            emitter_.take(state_.line, 0);
-            emitter_.take(state_.other, 1);
-        }
+        emitter_.take(state_.line, 0);
+        if (melody.vertical == Vertical::voice) emitter_.take(state_.other, 1);
     }
 
     void symbols(const Run& run) override {
@@ -387,25 +436,25 @@ public:
         }
         for (const Symbol symbol : run.symbols) {
             ++position_;
-            switch (parts_[symbol]) {
-                case Part::draw:
+            switch (kinds_[symbol]) {
+                case Kind::draw:
                     draw(walk_.step(state_.at, symbol));
                     break;
-                case Part::move:
+                case Kind::move:
                     move(symbol);
                     break;
-                case Part::turn:
+                case Kind::turn:
                     walk_.turn(state_.at, symbol);
                     break;
-                case Part::open:
+                case Kind::open:
                     open();
                     break;
-                case Part::close:
+                case Kind::close:
                     close();
                     break;
-                case Part::not_finite:
+                case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
-                case Part::nothing:
+                case Kind::nothing:
                     break;
             }
         }
@@ -433,29 +482,9 @@ public:
             if (room < 0 || longest > room) return false;
             end_run();
             release_held();
-            for (int axis = 0; axis < 2; ++axis) {
-                const Integer& by = stretch.move[static_cast<std::size_t>(axis)];
-                if (by >= farthest || by <= -farthest) {
-                    throw ScoreError("the curve is too large to be played from its middle: a smaller n is needed");
-                }
-                const auto length = by.convert_to<std::int64_t>();
-                switch ((state_.at.heading + static_cast<std::uint32_t>(axis)) & 3) {
-                    case 0:
-                        state_.at.x += length;
-                        break;
-                    case 1:
-                        state_.at.y += length;
-                        break;
-                    case 2:
-                        state_.at.x -= length;
-                        break;
-                    default:
-                        state_.at.y -= length;
-                }
-            }
+            walk_.skip(state_.at, stretch);
             state_.time += (both ? Integer(across + up) : across).convert_to<std::int64_t>();
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
-            state_.at.heading = (state_.at.heading + static_cast<std::uint32_t>(stretch.turn)) & 3;
             state_.has_sounded = true;
             return true;
         } else {
@@ -467,6 +496,7 @@ public:
     std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
     std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
     std::int64_t first_degree() const override { return first_degree_; }
+    std::int64_t lowest_degree() const override { return lowest_degree_; }
 
 private:
     using Number = typename Walk::Number;
@@ -480,9 +510,9 @@ private:
         Number steps = 0;  // drawn so far: their number times their length
         int turned = 0;    // sign of the turn that led into it
     };
-    struct Held {
+    struct Sounding {
         bool is_open = false;
-        std::int64_t degree = 0;
+        Number twice = 0;  // its height, doubled
         Number onset = 0, end = 0;
         int velocity = 80;
         glm::dvec2 from{0.0}, to{0.0};
@@ -494,17 +524,11 @@ private:
         Emitter::Line other;  // of vertical runs as a voice
         Number time = 0;      // steps
         Number other_time = 0;
-        Held held;        // a note that the next vertical run may make longer
+        Sounding held;    // a note that the next vertical run may make longer
         Number lead = 0;  // vertical steps before the first note
         bool has_sounded = false;
     };
-    std::int64_t ticks(Number steps) const {
-        if constexpr (std::is_same_v<Number, double>) {
-            return std::llround(std::min(Walk::ticks(steps, melody_.unit), 4e18));
-        } else {
-            return Walk::ticks(steps, melody_.unit);
-        }
-    }
+    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
     static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
 
     /// A part of the word that recurs, as its straight runs.
@@ -537,7 +561,7 @@ private:
     }
 
     void require_in_range() const {
-        if (Walk::in_range(state_.at)) return;
+        if (Walk::in_range(state_.at) && state_.time < farthest && state_.other_time < farthest) return;
         throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
                                     position_ + 1));
     }
@@ -545,10 +569,10 @@ private:
     void learn(Block& block, std::span<const Symbol> symbols) {
         block.is_known = true;
         for (const Symbol symbol : symbols) {
-            if (parts_[symbol] == Part::turn) {
+            if (kinds_[symbol] == Kind::turn) {
                 block.turn = (block.turn + walk_.quarters(symbol)) & 3;
-            } else if (parts_[symbol] == Part::draw) {
-                const std::int64_t length = walk_.length(symbol);
+            } else if (kinds_[symbol] == Kind::draw) {
+                const std::int64_t length = walk_.steps(symbol);
                 const bool goes_on = block.turn == 0 && !block.runs.empty() && melody_.runs == Runs::merged &&
                                      length > 0 && block.runs.back().length > 0;
                 if (goes_on) {
@@ -557,7 +581,7 @@ private:
                     block.runs.push_back({block.turn, length});
                 }
                 block.turn = 0;
-            } else if (parts_[symbol] != Part::nothing) {
+            } else if (kinds_[symbol] != Kind::nothing) {
                 return;
             }
         }
@@ -612,7 +636,8 @@ private:
         note_vertex();
         const Number wide = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
         const Number high = state_.at.y > run.from.y ? state_.at.y - run.from.y : run.from.y - state_.at.y;
-        const int velocity = loudness(run, wide > high ? wide : high);
+        const int velocity = loudness(melody_, run.turned, static_cast<double>(wide > high ? wide : high),
+                                      stack_.depth(), ticks(state_.time));
         if (Walk::is_level(high)) {
             sound(run.from.y + state_.at.y, wide, velocity, run);
         } else if (Walk::is_level(wide)) {
@@ -630,31 +655,45 @@ private:
         }
     }
 
-    /// A note at the height `twice` / 2.
-    void sound(Number twice, Number steps, int velocity, const Pending& run) {
+    /// A note at the height `twice` / 2 was met: the first one sounds the tonic, if the melody says so.
+    void meet(Number twice, Number end) {
+        if (melody_.anchor == Anchor::piece && ticks(end) <= options_.from) return;
         if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
         if (origin_.y == unknown) origin_.y = 2 * Walk::degree(twice);
-        const std::int64_t degree = Walk::degree(twice - static_cast<Number>(origin_.y));
-        if (melody_.vertical != Vertical::extend) {
-            emitter_.note(state_.line, degree, ticks(state_.time), ticks(state_.time + steps), velocity,
-                          point(run.from), point(state_.at));
-            state_.time += steps;
-            return;
+        if (seeks_first_note) throw Enough();
+    }
+
+    void emit(const Sounding& note) {
+        meet(note.twice, note.end);
+        if (origin_.y == unknown) return;  // before the piece
+        emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
+                      ticks(note.end), note.velocity, note.from, note.to);
+    }
+
+    void sound(Number twice, Number steps, int velocity, const Pending& run) {
+        meet(twice, state_.time + steps);
+        lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, Walk::degree(twice));
+        const bool is_held = melody_.vertical == Vertical::extend;
+        if (is_held) {
+            release_held();
+            steps += state_.lead;
+            state_.lead = 0;
+            state_.has_sounded = true;
         }
-        release_held();
-        steps += state_.lead;
-        state_.lead = 0;
-        state_.held = {true, degree, state_.time, state_.time + steps, velocity, point(run.from), point(state_.at)};
+        const Sounding note = {true,     twice,           state_.time,     state_.time + steps,
+                               velocity, point(run.from), point(state_.at)};
         state_.time += steps;
-        state_.has_sounded = true;
+        if (is_held) {
+            state_.held = note;
+        } else {
+            emit(note);
+        }
     }
 
     void release_held() {
-        Held& held = state_.held;
-        if (!held.is_open) return;
-        held.is_open = false;
-        emitter_.note(state_.line, held.degree, ticks(held.onset), ticks(held.end), held.velocity, held.from,
-                      held.to);
+        if (!state_.held.is_open) return;
+        state_.held.is_open = false;
+        emit(state_.held);
     }
 
     void vertical_run(const Pending& run, Number steps, int velocity) {
@@ -695,42 +734,37 @@ private:
             Position to = from;
             to.y += sign;
             if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
-            if (origin_.y == unknown) origin_.y = 2 * Walk::degree(2 * to.y);
-            if (first_degree_ == unknown) first_degree_ = Walk::degree(2 * to.y);
             const Number steps = (to.y - from.y) * sign;
-            emitter_.note(state_.line, Walk::degree(2 * to.y - static_cast<Number>(origin_.y)), ticks(state_.time),
-                          ticks(state_.time + steps), velocity, point(from), point(to));
+            emit({true, 2 * to.y, state_.time, state_.time + steps, velocity, point(from), point(to)});
             state_.time += steps;
             from = to;
         }
     }
 
-    int loudness(const Pending& run, Number steps) const {
-        switch (melody_.loudness) {
-            case Loudness::fixed:
-                return 80;
-            case Loudness::by_turn:
-                return 80 + 18 * run.turned;
-            case Loudness::by_depth:
-                return loudness_of_depth(stack_.depth());
-            case Loudness::by_length: {
-                // Long notes carry weight; a phrase of four bars swells towards its middle.
-                const double weight = 8.0 * std::min(4.0, static_cast<double>(steps));
-                const auto phrase = static_cast<double>(4 * melody_.meter.bar());
-                const double within = std::fmod(static_cast<double>(ticks(state_.time)), phrase) / phrase;
-                return static_cast<int>(std::lround(58 + weight + 40 * within * (1 - within)));
-            }
-        }
-        return 80;
-    }
-
     /// The branch begins where and when the stem is, which may be within a run.
     void open() {
-        stack_.open(state_, position_);
         if (state_.run.is_open) {
-            const Number gone = state_.at.x - state_.run.from.x;
-            state_.time += gone < 0 ? -gone : gone;
+            const Pending& run = state_.run;
+            const Number wide = std::abs(state_.at.x - run.from.x);
+            const Number high = std::abs(state_.at.y - run.from.y);
+            const Number before = state_.time;
+            const bool is_note = Walk::is_level(high) || (!Walk::is_level(wide) && melody_.sloped == Sloped::project);
+            // What sounds already counts as met before what the branch will play.
+            if (is_note) meet(run.from.y + state_.at.y, before + wide);
+            stack_.open(state_, position_);
+            if (is_note) {
+                state_.time += wide;
+            } else if (Walk::is_level(wide)) {
+                if (melody_.vertical == Vertical::voice) {
+                    state_.other_time += high;
+                } else if (melody_.vertical != Vertical::ignore) {
+                    state_.time += high;
+                }
+            }
+        } else {
+            stack_.open(state_, position_);
         }
+        state_.time += state_.lead;
         state_.run.is_open = false;
         state_.held.is_open = false;
         state_.line = state_.other = {};
@@ -753,7 +787,7 @@ private:
     const PlayOptions& options_;
     Walk walk_;
     bool may_stop_;
-    std::vector<Part> parts_;
+    std::vector<Kind> kinds_;
     State state_;
     Brackets<State> stack_;
     std::vector<Block> blocks_;
@@ -761,6 +795,7 @@ private:
     Number lowest_ = 0;
     Number highest_ = 0;
     std::int64_t first_degree_ = unknown;
+    std::int64_t lowest_degree_ = unknown;
 };
 
 /// Two voices: one sounds y for as long as it stays, the other x, an octave lower.
@@ -774,7 +809,8 @@ public:
           emitter_(emitter),
           options_(options),
           walk_(grammar, lattice, first),
-          lower_(static_cast<std::int64_t>(melody.scale.size())) {
+          lower_(static_cast<std::int64_t>(melody.scale.size())),
+          is_piece_(melody.anchor == Anchor::piece) {
         at_ = walk_.start;
         voices_[0].origin = origin.y == unknown ? 0 : origin.y;
         emitter_.take(voices_[0].line, 0);
@@ -785,87 +821,113 @@ public:
         for (const Symbol symbol : run.symbols) {
             ++position_;
             const Command& command = grammar_.symbols()[symbol].command;
-            switch (const Part part = part_of(command)) {
-                case Part::draw:
-                case Part::move: {
-                    const auto step = walk_.step(at_, symbol);
-                    const double length = std::hypot(static_cast<double>(step.x), static_cast<double>(step.y));
-                    at_.x += step.x;
-                    at_.y += step.y;
-                    lowest_ = std::min(lowest_, at_.y);
-                    highest_ = std::max(highest_, at_.y);
-                    advance(length, part == Part::draw);
+            switch (const Kind kind = kind_of(command)) {
+                case Kind::draw:
+                case Kind::move:
+                    advance(walk_.step(at_, symbol), kind == Kind::draw);
                     break;
-                }
-                case Part::turn:
+                case Kind::turn:
                     walk_.turn(at_, symbol);
+                    turned_ = sign_of(command.angle);
                     break;
-                case Part::open:
+                case Kind::open:
                     stack_.open(at_, position_);
                     break;
-                case Part::close:
+                case Kind::close:
                     at_ = stack_.close(position_);
                     break;
-                case Part::not_finite:
+                case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
-                case Part::nothing:
+                case Kind::nothing:
                     break;
             }
         }
-        if (!Walk::in_range(at_)) throw WordError("the turtle leaves the range of its coordinates");
+        if (!Walk::in_range(at_) || time_ >= farthest) {
+            throw WordError("the turtle leaves the range of its coordinates");
+        }
     }
 
     void finish() override {
         stack_.require_closed();
-        for (std::size_t i = 0; i < 2; ++i) end_note(i);
+        for (Voice& voice : voices_) end_note(voice);
         emitter_.finish(ticks(time_));
+    }
+
+    bool skip(const GridStretch& stretch) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            const Integer length = stretch.length[0] + stretch.length[1];
+            const std::int64_t room = options_.from / melody_.unit - margin_units - time_;
+            if (room < 0 || length > room) return false;
+            for (Voice& voice : voices_) end_note(voice);
+            walk_.skip(at_, stretch);
+            here_ = point();
+            time_ += length.convert_to<std::int64_t>();
+            return true;
+        } else {
+            (void)stretch;
+            return false;
+        }
     }
 
     std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
     std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
-    std::int64_t first_degree() const override { return 0; }
+    std::int64_t lowest_degree() const override { return lowest_degree_; }
 
 private:
     using Number = typename Walk::Number;
     struct Voice {
-        std::int64_t origin = 0;
-        std::int64_t degree = unknown;  // of the note that sounds
-        double onset = 0;
+        std::int64_t origin = 0;          // doubled
+        std::int64_t sounding = unknown;  // its height, in whole steps
+        Number onset = 0;
+        int turned = 0;
         glm::dvec2 from{0.0};
         Emitter::Line line;
     };
 
-    std::int64_t ticks(double steps) const {
-        return std::llround(std::min(steps * static_cast<double>(melody_.unit), 4e18));
-    }
+    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
+    glm::dvec2 point() const { return {static_cast<double>(at_.x), static_cast<double>(at_.y)}; }
 
-    /// The note that the turtle came to sounds while it makes this step.
-    void advance(double length, bool is_drawn) {
-        for (std::size_t i = 0; i < 2; ++i) {
-            Voice& voice = voices_[i];
-            const Number coordinate = i == 0 ? at_.y : at_.x;
-            std::int64_t degree = Walk::degree(2 * coordinate - static_cast<Number>(voice.origin));
-            if (i == 1) degree -= lower_;
-            if (!is_drawn) degree = unknown;
-            if (degree == voice.degree) continue;
-            end_note(i);
-            voice.degree = degree;
+    /// The note that the turtle comes to sounds while it makes this step.
+    void advance(const typename Walk::Step& step, bool is_drawn) {
+        at_.x += step.x;
+        at_.y += step.y;
+        lowest_ = std::min(lowest_, at_.y);
+        highest_ = std::max(highest_, at_.y);
+        const Number length = Walk::length(step);
+        if (is_piece_ && ticks(time_ + length) > options_.from) {
+            voices_[0].origin = 2 * Walk::degree(2 * at_.y);
+            voices_[1].origin = 2 * Walk::degree(2 * at_.x);
+            is_piece_ = false;
+        }
+        for (Voice& voice : voices_) {
+            const bool is_upper = &voice == &voices_[0];
+            const std::int64_t height = is_drawn ? Walk::degree(2 * (is_upper ? at_.y : at_.x)) : unknown;
+            if (height == voice.sounding) continue;
+            end_note(voice);
+            voice.sounding = height;
             voice.onset = time_;
-            voice.from = here_;
+            voice.turned = turned_;
+            // The picture of a note is where its coordinate stays.
+            voice.from = Walk::is_level(is_upper ? step.y : step.x) ? here_ : point();
+            if (is_drawn && is_upper) {
+                lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, height);
+            }
         }
         time_ += length;
-        here_ = {static_cast<double>(at_.x), static_cast<double>(at_.y)};
+        here_ = point();
         if (ticks(time_) < options_.to) return;
-        for (std::size_t i = 0; i < 2; ++i) end_note(i);
+        for (Voice& voice : voices_) end_note(voice);
         throw Enough();
     }
 
-    void end_note(std::size_t i) {
-        Voice& voice = voices_[i];
-        if (voice.degree == unknown) return;
-        emitter_.note(voice.line, voice.degree, ticks(voice.onset), ticks(time_), i == 0 ? 88 : 72, voice.from,
-                      here_);
-        voice.degree = unknown;
+    void end_note(Voice& voice) {
+        if (voice.sounding == unknown) return;
+        const bool is_upper = &voice == &voices_[0];
+        const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
+                                  ticks(voice.onset));
+        emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
+                      ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_);
+        voice.sounding = unknown;
     }
 
     const Grammar& grammar_;
@@ -874,14 +936,17 @@ private:
     const PlayOptions& options_;
     Walk walk_;
     std::int64_t lower_;
+    bool is_piece_;  ///< its tonic is still to come
     typename Walk::Position at_;
     glm::dvec2 here_{0.0};
     Brackets<typename Walk::Position> stack_;
     std::array<Voice, 2> voices_;
-    double time_ = 0;
+    Number time_ = 0;
+    int turned_ = 0;
     std::uint64_t position_ = 0;
     Number lowest_ = 0;
     Number highest_ = 0;
+    std::int64_t lowest_degree_ = unknown;
 };
 
 /// The word itself, symbol by symbol.
@@ -889,39 +954,47 @@ class SymbolReader final : public Reader {
 public:
     SymbolReader(const Grammar& grammar, const Melody& melody, Emitter& emitter, const PlayOptions& options,
                  bool has_brackets)
-        : grammar_(grammar), melody_(melody), emitter_(emitter), options_(options), may_stop_(!has_brackets) {}
+        : grammar_(grammar),
+          melody_(melody),
+          emitter_(emitter),
+          options_(options),
+          may_stop_(!has_brackets),
+          origin_(melody.anchor == Anchor::piece ? unknown : 0) {
+        emitter_.take(state_.line, 0);
+    }
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
             ++position_;
             const SymbolInfo& info = grammar_.symbols()[symbol];
             const Command& command = info.command;
-            switch (part_of(command)) {
-                case Part::draw:
+            switch (kind_of(command)) {
+                case Kind::draw:
                     sound(std::fabs(command.value));
                     break;
-                case Part::move:
+                case Kind::move:
                     end_note();
                     state_.time += std::fabs(command.value);
                     stop_if_done();
                     break;
-                case Part::turn:
+                case Kind::turn:
                     if (info.letter == "+") ++state_.degree;
                     if (info.letter == "-") --state_.degree;
+                    state_.turned = sign_of(command.angle);
                     break;
-                case Part::open:
+                case Kind::open:
                     end_note();
                     stack_.open(state_, position_);
                     state_.line = {};
                     break;
-                case Part::close:
+                case Kind::close:
                     end_note();
                     emitter_.release(state_.line);
                     state_ = stack_.close(position_);
                     break;
-                case Part::not_finite:
+                case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
-                case Part::nothing:
+                case Kind::nothing:
                     break;
             }
         }
@@ -933,18 +1006,27 @@ public:
         emitter_.finish(ticks(state_.time));
     }
 
+    bool skip(const GridStretch& stretch) override {
+        const Integer length = stretch.length[0] + stretch.length[1];
+        const double room = static_cast<double>(options_.from / melody_.unit - margin_units) - state_.time;
+        if (room < 0 || length > Integer(room) || abs(stretch.rise) >= farthest) return false;
+        end_note();
+        state_.time += length.convert_to<double>();
+        state_.degree += stretch.rise.convert_to<std::int64_t>();
+        return true;
+    }
+
 private:
     struct State {
         double time = 0;
         double onset = 0;
         std::int64_t degree = 0;
         std::int64_t sounding = unknown;
+        int turned = 0;
         Emitter::Line line;
     };
 
-    std::int64_t ticks(double steps) const {
-        return std::llround(std::min(steps * static_cast<double>(melody_.unit), 4e18));
-    }
+    std::int64_t ticks(double steps) const { return PlaneWalk::ticks(steps, melody_.unit); }
 
     /// Equal symbols side by side are one long note, unless each step is to be heard.
     void sound(double length) {
@@ -960,10 +1042,14 @@ private:
 
     void end_note() {
         if (state_.sounding == unknown) return;
-        const auto height = static_cast<double>(state_.sounding);
-        const int velocity = melody_.loudness == Loudness::by_depth ? loudness_of_depth(stack_.depth()) : 80;
-        emitter_.note(state_.line, state_.sounding, ticks(state_.onset), ticks(state_.time), velocity,
-                      {state_.onset, height}, {state_.time, height});
+        if (origin_ == unknown && ticks(state_.time) > options_.from) origin_ = state_.sounding;
+        if (origin_ != unknown) {
+            const auto height = static_cast<double>(state_.sounding);
+            const int velocity =
+                loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
+            emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), ticks(state_.time), velocity,
+                          {state_.onset, height}, {state_.time, height});
+        }
         state_.sounding = unknown;
     }
 
@@ -976,6 +1062,7 @@ private:
     Emitter& emitter_;
     const PlayOptions& options_;
     bool may_stop_;
+    std::int64_t origin_;
     State state_;
     Brackets<State> stack_;
     std::uint64_t position_ = 0;
@@ -1008,7 +1095,9 @@ public:
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
             if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
         }
-        if (melody.mapping == Mapping::runs) fold_ = MelodyFold::make(grammar);
+        const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;
+        const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
+        if (options.from > 0 || is_anchored) fold_ = MelodyFold::make(grammar);
     }
 
     PlayReport play(NoteSink& sink) {
@@ -1023,7 +1112,9 @@ public:
         }
         // A piece may be short where the whole is beyond all measure.
         const bool is_piece = !has_brackets_ && options_.to < INT64_MAX;
-        if (!is_piece) require_affordable(grammar_, true, options_.budget);
+        const bool is_long =
+            static_cast<double>(options_.to - options_.from) > options_.budget * static_cast<double>(melody_.unit);
+        if (!is_piece || is_long) require_affordable(grammar_, true, options_.budget);
         try {
             derive(grammar_, *reader, derivation);
         } catch (const Enough&) {
@@ -1067,12 +1158,12 @@ private:
 
     /// The y that sounds the tonic. The first note is met on the way; but a piece from the middle has to know it.
     Origin find_origin() const {
-        if (melody_.mapping == Mapping::symbols) return {};
+        if (melody_.mapping == Mapping::symbols || melody_.anchor == Anchor::piece) return {};
         if (melody_.anchor == Anchor::first_note) {
             if (options_.from == 0 || melody_.mapping == Mapping::counterpoint) return {};
             return {first_note()};
         }
-        if (fold_) {
+        if (fold_ && melody_.mapping == Mapping::runs) {
             const GridStretch& whole = fold_->whole();
             const auto number = [](const Integer& value) {
                 if (value >= farthest / 2 || value <= -farthest / 2) {
@@ -1110,7 +1201,7 @@ private:
         derive(grammar_, *reader, derivation_options());
         switch (melody_.anchor) {
             case Anchor::lowest_note:
-                return {emitter.report.notes > 0 ? 2 * emitter.lowest_degree : 0};
+                return {reader->lowest_degree() == unknown ? 0 : 2 * reader->lowest_degree()};
             case Anchor::lowest_vertex:
                 return {2 * reader->lowest_vertex()};
             default: {
@@ -1123,12 +1214,13 @@ private:
     std::int64_t first_note() const {
         PlayOptions beginning = options_;
         beginning.from = 0;
-        beginning.to = 1;
+        beginning.to = INT64_MAX;
         Melody silent = melody_;
         silent.range = Range::clamp;
         Nobody nobody;
         Emitter emitter(silent, nobody, beginning);
         const auto reader = make_reader(silent, emitter, {0}, beginning);
+        reader->seeks_first_note = true;
         try {
             derive(grammar_, *reader, derivation_options());
         } catch (const Enough&) {
@@ -1163,14 +1255,16 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
     MelodyCensus result;
-    const bool each = melody.runs == Runs::each_step;
-    result.notes = each ? whole.length[0] : whole.runs[0];
+    const auto notes_along = [&](std::size_t axis) {
+        return melody.runs == Runs::each_step ? whole.steps[axis] : whole.runs[axis];
+    };
+    result.notes = notes_along(0);
     Integer steps = whole.length[0];
-    if (melody.vertical == Vertical::glissando) result.notes += whole.length[1];
-    if (melody.vertical == Vertical::voice) result.notes += each ? whole.length[1] : whole.runs[1];
-    if (melody.vertical == Vertical::voice) steps = std::max(steps, whole.length[1]);
-    if (melody.vertical == Vertical::rest || melody.vertical == Vertical::extend ||
-        melody.vertical == Vertical::glissando) {
+    if (melody.vertical == Vertical::glissando) result.notes += whole.drawn[1];
+    if (melody.vertical == Vertical::voice) {
+        result.notes += notes_along(1);
+        steps = std::max(steps, whole.length[1]);
+    } else if (melody.vertical != Vertical::ignore) {
         steps += whole.length[1];
     }
     result.ticks = steps * melody.unit;

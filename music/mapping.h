@@ -27,13 +27,15 @@ struct PlayReport {
     std::uint64_t lost = 0;   ///< notes shorter than a tick, or whose degree a key map leaves out
     int voices = 0;
     std::int64_t end = 0;   ///< ticks
+    bool past = false;      ///< the score ended before the piece began
     double lowest = 127.0;  ///< keys
     double highest = 0.0;
 };
 
 /// Reads the word of `grammar` as `melody` says and hands its notes to `sink`, in one pass; two if the anchor has to
 /// be looked for and the fold does not tell it. What lies before options.from is passed over without being derived
-/// if the curve lies on the square grid and has neither brackets nor contexts; else it is walked.
+/// if the curve lies on the square grid and has neither brackets nor contexts; else it is walked. A branch begins
+/// where and when the turtle is.
 /// Memory: O(steps), and the state of open brackets. Cost: O(symbols between from and to).
 /// @throws BudgetError, WordError, ScoreError; what `sink` throws
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.

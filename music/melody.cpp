@@ -17,6 +17,14 @@ namespace {
 
 constexpr double most_tempo = 1000;
 
+/// Of the nearest key, with at most one sign.
+Spelling usual_spelling(double key) {
+    static constexpr std::array<Spelling, 12> usual = {
+        {{0, 0}, {1, -1}, {1, 0}, {2, -1}, {2, 0}, {3, 0}, {3, 1}, {4, 0}, {5, -1}, {5, 0}, {6, -1}, {6, 0}}};
+    const auto whole = static_cast<long>(std::lround(std::clamp(key, -1e3, 1e3)));
+    return usual[static_cast<std::size_t>((whole % 12 + 12) % 12)];
+}
+
 /// A choice among words; several words may mean the same.
 template <class Choice>
 using Choices = std::vector<std::pair<std::string_view, Choice>>;
@@ -34,6 +42,7 @@ public:
             {{"runs", Mapping::runs}, {"counterpoint", Mapping::counterpoint}, {"symbols", Mapping::symbols}});
         choose<Anchor>("anchor", melody_.anchor,
                        {{"first note", Anchor::first_note},
+                        {"piece", Anchor::piece},
                         {"lowest note", Anchor::lowest_note},
                         {"lowest vertex", Anchor::lowest_vertex},
                         {"centre", Anchor::centre},
@@ -57,6 +66,7 @@ public:
         read_tempo();
         read_meter();
         read_instrument();
+        warn_of_what_has_no_meaning();
         return std::move(melody_);
     }
 
@@ -86,6 +96,17 @@ private:
         diagnostics_.error(key->value.empty() ? key->name_at : key->value,
                            near.empty() ? fmt::format("'{}:' is one of {}", name, list)
                                         : fmt::format("'{}:' is one of {}; did you mean '{}'?", name, list, near));
+    }
+
+    void warn_of_what_has_no_meaning() {
+        if (melody_.mapping == Mapping::runs) return;
+        for (const std::string_view name : {"vertical", "runs", "sloped"}) {
+            const bool is_read = name == "runs" && melody_.mapping == Mapping::symbols;
+            if (const Key* key = pattern_.find(name); key && !is_read) {
+                diagnostics_.warning(key->name_at,
+                                     fmt::format("'{}:' has no meaning with this 'mapping:'", name));
+            }
+        }
     }
 
     void read_scale() {
@@ -144,10 +165,7 @@ private:
                 return;
             }
             melody_.tonic = 69 + 12 * std::log2(frequency / 440.0);
-            static constexpr std::array<Spelling, 12> usual = {
-                {{0, 0}, {1, -1}, {1, 0}, {2, -1}, {2, 0}, {3, 0}, {3, 1}, {4, 0}, {5, -1}, {5, 0}, {6, -1}, {6, 0}}};
-            const auto nearest_key = static_cast<long>(std::lround(std::clamp(melody_.tonic, -1e3, 1e3)));
-            melody_.tonic_spelling = usual[static_cast<std::size_t>((nearest_key % 12 + 12) % 12)];
+            melody_.tonic_spelling = usual_spelling(melody_.tonic);
         }
         if (!(melody_.tonic >= 0 && melody_.tonic <= 127)) {
             diagnostics_.error(key->value, "the tonic lies beyond what MIDI can write: C-1 to G9, 8.2 to 12543.8 Hz");
@@ -277,6 +295,13 @@ private:
 };
 
 }  // namespace
+
+void transpose(Melody& melody, double semitones) {
+    melody.transpose += semitones;
+    if (semitones != 0 && semitones == std::round(semitones)) {
+        melody.tonic_spelling = usual_spelling(melody.tonic + semitones);
+    }
+}
 
 std::optional<double> Melody::key(std::int64_t degree, bool falling) const {
     if (keys) {

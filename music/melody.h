@@ -20,8 +20,8 @@ enum class Mapping {
     counterpoint,  ///< y and x are two voices; a note lasts while its coordinate stays the same
     symbols,       ///< the word itself: F a note, + and - a degree up and down, f a rest
 };
-/// Which y sounds the tonic.
-enum class Anchor { first_note, lowest_note, lowest_vertex, centre };
+/// Which y sounds the tonic; `piece`: that of the first note of the piece that is played.
+enum class Anchor { first_note, piece, lowest_note, lowest_vertex, centre };
 /// What a vertical run is: nothing, a rest of its length, more of the note before it (or, at the beginning, after
 /// it), a note for each step, or a note in a voice of its own, with its pitch from x:
 /// where the turtle starts sounds the tonic.
@@ -73,6 +73,9 @@ using FileReader = std::function<std::string(const std::string& path)>;
 
 /// Reads and checks them; what is absent keeps its default. Without `read_file`, scales in files are not looked at.
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics);
+
+/// Every note higher by `semitones`; whole ones move the tonic's name, and so key signature and spelling, too.
+void transpose(Melody& melody, double semitones);
 
 /// Names of the General MIDI programs, 0 to 127.
 const std::vector<std::string_view>& instrument_names();

@@ -7,6 +7,8 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_stretches = 1'000'000;
+constexpr std::size_t most_number_bytes = std::size_t{1} << 28;
+constexpr std::size_t numbers_in_stretch = 20;
 
 using Span = GridStretch::Span;
 
@@ -31,6 +33,8 @@ void append(GridStretch& all, const GridStretch& next) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const std::size_t here = axis ^ swapped;
         all.length[here] += next.length[axis];
+        all.drawn[here] += next.drawn[axis];
+        all.steps[here] += next.steps[axis];
         all.runs[here] += next.runs[axis];
         // Runs along `axis` are crossed by the other one.
         if (next.crossings[axis]) {
@@ -56,12 +60,17 @@ void append(GridStretch& all, const GridStretch& next) {
         all.move[axis ^ swapped] += mirrored ? Integer(-next.move[axis]) : next.move[axis];
     }
     all.turn = (turn + next.turn) % 4;
+    all.rise += next.rise;
 }
 
 GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol symbol) {
     GridStretch result;
     const Action action = grammar.symbols()[symbol].command.action;
-    if (action == Action::turn) result.turn = static_cast<int>(lattice.turn[symbol]);
+    if (action == Action::turn) {
+        const std::string& letter = grammar.symbols()[symbol].letter;
+        result.turn = static_cast<int>(lattice.turn[symbol]);
+        result.rise = letter == "+" ? 1 : letter == "-" ? -1 : 0;
+    }
     const std::int64_t length = lattice.length[symbol];
     if ((action != Action::draw && action != Action::move) || length == 0) return result;
     result.is_still = false;
@@ -69,6 +78,8 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
     result.length[0] = length < 0 ? -length : length;
     result.box[0] = {std::min<std::int64_t>(length, 0), std::max<std::int64_t>(length, 0)};
     if (action == Action::draw) {
+        result.drawn[0] = result.length[0];
+        result.steps[0] = 1;
         result.runs[0] = 1;
         result.crossings[0] = Span{};
         result.first = result.last = length < 0 ? 2 : 0;
@@ -104,6 +115,7 @@ std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar) {
         if (action == Action::push || action == Action::pop) return std::nullopt;
         fold.stretches_.push_back(std::make_shared<const GridStretch>(primitive(grammar, lattice, symbol)));
     }
+    std::size_t number_bytes = 0;
     const auto add_level = [&](const Table& table) {
         const std::size_t below = fold.stretches_.size() - fold.symbols_;
         for (Symbol symbol = 0; symbol < needed.size(); ++symbol) {
@@ -115,13 +127,19 @@ std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar) {
             }
             GridStretch stretch;
             for (const Symbol child : *successor) append(stretch, *fold.stretches_[below + child]);
+            const Integer longest = stretch.length[0] + stretch.length[1];
+            if (longest > 0) number_bytes += numbers_in_stretch * (boost::multiprecision::msb(longest) / 8);
             fold.stretches_.push_back(std::make_shared<const GridStretch>(std::move(stretch)));
         }
     };
+    // Numbers grow with the level: so many levels may be few numbers and much memory.
     if (grammar.interpretation()) add_level(*grammar.interpretation());
     for (std::size_t i = grammar.schedule().size(); i > 0; --i) {
         const ScheduleRun& run = grammar.schedule()[i - 1];
-        for (std::int64_t step = 0; step < run.steps; ++step) add_level(grammar.tables()[run.table]);
+        for (std::int64_t step = 0; step < run.steps; ++step) {
+            add_level(grammar.tables()[run.table]);
+            if (number_bytes > most_number_bytes) return std::nullopt;
+        }
     }
     fold.whole_.turn = fold.first_direction_;
     const std::size_t top = fold.stretches_.size() - fold.symbols_;

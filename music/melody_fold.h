@@ -21,7 +21,10 @@ struct GridStretch {
     std::array<Integer, 2> move{};                 ///< displacement
     int turn = 0;                                  ///< of the heading, 0 to 3
     std::array<Integer, 2> length{};               ///< of all steps along each axis, drawn or not
+    std::array<Integer, 2> drawn{};                ///< of the steps drawn
+    std::array<Integer, 2> steps{};                ///< how many are drawn
     std::array<Integer, 2> runs{};                 ///< straight runs drawn along each axis
+    Integer rise = 0;                              ///< symbols `+` less symbols `-`
     std::array<std::optional<Span>, 2> crossings;  ///< where these lie on the other axis
     std::array<Span, 2> box;                       ///< of all positions on each axis, the start included
     int first = -1;  ///< direction of a drawn step that begins the stretch; -1: none, or something stands before it
@@ -33,7 +36,7 @@ struct GridStretch {
 /// numbers, all turns quarters, there are neither contexts nor brackets.
 class MelodyFold {
 public:
-    /// Nullopt for other grammars, and if levels times symbols are above 10^6.
+    /// Nullopt for other grammars, and if levels times symbols are above 10^6 or the numbers above 256 MB.
     /// Cost: O(symbols x steps) compositions of exact numbers.
     static std::optional<MelodyFold> make(const Grammar& grammar);
 

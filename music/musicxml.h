@@ -6,6 +6,9 @@
 
 namespace sikku {
 
+/// C0, a key of MIDI.
+constexpr double lowest_in_musicxml = 12.0;
+
 /// Writes MusicXML 4.0 (score-partwise, UTF-8, no date): work title, composer, what made it and, as a miscellaneous
 /// field, the pattern; of each part name and General MIDI program; the tempo; notes with ties, dots and accidentals.
 /// Pitches are exact to the quarter tone. Beams and stems are left to the reader.

@@ -64,8 +64,9 @@ struct KeySignature {
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
-    int program = 0;  ///< General MIDI, 0 to 127
-    int voices = 1;   ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
+    std::string scale;  ///< in words, with its tonic
+    int program = 0;    ///< General MIDI, 0 to 127
+    int voices = 1;     ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
     std::optional<KeySignature> key;      ///< only for major, minor and the modes
     std::array<Spelling, 12> spelling{};  ///< of each pitch class from C
 };

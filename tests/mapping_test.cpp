@@ -271,6 +271,12 @@ TEST(Runs, Ranges) {
     EXPECT_EQ(keys(Range::fold), std::pair(116.0, 127.0));
     EXPECT_EQ(keys(Range::clamp), std::pair(120.0, 127.0));
     EXPECT_EQ(keys(Range::reflect).second, 127.0);
+    // Between keys of one's own, and with a tonic that is itself beyond.
+    melody.lowest = 48;
+    melody.highest = 72;
+    EXPECT_EQ(keys(Range::fold), std::pair(61.0, 72.0));
+    EXPECT_EQ(keys(Range::clamp), std::pair(72.0, 72.0));
+    EXPECT_LT(keys(Range::reflect).first, 72.0);
     melody.range = Range::refuse;
     EXPECT_THROW(played(hilbert(4), melody), ScoreError);
 }
@@ -296,6 +302,29 @@ TEST(Runs, BranchesAreVoices) {
     EXPECT_THROW(play(grammar, melody, collector, few), ScoreError);
 }
 
+TEST(Runs, ABranchBeginsWhereAndWhenTheTurtleIs) {
+    Melody melody = plain();
+    const auto onsets = [&](const std::string& axiom) {
+        std::string text;
+        for (const Note& note : played(grammar_of("turn: left\n" + axiom), melody).all) {
+            text += fmt::format("{}{}:{}@{}", text.empty() ? "" : " ", note.voice, note.key - 40, note.onset / unit);
+        }
+        return text;
+    };
+    melody.anchor = Anchor::first_note;
+    melody.vertical = Vertical::rest;
+    EXPECT_EQ(onsets("axiom: FF[-F]FF-F\n"), "1:0@2 0:2@4");
+    melody.vertical = Vertical::ignore;
+    EXPECT_EQ(onsets("axiom: FF[-F]FF-F\n"), "1:0@0 0:2@0");
+    // The note that is heard first sounds the tonic, though the branch within it ends before.
+    EXPECT_EQ(onsets("heading: 0\naxiom: FF[+F-F]FF\n"), "1:1@2 0:0@0");
+    melody.vertical = Vertical::voice;
+    EXPECT_EQ(onsets("axiom: FF[-F+F]FF\n"), "2:0@0 3:1@2 1:0@0");
+    melody.vertical = Vertical::ignore;
+    melody.sloped = Sloped::skip;
+    EXPECT_EQ(onsets("angle factor: 8\nheading: 45\naxiom: FF[-F]FF-F\n"), "1:0@0 0:2@0");
+}
+
 TEST(OtherMappings, CounterpointHasTwoVoicesThatFillTheTime) {
     Melody melody = plain();
     melody.mapping = Mapping::counterpoint;
@@ -309,6 +338,33 @@ TEST(OtherMappings, CounterpointHasTwoVoicesThatFillTheTime) {
             now += note.duration;
         }
         EXPECT_EQ(now, 256 * unit);
+    }
+}
+
+TEST(OtherMappings, CounterpointIsAnchoredByItsUpperVoice) {
+    Melody melody = plain();
+    melody.mapping = Mapping::counterpoint;
+    melody.anchor = Anchor::lowest_note;
+    melody.tonic = 60;
+    double lowest = 127;
+    for (const Note& note : played(dragon(6, ""), melody).all) {
+        if (note.voice == 0) lowest = std::min(lowest, note.key);
+    }
+    EXPECT_EQ(lowest, 60);
+    EXPECT_THROW(played(grammar_of("axiom: F[+F\n"), melody), WordError);
+}
+
+TEST(OtherMappings, VelocitiesFollowTheTurns) {
+    for (const Mapping mapping : {Mapping::runs, Mapping::counterpoint, Mapping::symbols}) {
+        Melody melody = plain();
+        melody.mapping = mapping;
+        melody.range = Range::clamp;
+        for (const Loudness loudness : {Loudness::by_turn, Loudness::by_length}) {
+            melody.loudness = loudness;
+            std::set<int> velocities;
+            for (const Note& note : played(hilbert(4), melody).all) velocities.insert(note.velocity);
+            EXPECT_GE(velocities.size(), 2u) << static_cast<int>(mapping);
+        }
     }
 }
 
@@ -341,12 +397,99 @@ TEST(Census, EqualsWhatIsPlayed) {
             }
         }
     }
+    // Steps that are not drawn, and long ones.
+    for (const char* axiom : {"FfF+fF-F", "F(5)+F(5)-f(2)F", "fF+F(3)f+FF"}) {
+        for (const Runs runs : {Runs::merged, Runs::each_step}) {
+            for (const Vertical vertical :
+                 {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::glissando, Vertical::voice}) {
+                Melody melody = plain();
+                melody.runs = runs;
+                melody.vertical = vertical;
+                const Grammar grammar = grammar_of(fmt::format("turn: left\nheading: 0\naxiom: {}\n", axiom));
+                const auto told = census(grammar, melody);
+                ASSERT_TRUE(told);
+                const Collector found = played(grammar, melody);
+                EXPECT_EQ(told->notes, found.all.size()) << axiom << " " << static_cast<int>(vertical);
+                EXPECT_EQ(told->ticks, found.end) << axiom << " " << static_cast<int>(vertical);
+            }
+        }
+    }
     const auto large = census(hilbert(12), plain());
     EXPECT_EQ(large->notes, 6'710'886);
     EXPECT_EQ(large->height, 4095);
     EXPECT_EQ(census(hilbert(40), plain())->ticks, (Integer(1) << 79) * unit);
     EXPECT_FALSE(census(grammar_of("axiom: F[F]F\n"), plain()));
     EXPECT_FALSE(census(grammar_of("angle factor: 6\naxiom: F+F\n"), plain()));
+}
+
+using Played = std::vector<std::tuple<int, std::int64_t, std::int64_t, double>>;
+
+/// A piece is what the whole would be if it were cut.
+void expect_piece_of(const Grammar& grammar, const Melody& melody, const Collector& whole, std::int64_t from,
+                     std::int64_t to) {
+    Played expected;
+    for (const Note& note : whole.all) {
+        const std::int64_t onset = std::max(note.onset, from);
+        const std::int64_t end = std::min(note.onset + note.duration, to);
+        if (end > onset) expected.emplace_back(note.voice, onset - from, end - onset, note.key);
+    }
+    PlayOptions options;
+    options.from = from;
+    options.to = to;
+    Played found;
+    for (const Note& note : played(grammar, melody, options).all) {
+        found.emplace_back(note.voice, note.onset, note.duration, note.key);
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected) << from << " to " << to;
+}
+
+TEST(Pieces, BeginAsTheWholeDoesWhateverComesFirst) {
+    // Runs, rests and branches before the first note; the other mappings.
+    const std::vector<Grammar> grammars = {
+        hilbert(4),
+        hilbert(5),
+        hilbert(6),
+        dragon(9, ""),
+        grammar_of("turn: left\naxiom: ffFFF+FF-FFFF-FFF+F\n"),
+        grammar_of("turn: left\nheading: 0\nderivation length: 2\naxiom: F\nF --> FF[+F-F]F\n")};
+    for (const Grammar& grammar : grammars) {
+        for (const Mapping mapping : {Mapping::runs, Mapping::counterpoint, Mapping::symbols}) {
+            for (const Vertical vertical : {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::voice}) {
+                Melody melody = plain();
+                melody.mapping = mapping;
+                melody.vertical = vertical;
+                melody.anchor = Anchor::first_note;
+                melody.range = Range::clamp;
+                const Collector whole = played(grammar, melody);
+                for (std::int64_t from = 1; from < whole.end; from += whole.end / 7 + 1) {
+                    expect_piece_of(grammar, melody, whole, from, from + 10 * unit);
+                }
+            }
+        }
+    }
+}
+
+TEST(Pieces, MayBeginWithTheTonic) {
+    for (const Mapping mapping : {Mapping::runs, Mapping::counterpoint, Mapping::symbols}) {
+        Melody melody = plain();
+        melody.mapping = mapping;
+        melody.anchor = Anchor::piece;
+        melody.tonic = 64;
+        melody.range = Range::refuse;
+        PlayOptions options;
+        options.from = 1'000'000'000LL * melody.meter.bar();
+        options.to = options.from + 2 * melody.meter.bar();
+        const Collector piece = played(dragon(40, "heading: 0\n"), melody, options);
+        ASSERT_FALSE(piece.all.empty());
+        EXPECT_EQ(piece.all.front().onset, 0);
+        const auto first = std::min_element(piece.all.begin(), piece.all.end(), [](const Note& a, const Note& b) {
+            return std::tuple(a.voice, a.onset) < std::tuple(b.voice, b.onset);
+        });
+        EXPECT_EQ(first->key, 64);
+        EXPECT_EQ(piece.end, 2 * melody.meter.bar());
+    }
 }
 
 TEST(Pieces, FromTheMiddleEqualTheWholeCut) {
@@ -360,27 +503,20 @@ TEST(Pieces, FromTheMiddleEqualTheWholeCut) {
             const Collector whole = played(grammar, melody);
             std::mt19937 random(7);
             for (int i = 0; i < 20; ++i) {
-                PlayOptions options;
-                options.from = static_cast<std::int64_t>(random() % static_cast<unsigned>(whole.end));
-                options.to = options.from + static_cast<std::int64_t>(random() % 20'000) + 1;
-                std::vector<std::tuple<int, std::int64_t, std::int64_t, double>> expected;
-                for (const Note& note : whole.all) {
-                    const std::int64_t from = std::max(note.onset, options.from);
-                    const std::int64_t to = std::min(note.onset + note.duration, options.to);
-                    if (to > from) expected.emplace_back(note.voice, from - options.from, to - from, note.key);
-                }
-                Collector piece;
-                play(grammar, melody, piece, options);
-                std::vector<std::tuple<int, std::int64_t, std::int64_t, double>> found;
-                for (const Note& note : piece.all) {
-                    found.emplace_back(note.voice, note.onset, note.duration, note.key);
-                }
-                std::sort(expected.begin(), expected.end());
-                std::sort(found.begin(), found.end());
-                EXPECT_EQ(found, expected) << static_cast<int>(vertical) << " " << options.from;
+                const auto from = static_cast<std::int64_t>(random() % static_cast<unsigned>(whole.end));
+                expect_piece_of(grammar, melody, whole, from,
+                                from + static_cast<std::int64_t>(random() % 20'000) + 1);
             }
         }
     }
+}
+
+TEST(Pieces, OfOrdersWithoutMeasureCostWhatTheyAre) {
+    PlayOptions options;
+    options.to = 4 * plain().meter.bar();
+    Melody melody = plain();
+    melody.anchor = Anchor::first_note;
+    EXPECT_GT(played(hilbert(100'000), melody, options).all.size(), 10u);
 }
 
 TEST(Pieces, AnyOrderStartsAnywhere) {

@@ -1,9 +1,11 @@
 // tests/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
+#include "music/midi_check.h"
 #include "tests/files.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -56,9 +58,10 @@ TEST(Play, WhatItWritesIsCleanAndTheSameEveryTime) {
         }
     }
     // Several patterns are tracks of one score.
-    ASSERT_EQ(run({"play", names[0], names[1], "--transpose", "-12", "--humanise", "0.5", "-o", folder.file("all.mid")})
-                  .status,
-              0);
+    ASSERT_EQ(
+        run({"play", names[0], names[1], "--transpose", "-12", "--humanise", "0.5", "-o", folder.file("all.mid")})
+            .status,
+        0);
     EXPECT_EQ(run({"check", folder.file("all.mid")}).status, 0);
 }
 
@@ -66,6 +69,71 @@ TEST(Play, TellsWithoutPlaying) {
     const Outcome outcome = run({"play", "-", "-n", "40"}, {.input = hilbert});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.output.find("notes     483570327845851669882470"), std::string::npos) << outcome.output;
+}
+
+TEST(Play, TellsOfPieces) {
+    const Outcome outcome =
+        run({"play", "-", "-n", "40", "--from-bar", "1000000000", "--bars", "2", "--anchor", "piece"},
+            {.input = hilbert});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.output.find("bars      2"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("range "), std::string::npos) << outcome.output;
+}
+
+TEST(Play, WhatIsLostOnTheWayIsTold) {
+    const auto told = [](std::vector<std::string> arguments, const std::string& name, std::string_view message) {
+        const Outcome outcome = played(hilbert, std::move(arguments), name);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    };
+    told({"--unit", "1/12"}, "x.musicxml", "at a 64th");
+    told({"--scale", "22-shruti"}, "x.ly", "nearest quarter tone");
+    told({"-n", "8"}, "x.mid", "beyond C-1 to G9");
+    told({"--mapping", "counterpoint", "--vertical", "rest"}, "x.mid", "'vertical:' has no meaning");
+}
+
+TEST(Play, AHumanPlaysThePieceAsTheWhole) {
+    const ScratchFolder folder;
+    const auto notes = [&](std::vector<std::string> piece) {
+        const std::string file = folder.file("x.mid");
+        std::vector<std::string> arguments = {"-q", "play", "hilbert-in-c", "--humanise", "1", "-o", file};
+        arguments.insert(arguments.end(), piece.begin(), piece.end());
+        EXPECT_EQ(run(arguments).status, 0);
+        const std::string bytes = contents(file);
+        return read_midi({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).notes;
+    };
+    const auto whole = notes({});
+    const auto piece = notes({"--from-bar", "3", "--bars", "2"});
+    std::size_t equal = 0;
+    for (const MidiNote& note : piece) {
+        equal += static_cast<std::size_t>(std::count_if(whole.begin(), whole.end(), [&](const MidiNote& other) {
+            return other.onset == note.onset + 2 * 1920 && other.key == note.key && other.velocity == note.velocity;
+        }));
+    }
+    EXPECT_GE(equal + 1, piece.size());
+}
+
+TEST(Play, ATransposedScoreIsWrittenInItsKey) {
+    const ScratchFolder folder;
+    const auto key = [&](const std::string& semitones) {
+        EXPECT_EQ(run({"-q", "play", "hilbert", "--transpose", semitones, "-o", folder.file("x.musicxml")}).status,
+                  0);
+        const std::string text = contents(folder.file("x.musicxml"));
+        const std::size_t at = text.find("<fifths>");
+        return text.substr(at + 8, text.find('<', at + 8) - at - 8);
+    };
+    EXPECT_EQ(key("0"), "0");
+    EXPECT_EQ(key("2"), "2");
+    EXPECT_EQ(key("-2"), "-2");
+}
+
+TEST(Play, AScoreHoldsItsPattern) {
+    const ScratchFolder folder;
+    ASSERT_EQ(run({"-q", "play", "hilbert-in-c", "-o", folder.file("x.mid")}).status, 0);
+    EXPECT_EQ(run({"-q", "show", folder.file("x.mid")}).output, run({"-q", "show", "hilbert-in-c"}).output);
+    std::filesystem::rename(folder.file("x.mid"), folder.file("x"));
+    EXPECT_EQ(run({"check", folder.file("x")}).status, 0) << "a MIDI file is known by its first bytes";
+    EXPECT_EQ(run({"-q", "show", folder.file("x")}).status, 0);
 }
 
 TEST(Play, APieceOfAnyOrder) {
@@ -102,7 +170,11 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
     refused(hilbert, {"-n", "11"}, 2, "--bars", "x.musicxml");
     refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
-    refused(hilbert, {"--from-bar", "1000"}, 2, "there is no note in this piece");
+    refused(hilbert, {"--from-bar", "1000"}, 2, "the music ends before it begins");
+    refused(hilbert, {"--range", "fold C5-C4"}, 2, "the lowest and the highest note");
+    refused(hilbert, {"--scale", ""}, 2, "there is no scale ''");
+    refused(hilbert, {"--keyboard", "/dev/zero"}, 2, "over 1 MB");
+    refused(hilbert, {"-n", "10"}, 2, "6 hours 45 minutes", "x.wav");
     refused(hilbert, {}, 2, "unknown extension", "x.ogg");
     refused("axiom: FFF\n", {}, 2, "no horizontal run");
     refused("axiom: F]\n", {"--set", "heading=0"}, 2, "']' without '['");
@@ -122,6 +194,10 @@ TEST(Play, ScalesOfFiles) {
     const Outcome bad = run({"play", folder.file("p.lsys"), "--scale", "broken.scl", "-o", folder.file("y.mid")});
     EXPECT_EQ(bad.status, 2);
     EXPECT_NE(bad.errors.find("broken.scl:4:1"), std::string::npos) << bad.errors;
+    EXPECT_EQ(run({"check", folder.file("third.scl")}).status, 0);
+    const Outcome checked = run({"check", folder.file("broken.scl")});
+    EXPECT_EQ(checked.status, 2);
+    EXPECT_NE(checked.output.find("broken.scl:4:1"), std::string::npos) << checked.output;
     EXPECT_FALSE(std::filesystem::exists(folder.file("y.mid")));
 }
 
