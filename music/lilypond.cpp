@@ -174,6 +174,14 @@ std::string length_name(std::int64_t length) {
     return fmt::format("{}{}", value.divisor, value.dotted ? "." : "");
 }
 
+/// How the beats of 5/8, 7/8, … are beamed, which LilyPond does not know by itself: twos and a three.
+std::string beams(const Meter& meter) {
+    if (meter.unit < 8 || meter.beats < 5 || meter.beats % 2 == 0 || meter.beats % 3 == 0) return {};
+    std::string groups;
+    for (int left = meter.beats; left > 3; left -= 2) groups += "2,";
+    return groups + "3 ";
+}
+
 std::string key_name(const KeySignature& key) {
     // From seven flats to seven sharps; minor keys lie three fifths further on.
     static constexpr std::array<std::string_view, 18> tonics = {"ces", "ges", "des", "aes", "ees", "bes",
@@ -199,7 +207,7 @@ public:
         // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
         put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
-        put("  >>\n  \\layout {{ }}\n  \\midi {{ }}\n}}\n");
+        put("  >>\n  \\layout {{ indent = 30\\mm }}\n  \\midi {{ }}\n}}\n");
         flush();
     }
 
@@ -249,8 +257,9 @@ private:
             static constexpr std::array<std::string_view, 4> numbers = {"One", "Two", "Three", "Four"};
             put("      \\new Voice {{\n");
             if (i == 0) {
-                put("        \\clef {} {}{}\\time {}/{}\n", staff.clef == Clef::treble ? "treble" : "bass",
-                    told.key ? key_name(*told.key) : "", told.key ? " " : "", head_.meter.beats, head_.meter.unit);
+                put("        \\clef {} {}{}\\time {}{}/{}\n", staff.clef == Clef::treble ? "treble" : "bass",
+                    told.key ? key_name(*told.key) : "", told.key ? " " : "", beams(head_.meter), head_.meter.beats,
+                    head_.meter.unit);
                 if (has_tempo) {
                     // A whole number: LilyPond takes no other, and its MIDI files cut fractions off.
                     put("        \\tempo 4 = {}\n", std::max<long long>(1, std::llround(head_.tempo)));

@@ -983,8 +983,9 @@ public:
                     state_.turned = sign_of(command.angle);
                     break;
                 case Kind::open:
-                    end_note();
+                    // The stem's note goes on through its branches.
                     stack_.open(state_, position_);
+                    state_.sounding = unknown;
                     state_.line = {};
                     break;
                 case Kind::close:

@@ -134,7 +134,7 @@ TEST(LilyPond, WritesALineForEachBar) {
       }
     >>
   >>
-  \layout { }
+  \layout { indent = 30\mm }
   \midi { }
 }
 )");
