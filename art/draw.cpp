@@ -1,8 +1,10 @@
 #include "art/draw.h"
 
+#include "art/draw_view.h"
 #include "art/image_file.h"
 #include "art/output_file.h"
 #include "art/pdf.h"
+#include "art/picture.h"
 #include "art/raster.h"
 #include "art/svg.h"
 #include "engine/fold.h"
@@ -111,117 +113,28 @@ private:
     double width_ = 0.0;
 };
 
-/// Reads the word once or several times, always into the same kind of turtle.
-class Drawer {
-public:
-    Drawer(const Grammar& grammar, Print& print, const DrawOptions& options)
-        : grammar_(grammar), print_(print), options_(options), spline_(print.style.line == Line::spline) {
-        const std::vector<char> reached = grammar.reachable();
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            if (!reached[i]) continue;
-            switch (grammar.symbols()[i].command.action) {
-                case Action::push:
-                case Action::pop:
-                    has_brackets_ = true;
-                    break;
-                case Action::polygon_begin:
-                case Action::disc:
-                    has_areas_ = true;
-                    break;
-                case Action::width_factor:
-                case Action::width_set:
-                    has_widths_ = true;
-                    break;
-                case Action::colour_step:
-                case Action::colour_set:
-                    has_colours_ = true;
-                    break;
-                default:
-                    break;
-            }
-        }
-    }
+void draw_pixels(const Drawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
+                 const std::filesystem::path& file) {
+    const auto raster = make_raster(print);
+    drawing.read(*raster);
+    Picture picture(print, options, raster->channels(), output, file);
+    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+        if (options.watch) options.watch(0);
+        picture.rows(first_row, rows, pixels);
+    });
+    picture.close();
+}
 
-    DrawReport prepare() {
-        // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
-        // is folded for whether it closes.
-        const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
-        std::optional<Fold> folded;
-        if (folds_extent || (spline_ && !has_brackets_)) folded = fold(grammar_);
-        const bool takes_census = spline_ && !folded;
-        const bool reads_extent = spline_ || !folded;
-        if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
+Grammar made_ready(const Grammar& given, const DrawOptions& options) {
+    DerivationOptions whole_words;
+    whole_words.limit_whole_words(options.budget);
+    whole_words.watch = options.watch;
+    Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    require_affordable(grammar, true, options.budget);
+    return grammar;
+}
 
-        if (takes_census) {
-            StrokeCensus census;
-            read_straight(census);
-            closed_ = std::move(census.closed);
-        } else if (spline_) {
-            closed_ = {folded->closed};
-        }
-        const glm::dmat3x2 turned = orientation(options_.placement);
-        ExtentSink extent(print_.style, turned);
-        if (!reads_extent) {
-            for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
-            extent.widest = print_.style.pen_width({});
-        } else {
-            read(extent);
-        }
-        if (extent.box.empty()) {
-            throw std::runtime_error(
-                "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
-                "colour that is seen");
-        }
-        double ink_steps = 0;
-        double ink_millimetres = 0;
-        (print_.style.stroke.in_steps ? ink_steps : ink_millimetres) = extent.widest / 2;
-        PlacementOptions placement = options_.placement;
-        placement.scale *= grammar_.scale_percent() / 100;
-        print_.placement = place(extent.box, print_.page, placement, ink_steps, ink_millimetres);
-        const double step = print_.placement.step;
-        DrawReport report;
-        report.step = step;
-        report.size = (extent.box.high - extent.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
-        report.overflows = report.size.x > print_.page.width - 2 * print_.page.margin + 1e-6 ||
-                           report.size.y > print_.page.height - 2 * print_.page.margin + 1e-6;
-        return report;
-    }
-
-    /// One pass over the word into `sink`.
-    void read(PathSink& sink) const {
-        if (!spline_) return read_straight(sink);
-        SplineSink spline(sink, closed_);
-        read_straight(spline);
-    }
-
-private:
-    void read_straight(PathSink& sink) const {
-        const auto turtle = Turtle::drawing(grammar_, sink, spline_);
-        DerivationOptions derivation;
-        derivation.interpreted = true;
-        derivation.watch = options_.watch;
-        derive(grammar_, *turtle, derivation);
-    }
-
-    /// In every colour that may occur.
-    bool all_lines_are_seen() const {
-        const int colours = has_colours_ ? static_cast<int>(print_.style.palette.size()) : 1;
-        for (int colour = 0; colour < colours; ++colour) {
-            if (!print_.style.draws(Pen{.colour = colour})) return false;
-        }
-        return true;
-    }
-
-    const Grammar& grammar_;
-    Print& print_;
-    const DrawOptions& options_;
-    bool spline_;
-    bool has_brackets_ = false;
-    bool has_areas_ = false;
-    bool has_widths_ = false;
-    bool has_colours_ = false;
-    std::vector<bool> closed_;
-};
+}  // namespace
 
 std::string image_format(PrintFormat format) {
     switch (format) {
@@ -236,38 +149,107 @@ std::string image_format(PrintFormat format) {
     }
 }
 
-void draw_pixels(const Drawer& drawer, const Print& print, const DrawOptions& options, OutputFile& output,
-                 const std::filesystem::path& file) {
-    const auto raster = make_raster(print);
-    drawer.read(*raster);
-    const PixelSize size = pixel_size(print.page, print.dpi);
-    ImageSpec spec;
-    spec.format = image_format(options.format);
-    spec.width = size.width;
-    spec.height = size.height;
-    spec.channels = raster->channels();
-    spec.dpi = print.dpi;
-    spec.threads = options.threads;
-    spec.title = print.title;
-    spec.description = print.pattern;
-    spec.software = print.made;
-    // What the library says of a failure does not name the file.
-    const auto named = [&](auto&& write) {
-        try {
-            return write();
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
+Drawing::Drawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
+    : grammar_(made_ready(grammar, options)), style_(style), options_(options), spline_(style.line == Line::spline) {
+    const std::vector<char> reached = grammar_.reachable();
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (!reached[i]) continue;
+        switch (grammar_.symbols()[i].command.action) {
+            case Action::push:
+            case Action::pop:
+                has_brackets_ = true;
+                break;
+            case Action::polygon_begin:
+            case Action::disc:
+                has_areas_ = true;
+                break;
+            case Action::width_factor:
+            case Action::width_set:
+                has_widths_ = true;
+                break;
+            case Action::colour_step:
+            case Action::colour_set:
+                has_colours_ = true;
+                break;
+            default:
+                break;
         }
-    };
-    const auto image = named([&] { return open_image(output.temporary(), spec); });
-    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
-        if (options.watch) options.watch(0);
-        named([&] { image->rows(first_row, rows, pixels); });
-    });
-    named([&] { image->close(); });
+    }
 }
 
-}  // namespace
+const DrawnExtent& Drawing::extent() {
+    if (extent_) return *extent_;
+    // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
+    // is folded for whether it closes.
+    const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
+    std::optional<Fold> folded;
+    if (folds_extent || (spline_ && !has_brackets_)) folded = fold(grammar_);
+    const bool takes_census = spline_ && !folded;
+    const bool reads_extent = spline_ || !folded;
+    if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
+
+    if (takes_census) {
+        StrokeCensus census;
+        read_straight(census);
+        closed_ = std::move(census.closed);
+    } else if (spline_) {
+        closed_ = {folded->closed};
+    }
+    const glm::dmat3x2 turned = orientation(options_.placement);
+    ExtentSink extent(style_, turned);
+    if (!reads_extent) {
+        for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
+        extent.widest = style_.pen_width({});
+    } else {
+        read(extent);
+    }
+    if (extent.box.empty()) {
+        throw std::runtime_error(
+            "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
+            "colour that is seen");
+    }
+    return extent_.emplace(extent.box, extent.widest);
+}
+
+DrawReport Drawing::place(Print& print) {
+    const DrawnExtent& seen = extent();
+    double ink_steps = 0;
+    double ink_millimetres = 0;
+    (style_.stroke.in_steps ? ink_steps : ink_millimetres) = seen.widest / 2;
+    PlacementOptions placement = options_.placement;
+    placement.scale = scale();
+    print.placement = sikku::place(seen.box, print.page, placement, ink_steps, ink_millimetres);
+    const double step = print.placement.step;
+    DrawReport report;
+    report.step = step;
+    report.size = (seen.box.high - seen.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
+    report.overflows = report.size.x > print.page.width - 2 * print.page.margin + 1e-6 ||
+                       report.size.y > print.page.height - 2 * print.page.margin + 1e-6;
+    return report;
+}
+
+void Drawing::read(PathSink& sink) const {
+    if (!spline_) return read_straight(sink);
+    SplineSink spline(sink, closed_);
+    read_straight(spline);
+}
+
+void Drawing::read_straight(PathSink& sink) const {
+    const auto turtle = Turtle::drawing(grammar_, sink, spline_);
+    DerivationOptions derivation;
+    derivation.interpreted = true;
+    derivation.watch = options_.watch;
+    derive(grammar_, *turtle, derivation);
+}
+
+/// In every colour that may occur.
+bool Drawing::all_lines_are_seen() const {
+    const int colours = has_colours_ ? static_cast<int>(style_.palette.size()) : 1;
+    for (int colour = 0; colour < colours; ++colour) {
+        if (!style_.draws(Pen{.colour = colour})) return false;
+    }
+    return true;
+}
 
 std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
     const std::string extension = lower_case(file.extension().string());
@@ -280,21 +262,17 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, const std::filesystem::path& file) {
-    DerivationOptions whole_words;
-    whole_words.limit_whole_words(options.budget);
-    whole_words.watch = options.watch;
-    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
-    require_affordable(grammar, true, options.budget);
+DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file) {
+    if (auto report = draw_view(grammar, print, options, file)) return *report;
+    Drawing drawing(grammar, print.style, options);
     OutputFile output(file);
-    Drawer drawer(grammar, print, options);
-    DrawReport report = drawer.prepare();
+    DrawReport report = drawing.place(print);
     if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
         const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
-        drawer.read(*writer);
+        drawing.read(*writer);
         writer->finish();
     } else {
-        draw_pixels(drawer, print, options, output, file);
+        draw_pixels(drawing, print, options, output, file);
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
     }
     output.commit();

@@ -2,13 +2,17 @@
 #pragma once
 
 #include "art/print.h"
+#include "art/view.h"
 #include "engine/grammar.h"
+#include "engine/path.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -17,11 +21,16 @@ enum class PrintFormat { svg, pdf, png, tiff, jpeg, exr };
 /// By the file's extension (any case); nullopt for one that no writer knows.
 std::optional<PrintFormat> print_format(const std::filesystem::path& file);
 
+/// A raster format by the name that ImageSpec has for it.
+std::string image_format(PrintFormat format);
+
 struct DrawOptions {
     PrintFormat format = PrintFormat::svg;
     PlacementOptions placement;
-    int threads = 0;        ///< for raster formats; 0: all cores
-    double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
+    std::optional<ViewWindow> window;  ///< of straight lines in one pen: what fills the page within its margins
+    int threads = 0;                   ///< for raster formats; 0: all cores
+    int compression = 6;               ///< of PNG: 1, quick and large, to 9
+    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
     /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
@@ -34,7 +43,50 @@ struct DrawReport {
     double step = 0.0;                ///< millimetres of one turtle step
     glm::dvec2 size{0.0};             ///< of the drawing with its pen, in millimetres
     bool overflows = false;           ///< it is larger than the page within its margins (a step was given)
+    std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
     bool leaves_pattern_out = false;  ///< its text is too long for the format
+};
+
+/// What of a drawing is seen, as it will lie on the page: in turtle steps, y up, without the width of its pen.
+struct DrawnExtent {
+    Box box;
+    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
+};
+
+/// A drawing that is placed and then read, any number of times, always into the same strokes: what draw() does
+/// before there is a file.
+class Drawing {
+public:
+    /// Resolves contexts and asks what the drawing costs; of `style` what is seen and how lines are drawn. Of
+    /// `options` the format and the threads do not count.
+    /// @throws BudgetError, WordError
+    Drawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
+
+    /// Worked out when it is first asked for: from the fold where only straight lines are drawn and all are seen,
+    /// else from one pass over the word. @throws std::runtime_error if nothing is drawn
+    const DrawnExtent& extent();
+    /// Works out the placement of `print` on its page. @throws as extent(), and if the margins leave no room
+    DrawReport place(Print& print);
+    /// One pass over the word into `sink`. To be called after extent() or place().
+    void read(PathSink& sink) const;
+
+    /// Fraction of the page that a fitted drawing fills.
+    double scale() const { return options_.placement.scale * grammar_.scale_percent() / 100; }
+
+private:
+    void read_straight(PathSink& sink) const;
+    bool all_lines_are_seen() const;
+
+    Grammar grammar_;
+    Style style_;
+    DrawOptions options_;
+    bool spline_;
+    bool has_brackets_ = false;
+    bool has_areas_ = false;
+    bool has_widths_ = false;
+    bool has_colours_ = false;
+    std::vector<bool> closed_;  ///< of a spline's strokes, in their order
+    std::optional<DrawnExtent> extent_;
 };
 
 /// Draws into `file`, which appears whole or not at all. `print` comes with page, style, dpi and texts; its placement

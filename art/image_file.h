@@ -20,6 +20,7 @@ struct ImageSpec {
     std::string title;        ///< Title where the format has one
     std::string description;  ///< ImageDescription
     std::string software;     ///< Software
+    int compression = 6;      ///< of PNG: 1, quick and large, to 9
 };
 
 /// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF OpenImageIO reads as much. Half a pattern is none.

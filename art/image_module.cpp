@@ -174,6 +174,19 @@ private:
     std::vector<float> linear_;
 };
 
+/// Threads are the library's as a whole, and it does not bear two who set them at once.
+void set_threads(int threads) {
+    static std::mutex mutex;
+    static int most = 0;
+    const std::scoped_lock lock(mutex);
+    // TIFF compresses its strips in parallel only if the pool is larger than this.
+    threads = std::max(threads, 3);
+    if (threads <= most) return;
+    most = threads;
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+}
+
 FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
     const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
                exr = spec.format == "exr";
@@ -183,9 +196,7 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     }
     // Debian's OpenImageIO would tell the terminal what it thinks of attributes.
     OIIO::attribute("debug", 0);
-    // TIFF compresses its strips in parallel only if the pool is larger than this.
-    OIIO::attribute("threads", std::max(spec.threads, 3));
-    OIIO::attribute("exr_threads", std::max(spec.threads, 1));
+    set_threads(spec.threads);
     output_ = OIIO::ImageOutput::create(png ? "png" : tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
     if (!output_) throw std::runtime_error(OIIO::geterror());
     if (jpeg) stream_.emplace(file_);
@@ -205,7 +216,7 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     if (tiff || exr) image.attribute("DateTime", 0);
     if (png) {
         image.attribute("compression", "zip");
-        image.attribute("png:compressionLevel", 6);
+        image.attribute("png:compressionLevel", spec.compression);
         // libpng's PNG_FILTER_NONE: left to itself it tries every filter on every row, for more than twice the time
         // and no smaller files where areas are flat.
         image.attribute("png:filter", 8);

@@ -147,7 +147,19 @@ public:
         resources_ = new_object();
     }
 
+    void begin_part(const Print& part, const Window& window) override {
+        end_part();
+        take_part(part, window);
+    }
+
     void finish() override {
+        end_part();
+        write_structure();
+    }
+
+private:
+    /// Completes the objects of the layers, and notes where they are painted.
+    void end_part() {
         for (auto& [order, layer] : layers_) {
             end_path(layer);
             layer.text.append(layer.translucent ? "Q\n" : "Q\nEMC\n");
@@ -162,19 +174,19 @@ public:
             begin_object(layer.length);
             write(fmt::format("{}\nendobj\n", layer.packed_bytes));
         }
-        std::string contents;
         std::string groups;
-        std::string properties;
-        std::string forms;
-        if (const auto& ground = print_.style.ground; ground && ground->alpha > 0) {
+        const auto paint = [&](int stream) { fmt::format_to(std::back_inserter(contents_), " {} 0 R", stream); };
+        const std::string box =
+            fmt::format("{} {} {} {} re", user(window_.left), user(print_.page.height - window_.top - window_.height),
+                        user(window_.width), user(window_.height));
+        if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", box)));
+        if (const auto& ground = part_->style.ground; ground && ground->alpha > 0) {
             const int group = new_object();
             write_group(group, "ground");
-            fmt::format_to(std::back_inserter(properties), "/G{} {} 0 R\n", group, group);
+            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
-            fmt::format_to(std::back_inserter(contents), " {} 0 R",
-                           write_plain_stream(fmt::format("/OC /G{} BDC q {} rg {} 0 0 {} {} re f Q EMC\n", group,
-                                                          channels(*ground), set_alpha(ground->alpha),
-                                                          user(print_.page.width), user(print_.page.height))));
+            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} rg {} {} f Q EMC\n", group, channels(*ground),
+                                                 set_alpha(ground->alpha), box)));
         }
         for (auto& [order, layer] : layers_) {
             if (!layer.to_file) {
@@ -186,22 +198,27 @@ public:
                 write("\nendstream\nendobj\n");
             }
             write_group(layer.group, layer.label);
-            fmt::format_to(std::back_inserter(properties), "/G{} {} 0 R\n", layer.group, layer.group);
+            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", layer.group, layer.group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", layer.group);
             int content = layer.stream;
             if (layer.translucent) {
-                fmt::format_to(std::back_inserter(forms), "/X{} {} 0 R\n", layer.stream, layer.stream);
+                fmt::format_to(std::back_inserter(forms_), "/X{} {} 0 R\n", layer.stream, layer.stream);
                 content = write_plain_stream(fmt::format("/OC /G{} BDC q {} /X{} Do Q EMC\n", layer.group,
                                                          set_alpha(layer.colour.alpha), layer.stream));
             }
-            fmt::format_to(std::back_inserter(contents), " {} 0 R", content);
+            paint(content);
             layer.packed = {};
         }
-        write_structure(contents, groups, properties, forms);
+        if (window_.clips) paint(write_plain_stream("Q\n"));
+        groups_ += groups;
+        if (part_ == &print_) {
+            order_ += groups;
+        } else if (!groups.empty()) {
+            order_ += fmt::format(" [ {}{} ]", text_string(part_->title), groups);
+        }
         layers_.clear();
     }
 
-private:
     void write(std::string_view text) { file_.write(text); }
 
     int new_object() {
@@ -422,12 +439,11 @@ private:
         write(fmt::format("<< /Type /OCG /Name {} >>\nendobj\n", text_string(label)));
     }
 
-    void write_structure(const std::string& contents, const std::string& groups, const std::string& properties,
-                         const std::string& forms) {
+    void write_structure() {
         begin_object(resources_);
         write("<<\n");
-        if (!properties.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties));
-        if (!forms.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms));
+        if (!properties_.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties_));
+        if (!forms_.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms_));
         if (!alphas_.empty()) {
             write("/ExtGState <<\n");
             for (const int alpha : alphas_) {
@@ -444,13 +460,13 @@ private:
             "<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
             "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
             pages_, box, box, box, box, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
-            alphas_.empty() ? "" : "/Group << /S /Transparency /CS /DeviceRGB >>\n", resources_, contents));
+            alphas_.empty() ? "" : "/Group << /S /Transparency /CS /DeviceRGB >>\n", resources_, contents_));
         begin_object(pages_);
         write(fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>\nendobj\n", page_));
         begin_object(catalog_);
         write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n", pages_));
-        if (!groups.empty()) {
-            write(fmt::format("/OCProperties << /OCGs [{} ] /D << /Order [{} ] >> >>\n", groups, groups));
+        if (!groups_.empty()) {
+            write(fmt::format("/OCProperties << /OCGs [{} ] /D << /Order [{} ] >> >>\n", groups_, order_));
         }
         write(">>\nendobj\n");
         const int info = new_object();
@@ -472,6 +488,11 @@ private:
     Deflater deflater_;
     std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
     std::set<int> alphas_;
+    std::string contents_;    ///< streams in the order in which they are painted
+    std::string groups_;      ///< optional content groups
+    std::string order_;       ///< the same as a reader lists them: those of a part together
+    std::string properties_;  ///< and as resources
+    std::string forms_;
     double unit_ = 1.0;  ///< points of one unit of the page
     int catalog_ = 0;
     int pages_ = 0;

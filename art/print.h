@@ -5,6 +5,8 @@
 #include "art/style.h"
 #include "engine/path.h"
 
+#include <cstddef>
+#include <glm/vec3.hpp>
 #include <string>
 
 namespace sikku {
@@ -20,9 +22,36 @@ struct Print {
     std::string made;     ///< what made it: `sikku 0.1.0, -n 4`
 };
 
+/// A part of a sheet, in millimetres from its top left corner.
+struct Window {
+    double left = 0.0, top = 0.0;
+    double width = 0.0, height = 0.0;
+    bool clips = false;  ///< what of a drawing lies outside is cut off
+};
+
+/// The ink of parts too small to be seen: so much line, spread like that. In turtle steps.
+struct Blot {
+    glm::dvec3 spread{0.0};  ///< covariance: xx, xy, yy
+    glm::dvec2 size{0.0};    ///< of the part's box: it covers no more than that and the pen around it
+    double length = 0.0;
+};
+
+/// Receives a drawing of which some parts are blots.
+class BlotSink : public PathSink {
+public:
+    /// A number for what blot() is to leave; the same may be asked for again and again.
+    virtual std::size_t prepare(const Blot& blot, const Pen& pen) = 0;
+    /// What was prepared, around its centre of mass.
+    virtual void blot(std::size_t prepared, glm::dvec2 centre) = 0;
+};
+
 /// Takes the drawing of a print and writes it into a file.
 class PrintWriter : public PathSink {
 public:
+    /// Ends the drawing so far and begins another on the same sheet, over the first: with the style, the placement
+    /// and the title of `part`, which is kept by reference until the next one or finish(). Its page is the sheet, but
+    /// its ground is laid in `window` alone.
+    virtual void begin_part(const Print& part, const Window& window) = 0;
     /// Completes the document; to be called once, after the last stroke.
     virtual void finish() = 0;
 };

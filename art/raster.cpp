@@ -327,9 +327,13 @@ public:
     void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+    std::size_t prepare(const Blot& blot, const Pen& pen) override;
+    void blot(std::size_t prepared, glm::dvec2 centre) override;
 
+    void expect(const Pen& pen) override { line_nib(pen); }
     int channels() const override;
     void render(int threads, const RowSink& rows) override;
+    void render_rows(int first, int end, int channels, const RowSink& rows) const override;
 
 private:
     struct Range {
@@ -368,6 +372,7 @@ private:
     void add_piece(const Nib& nib, SubPoint from, SubPoint to);
     void polygon_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
     void add_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
+    void add_blots(Mask& mask, int top, const std::vector<float>& blots) const;
     void render_band(Workplace& workplace, int band) const;
 
     const Print& print_;
@@ -382,6 +387,15 @@ private:
     std::vector<Colour> line_colours_, fill_colours_;
     std::vector<int> line_slots_, fill_slots_;
     std::vector<Layer> strokes_, discs_;
+    /// A blot on its way into pixels.
+    struct Stamp {
+        float* ink = nullptr;   ///< null: it leaves nothing
+        glm::dvec2 half{0.0};   ///< half sides of the rectangle, in pixels
+        glm::dvec2 share{0.0};  ///< 1 / side
+        double area = 0;
+    };
+    std::vector<Stamp> stamps_;
+    std::vector<std::vector<float>> blots_;  ///< by slot of the line's colour: pixels of ink for each pixel
     Layer polygons_;
     std::vector<bool> polygon_colours_;  ///< which were used
     Arena arena_;
@@ -424,6 +438,7 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
     fill_slots_ = print.style.fill_slots();
     strokes_.resize(line_colours_.size());
     discs_.resize(fill_colours_.size());
+    blots_.resize(line_colours_.size());
     polygon_colours_.resize(fill_colours_.size());
 }
 
@@ -653,6 +668,70 @@ void BandRaster::add_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour) 
     }
 }
 
+std::size_t BandRaster::prepare(const Blot& blot, const Pen& pen) {
+    const Nib nib = line_nib(pen);
+    Stamp stamp;
+    if (nib.layer) {
+        std::vector<float>& ink = blots_[static_cast<std::size_t>(nib.layer - strokes_.data())];
+        ink.resize(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height));
+        stamp.ink = ink.data();
+        // An even rectangle along rows and columns with the variances of the blot.
+        const auto half = [&](double a, double b) {
+            const double variance = a * a * blot.spread.x + 2 * a * b * blot.spread.y + b * b * blot.spread.z;
+            return std::sqrt(3 * std::max(0.0, variance));
+        };
+        stamp.half = {half(matrix_[0].x, matrix_[1].x), half(matrix_[0].y, matrix_[1].y)};
+        stamp.share = 0.5 / glm::dvec2(std::max(stamp.half.x, 1e-9), std::max(stamp.half.y, 1e-9));
+        const double step = print_.placement.step * millimetre_;
+        const double width = static_cast<double>(nib.width);
+        const double most = (blot.size.x * step + width) * (blot.size.y * step + width);
+        stamp.area = std::min(blot.length * step * width, most);
+    }
+    stamps_.push_back(stamp);
+    return stamps_.size() - 1;
+}
+
+void BandRaster::blot(std::size_t prepared, glm::dvec2 centre) {
+    const Stamp& stamp = stamps_[prepared];
+    if (!stamp.ink) return;
+    const glm::dvec2 middle = to_pixels(centre);
+    const glm::dvec2 low = middle - stamp.half, high = middle + stamp.half;
+    // Also false for numbers that are none.
+    if (!(high.x >= 0 && high.y >= 0 && low.x < size_.width && low.y < size_.height)) return;
+    const auto row_length = static_cast<std::size_t>(size_.width);
+    if (low.x >= 0 && low.y >= 0 && high.x < size_.width && high.y < size_.height && stamp.half.x <= 0.5 &&
+        stamp.half.y <= 0.5) [[likely]] {
+        // Two columns and two rows at most.
+        const int x = static_cast<int>(low.x), y = static_cast<int>(low.y);
+        const bool is_wide = static_cast<int>(high.x) != x, is_high = static_cast<int>(high.y) != y;
+        const double left = is_wide ? (x + 1 - low.x) * stamp.share.x : 1;
+        const double top = (is_high ? (y + 1 - low.y) * stamp.share.y : 1) * stamp.area;
+        float* at = stamp.ink + static_cast<std::size_t>(y) * row_length + static_cast<std::size_t>(x);
+        at[0] += static_cast<float>(top * left);
+        if (is_wide) at[1] += static_cast<float>(top * (1 - left));
+        if (is_high) {
+            at += size_.width;
+            const double bottom = stamp.area - top;
+            at[0] += static_cast<float>(bottom * left);
+            if (is_wide) at[1] += static_cast<float>(bottom * (1 - left));
+        }
+        return;
+    }
+    const auto cell = [](double at) { return static_cast<int>(std::floor(std::clamp(at, -1.0, 1e6))); };
+    /// The share of the rectangle in a row or column.
+    const auto share = [](int at, double from, double to, double whole) {
+        if (std::floor(from) == std::floor(to)) return 1.0;
+        return (std::min(at + 1.0, to) - std::max<double>(at, from)) * whole;
+    };
+    for (int y = std::max(cell(low.y), 0); y <= std::min(cell(high.y), size_.height - 1); ++y) {
+        const double in_row = stamp.area * share(y, low.y, high.y, stamp.share.y);
+        float* row = stamp.ink + static_cast<std::size_t>(y) * row_length;
+        for (int x = std::max(cell(low.x), 0); x <= std::min(cell(high.x), size_.width - 1); ++x) {
+            row[x] += static_cast<float>(in_row * share(x, low.x, high.x, stamp.share.x));
+        }
+    }
+}
+
 int BandRaster::channels() const {
     if (transparent_) return 4;
     bool all_grey = grey(ground_);
@@ -661,6 +740,18 @@ int BandRaster::channels() const {
         if (!discs_[index].empty() || polygon_colours_[index]) all_grey = all_grey && grey(fill_colours_[index]);
     }
     return all_grey ? 1 : 3;
+}
+
+void BandRaster::add_blots(Mask& mask, int top, const std::vector<float>& blots) const {
+    const int rows = std::min(band_rows_, size_.height - top);
+    for (int row = 0; row < rows; ++row) {
+        const float* ink = blots.data() + static_cast<std::size_t>(top + row) * static_cast<std::size_t>(size_.width);
+        std::uint8_t* line = mask.pixels + row * mask.stride;
+        for (int x = 0; x < size_.width; ++x) {
+            line[x] =
+                static_cast<std::uint8_t>(std::min(255.0f, static_cast<float>(line[x]) + 255.0f * ink[x] + 0.5f));
+        }
+    }
 }
 
 void BandRaster::render_band(Workplace& workplace, int band) const {
@@ -672,10 +763,12 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
     }
     const auto paint = [&](const std::vector<Layer>& layers, const std::vector<Colour>& colours) {
         for (std::size_t slot = 0; slot < layers.size(); ++slot) {
-            if (layers[slot].empty() || layers[slot][at].empty()) continue;
+            const bool has_blots = &layers == &strokes_ && !blots_[slot].empty();
+            if (layers[slot].empty() || (layers[slot][at].empty() && !has_blots)) continue;
             StrokeReader reader(workplace, top);
             layers[slot][at].read(reader);
             reader.finish();
+            if (has_blots) add_blots(workplace.mask, top, blots_[slot]);
             workplace.canvas.blend(workplace.mask, colours[slot]);
         }
     };
@@ -740,6 +833,14 @@ void BandRaster::render(int threads, const RowSink& rows) {
     oneapi::tbb::task_arena arena(threads);
     arena.execute(
         [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), bands & draw & hand_on); });
+}
+
+void BandRaster::render_rows(int first, int end, int channels, const RowSink& rows) const {
+    Workplace workplace(size_.width, std::min(band_rows_, size_.height - first), channels);
+    for (int top = first; top < end; top += band_rows_) {
+        render_band(workplace, top / band_rows_);
+        rows(top, std::min(band_rows_, size_.height - top), workplace.canvas.pixels());
+    }
 }
 
 }  // namespace

@@ -30,14 +30,22 @@ using RowSink = std::function<void(int first_row, int rows, std::span<const std:
 /// up. Curves are within 0.05 pixel of their chords. Coordinates are rounded to 1/1024 pixel.
 /// Memory: 4 bytes a line of the flattened drawing (12 if longer than 32 pixels), whatever the page; and for each
 /// thread and one more a band of 32 to 128 rows, 2 to 10 bytes a pixel, at most 4 million pixels.
-class Raster : public PathSink {
+///
+/// Blots are spread as evenly as their covariance says, and add up with lines under one pixel; they are for pens of
+/// that width. They take 4 bytes a pixel of the page.
+class Raster : public BlotSink {
 public:
+    /// The pen counts among the colours used from here on.
+    virtual void expect(const Pen& pen) = 0;
     /// 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly so): the fewest
     /// channels that can show the ground and the colours used so far. To be asked when the drawing is complete.
     virtual int channels() const = 0;
     /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number, nor on the
     /// processor. May be called again. What `rows` throws ends the rendering and is thrown from here.
     virtual void render(int threads, const RowSink& rows) = 0;
+    /// Renders the rows from `first` up to `end` alone: multiples of 128, or the height of the print. With at least
+    /// as many channels as channels(). May be called from several threads at a time when the drawing is complete.
+    virtual void render_rows(int first, int end, int channels, const RowSink& rows) const = 0;
 };
 
 /// `print` is kept by reference and must outlive the raster. @throws std::runtime_error if a side is over 500,000

@@ -127,7 +127,30 @@ public:
         body_begin_ = written_ = file_.size();
     }
 
+    void begin_part(const Print& part, const Window& window) override {
+        end_part();
+        ++parts_;
+        const std::string box =
+            fmt::format("x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", decimal(window.left, 4),
+                        decimal(window.top, 4), decimal(window.width, 4), decimal(window.height, 4));
+        if (window.clips) file_.write(fmt::format("<clipPath id=\"window{}\"><rect {}/></clipPath>\n", parts_, box));
+        file_.write(fmt::format(
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}>\n<title>{}</title>\n", xml_escaped(part.title),
+            window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "", xml_escaped(part.title)));
+        write_ground(part.style.ground, box);
+        take_part(part, window);
+        body_begin_ = file_.size();
+        streaming_ = false;
+    }
+
     void finish() override {
+        end_part();
+        file_.write("</svg>\n");
+    }
+
+private:
+    /// Writes the layers in their order.
+    void end_part() {
         std::string before;
         const Layer* streamed = nullptr;
         for (auto& [order, layer] : layers_) {
@@ -143,12 +166,11 @@ public:
                 file_.write(layer.text.view());
             }
         }
-        file_.write("</svg>\n");
+        if (parts_ > 0) file_.write("</g>\n");
         if (!before.empty()) file_.insert(body_begin_, before);
         layers_.clear();
     }
 
-private:
     static char* put_text(char* out, std::string_view text) {
         std::memcpy(out, text.data(), text.size());
         return out + text.size();
@@ -170,12 +192,15 @@ private:
             file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
         }
         file_.write(fmt::format("{}\n", head_end));
-        if (const auto& ground = print_.style.ground; ground && ground->alpha > 0) {
-            file_.write(
-                fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"ground\">\n"
-                            "<rect width=\"{}\" height=\"{}\" fill=\"{}\"{}/>\n</g>\n",
-                            width, height, hex(*ground), opacity("fill-opacity", *ground)));
-        }
+        write_ground(print_.style.ground, fmt::format("width=\"{}\" height=\"{}\"", width, height));
+    }
+
+    void write_ground(const std::optional<Colour>& ground, std::string_view box) {
+        if (!ground || ground->alpha == 0) return;
+        file_.write(
+            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"ground\">\n"
+                        "<rect {} fill=\"{}\"{}/>\n</g>\n",
+                        box, hex(*ground), opacity("fill-opacity", *ground)));
     }
 
     struct LayerText {
@@ -334,6 +359,7 @@ private:
     std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
+    int parts_ = 0;
     Micrometres piece_start_;
     PathData data_{Micrometres{}};
 };

@@ -54,15 +54,15 @@ public:
     void end_stroke(bool closed) final { end_piece(closed && whole_); }
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) final {
-        const Colour colour = print_.style.fill_colour(pen);
+        const Colour colour = part_->style.fill_colour(pen);
         if (colour.alpha > 0 && vertices.size() >= 3) write_polygon(vertices, colour);
     }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) final {
-        const Colour colour = print_.style.fill_colour(pen);
-        const double millimetres = print_.style.disc_radius(radius, pen, print_.placement.step);
+        const Colour colour = part_->style.fill_colour(pen);
+        const double millimetres = part_->style.disc_radius(radius, pen, part_->placement.step);
         if (colour.alpha == 0 || !(millimetres > 0.0)) return;
         write_disc(place_(centre), millimetres * 1000.0, colour,
-                   fill_slots_[static_cast<std::size_t>(print_.style.index(pen))]);
+                   fill_slots_[static_cast<std::size_t>(part_->style.index(pen))]);
     }
 
 protected:
@@ -71,9 +71,23 @@ protected:
     VectorWriter(const Print& print, OutputFile& file)
         : print_(print),
           file_(file),
+          part_(&print),
+          window_{0.0, 0.0, print.page.width, print.page.height, false},
           place_(print.placement),
           line_slots_(print.style.line_slots()),
           fill_slots_(print.style.fill_slots()) {}
+
+    /// From here on drawings are those of `part`; the layers of the last one have been written.
+    void take_part(const Print& part, const Window& window) {
+        part_ = &part;
+        window_ = window;
+        place_ = MicrometrePlacement(part.placement);
+        line_slots_ = part.style.line_slots();
+        fill_slots_ = part.style.fill_slots();
+        layers_.clear();
+        layer_ = nullptr;
+        pen_.reset();
+    }
 
     /// Ends what was drawn with the present pen, if anything was.
     void end_piece(bool closed) {
@@ -83,9 +97,11 @@ protected:
         whole_ = false;
     }
 
-    const Print& print_;
+    const Print& print_;  ///< the whole sheet
     OutputFile& file_;
-    const MicrometrePlacement place_;
+    const Print* part_;  ///< what is being drawn: the sheet itself, or what begin_part() told
+    Window window_;      ///< of the part
+    MicrometrePlacement place_;
     std::map<LayerOrder, Layer> layers_;
 
     // The stroke that is being drawn, and its piece with the present pen.
@@ -111,10 +127,10 @@ private:
     virtual void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) = 0;
     virtual void write_disc(Micrometres centre, double radius, Colour colour, int slot) = 0;
 
-    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(print_.style.index(pen))]; }
+    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(part_->style.index(pen))]; }
 
     std::string width_text(const Pen& pen) const {
-        return decimal(print_.style.line_width(pen, print_.placement.step) * 1000.0, 3);
+        return decimal(part_->style.line_width(pen, part_->placement.step) * 1000.0, 3);
     }
 
     void take(const Pen& pen) {
@@ -122,9 +138,9 @@ private:
         pen_ = pen;
         slot_ = slot_of(pen);
         width_ = width_text(pen);
-        colour_ = print_.style.line_colour(pen);
+        colour_ = part_->style.line_colour(pen);
         // In PDF a width of 0 is the thinnest line there is, and not none.
-        visible_ = print_.style.draws(pen) && width_ != "0";
+        visible_ = part_->style.draws(pen) && width_ != "0";
         layer_ = nullptr;
     }
 
@@ -156,8 +172,8 @@ private:
         write_start();
     }
 
-    const std::vector<int> line_slots_;
-    const std::vector<int> fill_slots_;
+    std::vector<int> line_slots_;
+    std::vector<int> fill_slots_;
     std::optional<Pen> pen_;
     bool visible_ = false;
     bool started_ = false;  ///< the pen is down

@@ -143,7 +143,7 @@ Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
     return grammar;
 }
 
-LoadedPattern load(const PatternOptions& options, bool quiet) {
+LoadedPattern load(const PatternOptions& options, const Telling& telling) {
     std::vector<Setting> settings;
     for (const std::string& text : options.settings) {
         const std::size_t equals = text.find('=');
@@ -162,17 +162,19 @@ LoadedPattern load(const PatternOptions& options, bool quiet) {
         settings.push_back({"-n", "derivation length", options.steps});
     }
     settings.insert(settings.end(), options.more.begin(), options.more.end());
-    PatternText text = read_pattern_text(options.pattern);
+    PatternText text = options.text ? *options.text : read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     LoadedPattern loaded;
     loaded.pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     apply_overrides(loaded.pattern, options.variant, settings, diagnostics);
     if (!diagnostics.is_unreadable()) loaded.grammar = compile(loaded.pattern, diagnostics);
     diagnostics.throw_if_errors();
-    if (!quiet) {
-        for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());
-    }
+    for (const Diagnostic& warning : diagnostics.list()) telling.say("{}\n", warning.text());
     return loaded;
+}
+
+LoadedPattern load(const PatternOptions& options, bool quiet) {
+    return load(options, Telling{.quiet = quiet, .listener = {}, .watch = {}});
 }
 
 Progress::Progress(double expected, bool quiet)

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,9 +45,35 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noe
     }
 }
 
+/// Where goes what a print or a score has to tell while it is made: to the terminal, or to whoever makes many of
+/// them.
+struct Telling {
+    bool quiet = false;                                     ///< nothing goes to standard error
+    std::function<void(const std::string& text)> listener;  ///< takes it all instead; lines end with a line feed
+    /// Instead of a progress bar: called as DerivationOptions::watch is; may throw to stop.
+    std::function<void(std::uint64_t symbols)> watch;
+
+    template <typename... Arguments>
+    void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
+        if (listener) {
+            listener(fmt::format(format, std::forward<Arguments>(arguments)...));
+        } else if (!quiet) {
+            tell(format, std::forward<Arguments>(arguments)...);
+        }
+    }
+};
+
+/// Path, name of a pattern that comes along, or `-`: its text and the name to call it by in messages.
+struct PatternText {
+    std::string name;
+    std::string text;
+};
+PatternText read_pattern_text(const std::string& pattern);
+
 /// Options of every command that takes a pattern.
 struct PatternOptions {
     std::string pattern;
+    std::shared_ptr<const PatternText> text;  ///< of the pattern, if it was read already
     std::string steps;
     std::vector<std::string> settings;
     std::string variant;
@@ -62,12 +89,13 @@ void add_budget_option(CLI::App& command, double& budget);
 /// Compiles what a pattern states; mistakes in its keys, in its grammar and in its style go to `diagnostics`.
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// A pattern read, overridden and compiled; warnings were told on standard error.
+/// A pattern read, overridden and compiled; warnings were told.
 struct LoadedPattern {
     Pattern pattern;
     Grammar grammar;
 };
 /// @throws PatternError, UsageError for a name that nothing has
+LoadedPattern load(const PatternOptions& options, const Telling& telling);
 LoadedPattern load(const PatternOptions& options, bool quiet);
 
 /// A pattern that comes along.
@@ -78,13 +106,6 @@ struct KnownPattern {
 };
 /// Sorted by kind and name.
 std::vector<KnownPattern> known_patterns();
-
-/// Path, name of a pattern that comes along, or `-`: its text and the name to call it by in messages.
-struct PatternText {
-    std::string name;
-    std::string text;
-};
-PatternText read_pattern_text(const std::string& pattern);
 
 /// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.
 class Progress {
@@ -127,6 +148,7 @@ void add_derive(CLI::App& app, bool& quiet);
 void add_measure(CLI::App& app, bool& quiet);
 void add_draw(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);
+void add_gallery(CLI::App& app, bool& quiet);
 void add_scales(CLI::App& app);
 void add_patterns(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);

@@ -1,6 +1,6 @@
 // cli/draw.cpp: `sikku draw`: a print.
-#include "art/draw.h"
-#include "cli/command.h"
+#include "cli/draw.h"
+
 #include "engine/forecast.h"
 
 #include <fmt/format.h>
@@ -12,21 +12,6 @@
 namespace sikku {
 namespace {
 
-struct Options {
-    PatternOptions pattern;
-    std::string output;
-    std::string size = "A4";
-    bool landscape = false;
-    std::string margin = "10mm";
-    bool fit = false;
-    std::optional<std::string> step;
-    double rotate = 0.0;
-    bool mirror = false;
-    double dpi = 300.0;
-    double budget = 200e6;
-    int threads = 0;
-};
-
 double length(const char* option, const std::string& text, double dpi) {
     const auto value = parse_length(text, dpi);
     if (!value || !std::isfinite(*value)) {
@@ -36,7 +21,7 @@ double length(const char* option, const std::string& text, double dpi) {
     return *value;
 }
 
-Page page_of(const Options& options) {
+Page page_of(const DrawSettings& options) {
     const auto size = parse_size(options.size, options.dpi);
     if (!size) {
         throw UsageError(
@@ -58,14 +43,17 @@ Page page_of(const Options& options) {
     return page;
 }
 
-std::string made_with(const Options& options, const Grammar& grammar) {
+std::string made_with(const DrawSettings& options, const Grammar& grammar) {
     std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, grammar.steps());
+    if (options.window) text += " --window " + *options.window;
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
     return text;
 }
 
-void run(const Options& options, bool quiet) {
+}  // namespace
+
+PlannedPrint plan_print(const DrawSettings& options) {
     const auto format = print_format(options.output);
     if (!format) {
         std::error_code error;
@@ -78,7 +66,9 @@ void run(const Options& options, bool quiet) {
     }
     if (!(options.dpi >= 1 && options.dpi <= 10'000)) throw UsageError("--dpi: between 1 and 10000");
     if (!std::isfinite(options.rotate)) throw UsageError("--rotate: expected degrees");
-    Print print;
+    PlannedPrint planned;
+    Print& print = planned.print;
+    DrawOptions& drawing = planned.drawing;
     print.page = page_of(options);
     print.dpi = options.dpi;
     const bool pixels = *format != PrintFormat::svg && *format != PrintFormat::pdf;
@@ -86,7 +76,6 @@ void run(const Options& options, bool quiet) {
         throw UsageError(
             "the picture would be over 200,000 pixels wide or high: a smaller --size or --dpi is needed");
     }
-    DrawOptions drawing;
     drawing.format = *format;
     drawing.placement.rotate = options.rotate;
     drawing.placement.mirror = options.mirror;
@@ -96,10 +85,24 @@ void run(const Options& options, bool quiet) {
             throw UsageError(fmt::format("--step {}: a step is above 0 and at most 10 m long", *options.step));
         }
     }
+    if (options.window) {
+        drawing.window = parse_window(*options.window);
+        if (!drawing.window) {
+            throw UsageError(
+                fmt::format("--window {}: expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 "
+                            "and Y0 below Y1",
+                            *options.window));
+        }
+    }
     drawing.threads = options.threads;
     drawing.budget = options.budget;
+    drawing.compression = options.compression;
+    return planned;
+}
 
-    LoadedPattern loaded = load(options.pattern, quiet);
+void draw_print(const DrawSettings& options, const Telling& telling) {
+    auto [print, drawing] = plan_print(options);
+    LoadedPattern loaded = load(options.pattern, telling);
     Diagnostics diagnostics;
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
     diagnostics.throw_if_errors();
@@ -107,32 +110,36 @@ void run(const Options& options, bool quiet) {
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
     // Contexts are resolved before it is known how much there is to draw.
-    std::optional<Progress> progress(std::in_place, 0, quiet);
-    drawing.begin = [&](int passes) { progress.emplace(passes * expected_symbols(loaded.grammar, true), quiet); };
-    drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
+    std::optional<Progress> progress;
+    if (telling.watch) {
+        drawing.watch = telling.watch;
+    } else {
+        progress.emplace(0, telling.quiet);
+        drawing.begin = [&](int passes) {
+            progress.emplace(passes * expected_symbols(loaded.grammar, true), telling.quiet);
+        };
+        drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
+    }
     const Page page = print.page;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
     progress.reset();
-    if (quiet) return;
     if (report.leaves_pattern_out) {
-        tell(
+        telling.say(
             "sikku: warning: {} does not hold the text of the pattern, which is over 60,000 bytes: `sikku "
             "show` cannot give it back\n",
             options.output);
     }
     if (report.overflows) {
-        tell(
+        telling.say(
             "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "
             "outside is cut off\n",
             report.size.x, report.size.y, page.width - 2 * page.margin, page.height - 2 * page.margin);
     }
 }
 
-}  // namespace
-
 void add_draw(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG or EXR");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DrawSettings>();
     add_pattern_options(*command, options->pattern);
     command->add_option("-o,--output", options->output, "The file; its extension says which kind")->required();
     command
@@ -143,9 +150,18 @@ void add_draw(CLI::App& app, bool& quiet) {
     auto* fit = command->add_flag("--fit", options->fit, "Fill the page within its margins (default)");
     command->add_option("--step", options->step, "Length of one turtle step on paper, instead of --fit")
         ->excludes(fit);
+    command
+        ->add_option("--window", options->window,
+                     "The part X0,Y0,X1,Y1 of the drawing, in turtle steps, fills the page; of straight lines in one "
+                     "pen, at any derivation length")
+        ->type_name("X0,Y0,X1,Y1")
+        ->excludes(fit);
     command->add_option("--rotate", options->rotate, "Degrees anticlockwise")->capture_default_str();
     command->add_flag("--mirror", options->mirror, "Left and right exchanged, before --rotate");
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
+        ->capture_default_str();
+    command->add_option("--compression", options->compression, "Of PNG: 1, quick and large, to 9")
+        ->check(CLI::Range(1, 9))
         ->capture_default_str();
     add_budget_option(*command, options->budget);
     command->add_option("-j,--jobs", options->threads, "Threads for pictures; 0: one for each core")
@@ -156,8 +172,9 @@ void add_draw(CLI::App& app, bool& quiet) {
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
+        "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
         "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
-    command->callback([options, &quiet] { run(*options, quiet); });
+    command->callback([options, &quiet] { draw_print(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });
 }
 
 }  // namespace sikku

@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
     app.get_formatter()->column_width(34);
     add_draw(app, quiet);
     add_play(app, quiet);
+    add_gallery(app, quiet);
     add_derive(app, quiet);
     add_measure(app, quiet);
     add_patterns(app);

@@ -1,6 +1,7 @@
 // cli/play.cpp: `sikku play`: a curve as music.
+#include "cli/play.h"
+
 #include "art/output_file.h"
-#include "cli/command.h"
 #include "cli/music_page.h"
 #include "engine/text.h"
 #include "music/audio.h"
@@ -26,22 +27,6 @@ namespace sikku {
 namespace {
 
 enum class ScoreFormat { midi, musicxml, lilypond, wav, flac, svg, html };
-
-struct Options {
-    PatternOptions pattern;
-    std::vector<std::string> patterns;
-    std::string output;
-    std::vector<std::optional<std::string>> keys = std::vector<std::optional<std::string>>(melody_keys().size());
-    std::int64_t from_bar = 1;
-    std::int64_t bars = 0;
-    double seconds = 0;
-    double transpose = 0;
-    double humanise = 0;
-    std::uint64_t seed = 1;
-    int format = 1;
-    std::string tuning = "bend";
-    double budget = 200e6;
-};
 
 constexpr int most_voices = 15;  // channels but the drums'
 
@@ -181,7 +166,11 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     return text;
 }
 
-Player load_player(const Options& options, const std::string& name, bool quiet) {
+/// Takes the name of a file that was read and what it holds.
+using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
+
+Player load_player(const PlaySettings& options, const std::string& name, const Telling& telling,
+                   const FileWitness& witness = {}) {
     PatternOptions one = options.pattern;
     one.pattern = name;
     std::vector<std::string> given;
@@ -191,16 +180,18 @@ Player load_player(const Options& options, const std::string& name, bool quiet) 
         one.more.push_back({"--" + std::string(keys[i]), std::string(keys[i]), *options.keys[i]});
         given.push_back(*options.keys[i]);
     }
-    Player player{load(one, quiet), {}, 0};
+    Player player{load(one, telling), {}, 0};
     Diagnostics diagnostics;
-    const std::filesystem::path here;
+    const std::filesystem::path here = options.folder;
     const std::filesystem::path beside = name == "-" ? here : std::filesystem::path(name).parent_path();
     player.melody = read_melody(
         player.loaded.pattern,
         [&](const std::string& file) {
             // What the pattern names lies beside it, what the command line names is seen from here.
             const bool is_option = std::find(given.begin(), given.end(), file) != given.end();
-            return is_option ? read_small_file(here, beside, file) : read_small_file(beside, here, file);
+            std::string text = is_option ? read_small_file(here, beside, file) : read_small_file(beside, here, file);
+            if (witness) witness(file, text);
+            return text;
         },
         diagnostics);
     diagnostics.throw_if_errors();
@@ -208,7 +199,7 @@ Player load_player(const Options& options, const std::string& name, bool quiet) 
     return player;
 }
 
-std::string made_with(const Options& options, const std::vector<Player>& players) {
+std::string made_with(const PlaySettings& options, const std::vector<Player>& players) {
     std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, players.front().loaded.grammar.steps());
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
@@ -226,7 +217,7 @@ std::string made_with(const Options& options, const std::vector<Player>& players
 }
 
 /// The piece that is wanted, in ticks.
-PlayOptions piece_of(const Options& options, const Melody& melody) {
+PlayOptions piece_of(const PlaySettings& options, const Melody& melody) {
     PlayOptions playing;
     const std::int64_t bar = melody.meter.bar();
     if (options.from_bar - 1 > (INT64_MAX / 4) / bar) {
@@ -265,7 +256,7 @@ std::string scale_of(const Melody& melody) {
     return fmt::format("{} from {}", melody.scale.title, note_name(melody.tonic + melody.transpose, spelling));
 }
 
-ScoreHead head_of(const Options& options, std::vector<Player>& players, const PlayOptions& playing) {
+ScoreHead head_of(const PlaySettings& options, std::vector<Player>& players, const PlayOptions& playing) {
     ScoreHead head;
     const Melody& first = players.front().melody;
     head.tempo = first.tempo;
@@ -387,50 +378,54 @@ PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playi
         fmt::format("there is no note{}{}", playing.from > 0 || playing.to < INT64_MAX ? " in this piece" : "", why));
 }
 
-/// What became of the notes, on standard error.
-void tell_of(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report) {
+/// What became of the notes.
+void tell_of(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report,
+             const Telling& telling) {
     const Melody& first = players.front().melody;
-    tell("{}, {}, {}, {}\n", counted(report.notes, "note"), counted(bars_of(report.end, first.meter), "bar"),
-         time_of(report.end, first.tempo), range_of(report, first));
+    telling.say("{}, {}, {}, {}\n", counted(report.notes, "note"), counted(bars_of(report.end, first.meter), "bar"),
+                time_of(report.end, first.tempo), range_of(report, first));
     if (report.moved > 0) {
         const auto spelling = spell(first.scale, first.tonic_spelling);
-        tell("sikku: warning: {} beyond {} to {} and {}{}\n",
-             report.moved == 1 ? "1 note was" : counted(report.moved, "note") + " were",
-             note_name(first.lowest, spelling), note_name(first.highest, spelling),
-             first.range == Range::fold      ? "folded back"
-             : first.range == Range::reflect ? "reflected"
-                                             : "held at the last key",
-             playing.from > 0 && first.anchor != Anchor::piece
-                 ? "; `--anchor piece` lets the piece begin with the tonic"
-                 : "");
+        telling.say("sikku: warning: {} beyond {} to {} and {}{}\n",
+                    report.moved == 1 ? "1 note was" : counted(report.moved, "note") + " were",
+                    note_name(first.lowest, spelling), note_name(first.highest, spelling),
+                    first.range == Range::fold      ? "folded back"
+                    : first.range == Range::reflect ? "reflected"
+                                                    : "held at the last key",
+                    playing.from > 0 && first.anchor != Anchor::piece
+                        ? "; `--anchor piece` lets the piece begin with the tonic"
+                        : "");
     }
     if (report.lost > 0) {
-        tell("sikku: warning: {} too short for a tick, or without a key, left out\n", counted(report.lost, "note"));
+        telling.say("sikku: warning: {} too short for a tick, or without a key, left out\n",
+                    counted(report.lost, "note"));
     }
     for (const Player& player : players) {
         const std::string name = printable(player.loaded.pattern.text("title"));
         const Melody& melody = player.melody;
         if (melody.tempo != first.tempo || melody.meter.beats != first.meter.beats ||
             melody.meter.unit != first.meter.unit) {
-            tell("sikku: warning: {} keeps to the tempo and meter of the first pattern\n", name);
+            telling.say("sikku: warning: {} keeps to the tempo and meter of the first pattern\n", name);
         }
     }
 }
 
-void tell_of(const Notation& notation) {
+void tell_of(const Notation& notation, const Telling& telling) {
     if (notation.moved > 0) {
-        tell(
+        telling.say(
             "sikku: warning: {} not begin or end at a 64th and are written at the nearest; `--unit 1/8` or another "
             "power of two keeps the rhythm\n",
             notation.moved == 1 ? "1 note does" : counted(notation.moved, "note") + " do");
     }
     if (notation.bent > 0) {
-        tell("sikku: warning: {} written as the nearest quarter tone; .mid, .wav and .html keep the pitch\n",
-             notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are");
+        telling.say("sikku: warning: {} written as the nearest quarter tone; .mid, .wav and .html keep the pitch\n",
+                    notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are");
     }
 }
 
-void run(const Options& options, bool quiet) {
+}  // namespace
+
+void check_score(const PlaySettings& options) {
     const auto known_format = score_format(options.output);
     if (!options.output.empty() && !known_format) {
         throw UsageError(
@@ -441,13 +436,22 @@ void run(const Options& options, bool quiet) {
     if (options.seconds < 0 || !std::isfinite(options.seconds)) throw UsageError("--seconds: expected 0 or more");
     if (!(std::fabs(options.transpose) <= 127)) throw UsageError("--transpose: expected semitones, -127 to 127");
     if (!(options.humanise >= 0 && options.humanise <= 1)) throw UsageError("--humanise: expected 0 to 1");
+}
+
+void play_score(const PlaySettings& options, const Telling& telling) {
+    check_score(options);
+    const auto known_format = score_format(options.output);
     std::vector<Player> players;
-    for (const std::string& name : options.patterns) players.push_back(load_player(options, name, quiet));
+    for (const std::string& name : options.patterns) players.push_back(load_player(options, name, telling));
 
     PlayOptions playing = piece_of(options, players.front().melody);
     playing.budget = options.budget;
-    Progress progress(0, quiet);
-    playing.watch = progress.watch();
+    std::optional<Progress> progress;
+    if (telling.watch) {
+        playing.watch = telling.watch;
+    } else {
+        playing.watch = progress.emplace(0, telling.quiet).watch();
+    }
     if (!known_format) {
         return describe(players, playing, options.from_bar == 1 && options.bars == 0 && options.seconds == 0);
     }
@@ -536,20 +540,30 @@ void run(const Options& options, bool quiet) {
     }
     bytes.finish();
     output.commit();
-    if (quiet) return;
-    tell_of(players, playing, report);
-    if (notation) tell_of(*notation);
+    tell_of(players, playing, report, telling);
+    if (notation) tell_of(*notation, telling);
     if (is_silent) {
-        tell(
+        telling.say(
             "sikku: warning: nothing is to be heard: the soundfont has no sound for these keys of this instrument\n");
     }
 }
 
-}  // namespace
+std::vector<std::pair<std::string, std::string>> scala_files(const PlaySettings& options) {
+    std::vector<std::pair<std::string, std::string>> files;
+    try {
+        for (const std::string& name : options.patterns) {
+            load_player(options, name, {.quiet = true, .listener = {}, .watch = {}},
+                        [&](const std::string& file, const std::string& text) { files.emplace_back(file, text); });
+        }
+    } catch (const std::exception&) {
+        return {};
+    }
+    return files;
+}
 
 void add_play(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("play", "Play a curve: MIDI, MusicXML, LilyPond, sound, a page that plays");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PlaySettings>();
     command
         ->add_option("PATTERN", options->patterns,
                      "Pattern files, names of those that come along, or -; several become tracks of one score")
@@ -599,7 +613,7 @@ void add_play(CLI::App& app, bool& quiet) {
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"
         "  sikku play hilbert -n 40 --anchor piece --from-bar 1000000000 --bars 16 -o piece.musicxml");
-    command->callback([options, &quiet] { run(*options, quiet); });
+    command->callback([options, &quiet] { play_score(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });
 }
 
 }  // namespace sikku

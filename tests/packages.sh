@@ -1,7 +1,7 @@
 # What Debian 12 packages the project needs; sourced by ./demo and ./check.
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
-    libpugixml-dev libtbb-dev zlib1g-dev)
+    libpugixml-dev libtbb-dev zlib1g-dev libtomlplusplus-dev nlohmann-json3-dev)
 # For tests: the framework, and independent readers of what the program writes.
 test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     midicsv python3-mido)

@@ -643,7 +643,7 @@ TEST(Fill, AnEdgeOnTheBorderStaysInside) {
 
 /// A drawing as an image file.
 ImageSpec image_spec(const std::string& format, int width, int height, int channels) {
-    return {format, width, height, channels, 254.0, 2, "A test", "axiom: F\nF --> F-F # கோலம்\n", "sikku 0.1.0"};
+    return {format, width, height, channels, 254.0, 2, "A test", "axiom: F\nF --> F-F # கோலம்\n", "sikku 0.1.0", 6};
 }
 
 Bytes noise(std::size_t size) {

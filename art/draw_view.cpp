@@ -1,0 +1,260 @@
+#include "art/draw_view.h"
+
+#include "art/output_file.h"
+#include "art/pdf.h"
+#include "art/picture.h"
+#include "art/raster.h"
+#include "art/svg.h"
+#include "art/view.h"
+#include "engine/derivation.h"
+#include "engine/fold.h"
+#include "engine/forecast.h"
+
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr double nodes_a_pixel = 32;  // that are always allowed for
+constexpr double strip_chords = 4e6;  // about as many are kept at a time
+constexpr double strip_pixels = 4e6;
+constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses so many rows at a time
+
+/// Takes blots for nothing: for writers of lines, to whom none is sent.
+class LinesOnly : public BlotSink {
+public:
+    explicit LinesOnly(PathSink& sink) : sink_(sink) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+    std::size_t prepare(const Blot&, const Pen&) override { return 0; }
+    void blot(std::size_t, glm::dvec2) override {}
+
+private:
+    PathSink& sink_;
+};
+
+/// What lies on the page between two heights (millimetres from its top), as the drawing sees it.
+Box seen_box(const Print& print, double top, double bottom, double around) {
+    const glm::dmat3x2& to_page = print.placement.to_page;
+    const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
+    Box box;
+    for (const double x : {-around, print.page.width + around}) {
+        for (const double y : {top - around, bottom + around}) box.add(back * (glm::dvec2(x, y) - to_page[2]));
+    }
+    return box;
+}
+
+class ViewDrawer {
+public:
+    ViewDrawer(const Grammar& grammar, Print& print, const DrawOptions& options)
+        : grammar_(grammar), print_(print), options_(options) {}
+
+    /// False if the drawing has no view.
+    bool look() {
+        view_ = View::make(grammar_, options_.window);
+        return view_ != nullptr;
+    }
+
+    DrawReport place() {
+        const glm::dmat3x2 turned = orientation(options_.placement);
+        Box box;
+        const auto add = [&](glm::dvec2 corner) { box.add(turned * glm::dvec3(corner, 1.0)); };
+        if (options_.window) {
+            const auto width = static_cast<double>(options_.window->x1 - options_.window->x0);
+            const auto height = static_cast<double>(options_.window->y1 - options_.window->y0);
+            for (const glm::dvec2 corner :
+                 {glm::dvec2(0, 0), glm::dvec2(width, 0), glm::dvec2(0, height), glm::dvec2(width, height)}) {
+                add(corner);
+            }
+        } else {
+            const auto folded = fold(grammar_);
+            if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
+            for (const glm::dvec2 corner : folded->ink_hull) add(corner);
+        }
+        if (box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
+        const double pen = options_.window ? 0 : print_.style.pen_width({});
+        PlacementOptions placement = options_.placement;
+        placement.scale *= grammar_.scale_percent() / 100;
+        const bool in_steps = print_.style.stroke.in_steps;
+        print_.placement = sikku::place(box, print_.page, placement, in_steps ? pen / 2 : 0, in_steps ? 0 : pen / 2);
+        DrawReport report;
+        report.step = print_.placement.step;
+        report.size = (box.high - box.low) * report.step + (in_steps ? pen * report.step : pen);
+        report.overflows = report.size.x > print_.page.width - 2 * print_.page.margin + 1e-6 ||
+                           report.size.y > print_.page.height - 2 * print_.page.margin + 1e-6;
+        width_ = print_.style.line_width({}, report.step);
+        return report;
+    }
+
+    /// Longest part, in millimetres, that is replaced; by chords under a pen of a pixel and more.
+    double limit(double pixel) const {
+        const double pixels = width_ / pixel;
+        return pixels < 1 ? pixel / 2 : pixels < 2 ? width_ / 8 : width_ / 4;
+    }
+
+    ViewReport draw_lines(PrintWriter& writer) const {
+        LinesOnly lines(writer);
+        Sight sight;
+        sight.box = seen_box(print_, 0, print_.page.height, width_);
+        sight.chord = width_ / 4 / print_.placement.step;
+        return view_->read(sight, lines, options_.budget, options_.watch);
+    }
+
+    ViewReport draw_pixels(OutputFile& output, const std::filesystem::path& file) {
+        const PixelSize size = pixel_size(print_.page, print_.dpi);
+        const double pixel = 25.4 / print_.dpi;
+        const double longest = limit(pixel);
+        const bool has_blots = width_ < pixel;
+        // Parts that are replaced may be a third of the limit.
+        const double density = std::max(1.0, (3 * pixel / longest) * (3 * pixel / longest));
+        const double pixels = has_blots ? strip_pixels : strip_chords / density;
+        const int blocks = static_cast<int>(std::clamp(pixels / size.width / row_block, 1.0, 64.0));
+        const int rows = blocks * row_block;
+        most_nodes_ = std::max(options_.budget, nodes_a_pixel * size.width * size.height);
+
+        const int channels = make_strip(0, row_block).raster->channels();
+        Picture picture(print_, options_, channels, output, file);
+        const int threads = options_.threads > 0 ? options_.threads : oneapi::tbb::info::default_concurrency();
+        struct Rows {
+            int first = 0;
+            int count = 0;
+            std::vector<std::uint8_t> pixels;
+        };
+        ViewReport all;
+        int next = 0;
+        using oneapi::tbb::filter_mode;
+        const auto strips = oneapi::tbb::make_filter<void, Rows*>(
+            filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Rows* {
+                if (next >= size.height) {
+                    control.stop();
+                    return nullptr;
+                }
+                auto* strip = new Rows{next, std::min(rows, size.height - next), {}};
+                next += strip->count;
+                return strip;
+            });
+        const auto draw = oneapi::tbb::make_filter<Rows*, Rows*>(filter_mode::parallel, [&](Rows* given) {
+            std::unique_ptr<Rows> strip(given);
+            const Strip made = make_strip(strip->first, strip->count);
+            Sight sight;
+            const double top = strip->first * pixel;
+            sight.box = seen_box(print_, top, top + strip->count * pixel, width_ + 2 * pixel);
+            (has_blots ? sight.blot : sight.chord) = longest / print_.placement.step;
+            const ViewReport report =
+                view_->read(sight, *made.raster, most_nodes_, [&](std::uint64_t n) { watch(n); });
+            strip->pixels.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels) *
+                                  static_cast<std::size_t>(strip->count));
+            made.raster->render(1, [&](int, int, std::span<const std::uint8_t> part) {
+                strip->pixels.insert(strip->pixels.end(), part.begin(), part.end());
+            });
+            const std::scoped_lock lock(mutex_);
+            all.visited += report.visited;
+            all.chords += report.chords;
+            all.blots += report.blots;
+            return strip.release();
+        });
+        const auto hand_on = oneapi::tbb::make_filter<Rows*, void>(filter_mode::serial_in_order, [&](Rows* given) {
+            const std::unique_ptr<Rows> strip(given);
+            picture.rows(strip->first, strip->count, strip->pixels);
+        });
+        oneapi::tbb::task_arena arena(threads);
+        arena.execute(
+            [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
+        picture.close();
+        return all;
+    }
+
+private:
+    /// A page of some rows of the page.
+    struct Strip {
+        std::unique_ptr<Print> print;
+        std::unique_ptr<Raster> raster;
+    };
+    Strip make_strip(int first, int count) const {
+        Strip strip;
+        strip.print = std::make_unique<Print>(print_);
+        strip.print->page.height = count * 25.4 / print_.dpi;
+        strip.print->placement.to_page[2].y -= first * 25.4 / print_.dpi;
+        strip.raster = make_raster(*strip.print);
+        strip.raster->expect({});
+        return strip;
+    }
+
+    void watch(std::uint64_t nodes) {
+        const std::scoped_lock lock(mutex_);
+        nodes_ += static_cast<double>(nodes);
+        if (nodes_ > most_nodes_) throw too_much(most_nodes_);
+        if (options_.watch) options_.watch(nodes);
+    }
+
+    const Grammar& grammar_;
+    Print& print_;
+    const DrawOptions& options_;
+    std::unique_ptr<View> view_;
+    double width_ = 0;  ///< of the pen, millimetres
+    double most_nodes_ = 0;
+    double nodes_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+std::optional<DrawReport> draw_view(const Grammar& given, Print print, const DrawOptions& options,
+                                    const std::filesystem::path& file) {
+    const bool is_vector = options.format == PrintFormat::svg || options.format == PrintFormat::pdf;
+    const auto none = [&](const char* why) -> std::optional<DrawReport> {
+        if (options.window) throw std::runtime_error(std::string("--window: ") + why);
+        return std::nullopt;
+    };
+    if (is_vector && !options.window) return std::nullopt;
+    if (print.style.line == Line::spline || !print.style.draws({})) {
+        return none("only drawings of straight lines are seen through a window, and this is none");
+    }
+    DerivationOptions whole_words;
+    whole_words.limit_whole_words(options.budget);
+    whole_words.watch = options.watch;
+    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    if (!options.window) {
+        const auto cost = estimate(grammar, true);
+        if (cost && cost->nodes <= most_read_symbols) return std::nullopt;
+    }
+    ViewDrawer drawer(grammar, print, options);
+    if (!drawer.look()) {
+        return none(
+            "only drawings in one pen, without polygons and discs, whose brackets close in the word in which they "
+            "open, are seen through a window");
+    }
+    if (options.begin) options.begin(1);
+    OutputFile output(file);
+    DrawReport report = drawer.place();
+    ViewReport seen;
+    if (is_vector) {
+        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
+        seen = drawer.draw_lines(*writer);
+        writer->finish();
+    } else {
+        seen = drawer.draw_pixels(output, file);
+        report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
+    }
+    report.replaced = seen.chords + seen.blots;
+    output.commit();
+    return report;
+}
+
+}  // namespace sikku

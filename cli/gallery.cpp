@@ -1,0 +1,638 @@
+// cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
+#include "art/image_file.h"
+#include "art/output_file.h"
+#include "cli/gallery_forecast.h"
+#include "cli/gallery_jobs.h"
+#include "cli/gallery_record.h"
+#include "cli/gallery_shards.h"
+#include "engine/text.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <list>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <set>
+
+namespace sikku {
+namespace {
+
+struct Options {
+    GalleryRequest request;
+    std::map<std::string, std::string> texts;  ///< of the keys of gallery files, as options
+    std::map<std::string, bool> flags;
+    std::string output = "gallery";
+    bool list = false;
+    bool json = false;
+    bool dry_run = false;
+    std::vector<std::string> only;
+    bool force = false;
+    bool keep_going = false;
+    std::string memory;
+    int threads = 0;
+    std::string shard;
+    std::size_t slurm = 0;
+};
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string time_text(double seconds) {
+    if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
+    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
+    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string bytes_text(double bytes) {
+    if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
+    if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+    if (bytes < 1e9) return fmt::format("{:.1f} MB", bytes / 1e6);
+    return fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string counted(std::size_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// `1G`, `512M`, `2GiB`: bytes. Half of what the machine has to give, if nothing is said.
+double read_memory(const std::string& text) {
+    if (text.empty()) return static_cast<double>(memory_budget()) * 32;
+    std::size_t digits = 0;
+    while (digits < text.size() && (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.')) {
+        ++digits;
+    }
+    static const std::map<std::string, double> units = {
+        {"", 1.0},     {"k", 0x1p10},   {"kib", 0x1p10}, {"m", 0x1p20},   {"mib", 0x1p20},
+        {"g", 0x1p30}, {"gib", 0x1p30}, {"t", 0x1p40},   {"tib", 0x1p40}, {"kb", 1e3},
+        {"mb", 1e6},   {"gb", 1e9},     {"tb", 1e12}};
+    const auto unit = units.find(lower_case(text.substr(digits)));
+    double value = 0;
+    if (!read_number(text.substr(0, digits), value) || unit == units.end() || value <= 0) {
+        throw UsageError(fmt::format("--memory {}: expected a size such as 1G or 512M", printable(text, 80)));
+    }
+    return value * unit->second;
+}
+
+/// A bar on standard error, if that is a terminal, with how many jobs a second and how long still. For several
+/// threads.
+class BatchProgress {
+public:
+    BatchProgress(std::size_t jobs, double cost, bool quiet)
+        : jobs_(jobs), cost_(cost), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+    ~BatchProgress() {
+        if (visible_) tell("\r\033[K");
+    }
+    BatchProgress(const BatchProgress&) = delete;
+    BatchProgress& operator=(const BatchProgress&) = delete;
+
+    void finish(double cost) {
+        const std::lock_guard guard(mutex_);
+        ++done_;
+        done_cost_ += cost;
+        if (!shown_) return;
+        const double time = now();
+        if (time - started_ < 0.5 || time - last_ < 0.1) return;
+        last_ = time;
+        visible_ = true;
+        const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
+        const auto filled = static_cast<std::size_t>(share * 30);
+        tell("\r[{}{}] {} of {}, {:.1f} a second, {} left\033[K", std::string(filled, '#'),
+             std::string(30 - filled, ' '), done_, jobs_, static_cast<double>(done_) / (time - started_),
+             time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
+    }
+
+private:
+    std::size_t jobs_;
+    double cost_;
+    bool shown_;
+    bool visible_ = false;
+    std::size_t done_ = 0;
+    double done_cost_ = 0;
+    double started_;
+    double last_;
+    std::mutex mutex_;
+};
+
+/// Pictures are opened by a library whose pool of threads must not change its size while several are open: it is
+/// brought to the size that pictures of up to three threads take.
+constexpr int most_picture_threads = 3;
+
+/// Loads the module for pictures, which is to be done by one thread, by writing a picture that nobody sees.
+void warm_up_pictures() {
+    const int descriptor = ::memfd_create("warm", MFD_CLOEXEC);
+    if (descriptor < 0) return;
+    try {
+        ImageSpec spec;
+        spec.format = "png";
+        spec.width = spec.height = spec.channels = 1;
+        spec.threads = most_picture_threads;
+        const auto image = open_image(fmt::format("/proc/self/fd/{}", descriptor), spec);
+        const std::array<std::uint8_t, 1> pixel{};
+        image->rows(0, 1, pixel);
+        image->close();
+    } catch (const std::exception&) {
+        // Every picture will tell why.
+    }
+    ::close(descriptor);
+}
+
+/// A job that is to be made in this run.
+struct Task {
+    std::size_t job = 0;  ///< its number in the gallery
+    JobForecast forecast;
+};
+
+/// A job that could not be made.
+struct Failure {
+    std::size_t job = 0;
+    std::string message;
+};
+
+/// Makes jobs in parallel, within a budget of memory.
+class Batch {
+public:
+    Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes,
+          const std::filesystem::path& folder, GalleryRecord& record, const Options& options, bool quiet)
+        : jobs_(jobs), hashes_(hashes), folder_(folder), record_(record), options_(options), quiet_(quiet) {}
+
+    /// @param memory  bytes for all jobs that are under way
+    void run(std::vector<Task> tasks, double memory) {
+        // The dearest first: what is begun last ends soon.
+        std::stable_sort(tasks.begin(), tasks.end(),
+                         [](const Task& a, const Task& b) { return a.forecast.cost() > b.forecast.cost(); });
+        const double cost = std::accumulate(tasks.begin(), tasks.end(), 0.0,
+                                            [](double sum, const Task& task) { return sum + task.forecast.cost(); });
+        BatchProgress progress(tasks.size(), cost, quiet_);
+        progress_ = &progress;
+        waiting_.assign(tasks.begin(), tasks.end());
+        free_ = memory_ = memory;
+        workers_ = options_.threads > 0 ? options_.threads : oneapi::tbb::info::default_concurrency();
+        const oneapi::tbb::global_control allowed(
+            oneapi::tbb::global_control::max_allowed_parallelism,
+            static_cast<std::size_t>(std::max(workers_, oneapi::tbb::info::default_concurrency())));
+        oneapi::tbb::task_arena arena(workers_);
+        arena.execute([&] {
+            oneapi::tbb::parallel_for(
+                0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
+        });
+        progress_ = nullptr;
+        std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
+    }
+
+    std::map<std::size_t, FinishedJob> finished;
+    std::vector<Failure> failures;
+    std::size_t left() const { return waiting_.size(); }
+
+private:
+    struct Turn {
+        Task task;
+        int threads = 1;
+        double memory = 0;
+    };
+
+    /// The first job for which there is memory; nullopt when there is nothing more to begin.
+    std::optional<Turn> next() {
+        std::unique_lock lock(mutex_);
+        while (true) {
+            if (stopped_ || interrupted() || waiting_.empty()) return std::nullopt;
+            for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
+                if (task->forecast.memory > free_ && under_way_ > 0) continue;
+                Turn turn{*task, 1, task->forecast.memory};
+                // Towards the end there are fewer jobs than cores.
+                const auto others = static_cast<int>(std::min<std::size_t>(waiting_.size() + under_way_, 1024));
+                turn.threads = std::max(1, workers_ / std::max(1, others));
+                if (others > 1) turn.threads = std::min(turn.threads, most_picture_threads);
+                const double more = task->forecast.memory + turn.threads * task->forecast.band;
+                if (turn.threads > 1 && more <= free_) {
+                    turn.memory = more;
+                } else {
+                    turn.threads = 1;
+                }
+                free_ -= turn.memory;
+                ++under_way_;
+                waiting_.erase(task);
+                return turn;
+            }
+            changed_.wait_for(lock, std::chrono::milliseconds(200));
+        }
+    }
+
+    void work() {
+        while (const auto turn = next()) {
+            std::optional<FinishedJob> result;
+            std::string problem;
+            try {
+                result = make(*turn);
+            } catch (const Interrupted&) {
+            } catch (const std::bad_alloc&) {
+                problem = "there is not enough memory for this";
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+            {
+                const std::lock_guard guard(mutex_);
+                free_ += turn->memory;
+                --under_way_;
+                if (result) finished.emplace(turn->task.job, std::move(*result));
+                if (!problem.empty()) {
+                    failures.push_back({turn->task.job, std::move(problem)});
+                    stopped_ = stopped_ || !options_.keep_going;
+                }
+            }
+            changed_.notify_all();
+            progress_->finish(turn->task.forecast.cost());
+        }
+    }
+
+    FinishedJob make(const Turn& turn) {
+        const GalleryJob& job = jobs_[turn.task.job];
+        if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
+        if (turn.task.forecast.memory > memory_) {
+            throw std::runtime_error(fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
+                                                 bytes_text(turn.task.forecast.memory), bytes_text(memory_)));
+        }
+        FinishedJob result;
+        result.file = job.file();
+        result.hash = hashes_[turn.task.job];
+        result.job = job.text();
+        const std::filesystem::path path = folder_ / result.file;
+        std::error_code error;
+        if (path.parent_path() != folder_) std::filesystem::create_directories(path.parent_path(), error);
+        const auto status = std::filesystem::symlink_status(path, error);
+        if (std::filesystem::exists(status) && !record_.is_ours(result.file) && !options_.force) {
+            throw std::runtime_error(fmt::format(
+                "'{}' is there already and was not made by this gallery; --force replaces it", path.string()));
+        }
+        record_.claim(result.file);
+        Telling telling;
+        telling.quiet = true;
+        telling.listener = [&](const std::string& text) {
+            // Not where the folder lies.
+            std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
+            const std::string prefix = path.string();
+            for (std::size_t at = 0; (at = line.find(prefix, at)) != std::string::npos; at += result.file.size()) {
+                line.replace(at, prefix.size(), result.file);
+            }
+            result.told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
+        };
+        telling.watch = [](std::uint64_t) {
+            if (interrupted()) throw Interrupted();
+        };
+        if (job.is_score()) {
+            play_score(score_settings(job, path), telling);
+        } else {
+            DrawSettings settings = print_settings(job, path);
+            settings.threads = turn.threads;
+            draw_print(settings, telling);
+        }
+        result.bytes = std::filesystem::file_size(path);
+        result.content = content_hash(path);
+        record_.add(result);
+        return result;
+    }
+
+    const std::vector<GalleryJob>& jobs_;
+    const std::vector<std::string>& hashes_;
+    const std::filesystem::path& folder_;
+    GalleryRecord& record_;
+    const Options& options_;
+    bool quiet_;
+    BatchProgress* progress_ = nullptr;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::list<Task> waiting_;
+    std::size_t under_way_ = 0;
+    double free_ = 0;
+    double memory_ = 0;
+    int workers_ = 1;
+    bool stopped_ = false;
+};
+
+/// Calls `work` with every number below `count`, on several threads.
+template <typename Work>
+void for_each_number(std::size_t count, int threads, const Work& work) {
+    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::info::default_concurrency());
+    arena.execute([&] {
+        oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+            if (interrupted()) throw Interrupted();
+            work(i);
+        });
+    });
+}
+
+std::vector<JobForecast> forecast_all(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& wanted,
+                                      const Options& options) {
+    std::vector<JobForecast> forecasts(wanted.size());
+    for_each_number(wanted.size(), options.threads,
+                    [&](std::size_t i) { forecasts[i] = forecast_job(jobs[wanted[i]], options.dry_run); });
+    return forecasts;
+}
+
+/// Numbers of the jobs of this shard, of those of `--only`.
+std::vector<std::size_t> select(const std::vector<GalleryJob>& jobs, const Shard& shard, const Options& options) {
+    std::vector<std::size_t> chosen(jobs.size());
+    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    if (shard.count > 1) {
+        std::vector<double> costs;
+        for (const JobForecast& forecast : forecast_all(jobs, chosen, options)) costs.push_back(forecast.cost());
+        const std::vector<std::size_t> shards = balance(costs, shard.count);
+        std::erase_if(chosen, [&](std::size_t job) { return shards[job] + 1 != shard.index; });
+    }
+    if (options.only.empty()) return chosen;
+    for (const std::string& name : options.only) {
+        const auto is_named = [&](const GalleryJob& job) { return job.name == name || job.file() == name; };
+        if (std::any_of(jobs.begin(), jobs.end(), is_named)) continue;
+        std::vector<std::string_view> names;
+        for (const GalleryJob& job : jobs) names.push_back(job.name);
+        const std::string_view near = nearest(name, names);
+        throw UsageError(
+            fmt::format("--only {}: there is no such job{}", printable(name, 80),
+                        near.empty() ? "; --list shows them" : fmt::format("; did you mean '{}'?", near)));
+    }
+    const std::set<std::string> only(options.only.begin(), options.only.end());
+    std::erase_if(
+        chosen, [&](std::size_t job) { return !only.contains(jobs[job].name) && !only.contains(jobs[job].file()); });
+    return chosen;
+}
+
+void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen, bool json) {
+    std::size_t width = 0;
+    for (const std::size_t i : chosen) width = std::max(width, jobs[i].file().size());
+    for (const std::size_t i : chosen) {
+        const GalleryJob& job = jobs[i];
+        if (json) {
+            fmt::print("{}\n", job.text());
+            continue;
+        }
+        std::string settings = job.pattern->shown;
+        for (const auto& [key, value] : job.keys) settings += fmt::format("  {}={}", key, value);
+        for (const auto& [key, value] : job.overrides) settings += fmt::format("  {}={}", key, value);
+        fmt::print("{:<{}}  {}\n", job.file(), std::min<std::size_t>(width, 60), settings);
+    }
+}
+
+void tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
+                   const Options& options) {
+    const std::vector<JobForecast> forecasts = forecast_all(jobs, chosen, options);
+    JobForecast sum;
+    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const JobForecast& each = forecasts[i];
+        if (!each.problem.empty()) {
+            fmt::print("{:<40} {}\n", jobs[chosen[i]].file(),
+                       printable(each.problem.substr(0, each.problem.find('\n')), 200));
+            continue;
+        }
+        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", jobs[chosen[i]].file(), each.symbols,
+                   time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
+        sum.seconds += each.seconds;
+        sum.bytes += each.bytes;
+        sum.memory = std::max(sum.memory, each.memory);
+    }
+    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size(), "job"), "", time_text(sum.seconds),
+               bytes_text(sum.bytes), bytes_text(sum.memory));
+}
+
+/// The words that this program was started with, without `--slurm`.
+std::vector<std::string> own_arguments() {
+    std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(stream, word, '\0');) {
+        if (word == "--slurm") {
+            std::getline(stream, word, '\0');
+        } else if (!word.starts_with("--slurm=")) {
+            words.push_back(word);
+        }
+    }
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error && !words.empty()) words[0] = program.string();
+    return words;
+}
+
+/// Runs a command line of the shell; its standard output without the last line feed.
+/// @throws std::runtime_error if it fails
+std::string output_of(const std::string& command) {
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    if (!pipe) throw std::runtime_error(fmt::format("cannot start: {}", command));
+    std::string text;
+    std::array<char, 512> block{};
+    for (std::size_t got = 0; (got = std::fread(block.data(), 1, block.size(), pipe)) > 0;)
+        text.append(block.data(), got);
+    if (::pclose(pipe) != 0) throw std::runtime_error(fmt::format("this failed: {}", command));
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+}
+
+bool is_in_path(const std::string& program) {
+    const char* path = std::getenv("PATH");
+    std::string folders = path ? path : "";
+    for (std::size_t at = 0; at <= folders.size();) {
+        const std::size_t colon = std::min(folders.find(':', at), folders.size());
+        const std::string file = folders.substr(at, colon - at) + "/" + program;
+        if (::access(file.c_str(), X_OK) == 0) return true;
+        at = colon + 1;
+    }
+    return false;
+}
+
+/// Writes the script beside the folder of the gallery, which holds nothing but the gallery, and hands it to Slurm.
+void submit(const Options& options, std::size_t jobs) {
+    std::filesystem::path folder = std::filesystem::absolute(options.output).lexically_normal();
+    if (folder.filename().empty()) folder = folder.parent_path();
+    const std::string script = folder.string() + ".sbatch";
+    const std::size_t tasks = std::min(options.slurm, std::max<std::size_t>(jobs, 1));
+    OutputFile output(script);
+    output.write(slurm_script(own_arguments(), std::filesystem::current_path().string(), tasks, script));
+    output.commit();
+    std::string common = "sbatch --parsable --requeue";
+    if (options.threads > 0) common += fmt::format(" --cpus-per-task={}", options.threads);
+    if (!options.memory.empty())
+        common += fmt::format(" --mem={:.0f}M", std::ceil(read_memory(options.memory) / 0x1p20));
+    const std::string array = fmt::format("{} --array=0-{} --output={} {}", common, tasks - 1,
+                                          quoted(folder.string() + ".%A_%a.log"), quoted(script));
+    const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
+                                         quoted(folder.string() + ".%j.log"));
+    if (!is_in_path("sbatch")) {
+        tell("sikku: there is no sbatch here; {} is to be handed in where there is one:\n  id=$({})\n  {}$id {}\n",
+             script, array, last, quoted(script));
+        return;
+    }
+    // Another cluster's name may follow behind a semicolon.
+    const auto number = [](const std::string& text) { return text.substr(0, text.find(';')); };
+    const std::string id = number(output_of(array));
+    const std::string end = number(output_of(last + id + " " + quoted(script)));
+    fmt::print("Slurm has job {} with {}, and job {} that comes last; {} is their script\n", id,
+               counted(tasks, "task"), end, script);
+}
+
+void run(Options& options, bool quiet) {
+    for (const auto& [key, text] : options.texts) {
+        if (!text.empty()) options.request.keys[key] = text;
+    }
+    for (const auto& [key, is_set] : options.flags) {
+        if (is_set) options.request.keys[key] = "true";
+    }
+    const double memory = read_memory(options.memory);
+    const std::vector<GalleryJob> jobs = gallery_jobs(options.request);
+    if (options.slurm > 0) return submit(options, jobs.size());
+    const Shard shard = read_shard(options.shard, [](const char* name) { return std::getenv(name); });
+    const std::vector<std::size_t> chosen = select(jobs, shard, options);
+    if (options.list) return list_jobs(jobs, chosen, options.json);
+    if (options.dry_run) return tell_forecast(jobs, chosen, options);
+
+    const double started = now();
+    const std::filesystem::path folder = options.output;
+    GalleryRecord record(folder, shard.record_name());
+    std::vector<std::string> hashes(jobs.size());
+    for_each_number(chosen.size(), options.threads,
+                    [&](std::size_t i) { hashes[chosen[i]] = jobs[chosen[i]].hash(); });
+    std::map<std::size_t, FinishedJob> finished;
+    std::vector<std::size_t> pending;
+    for (const std::size_t job : chosen) {
+        const bool redo = options.force || !options.only.empty();
+        auto known = redo ? std::nullopt : record.finished(jobs[job].file(), hashes[job]);
+        if (known) {
+            finished.emplace(job, std::move(*known));
+        } else {
+            pending.push_back(job);
+        }
+    }
+    const std::size_t skipped = finished.size();
+    std::vector<JobForecast> forecasts = forecast_all(jobs, pending, options);
+    std::vector<Task> tasks;
+    bool pictures = false;
+    for (std::size_t i = 0; i < pending.size(); ++i) {
+        tasks.push_back({pending[i], std::move(forecasts[i])});
+        pictures = pictures || tasks.back().forecast.band > 0;
+    }
+    if (pictures) warm_up_pictures();
+    Batch batch(jobs, hashes, folder, record, options, quiet);
+    if (!tasks.empty()) batch.run(std::move(tasks), std::max(memory - base_memory(pictures), memory / 8));
+    for (auto& [job, result] : batch.finished) finished.emplace(job, result);
+
+    std::vector<FinishedJob> order;
+    std::set<std::size_t> is_chosen(chosen.begin(), chosen.end());
+    for (std::size_t job = 0; job < jobs.size(); ++job) {
+        if (const auto found = finished.find(job); found != finished.end()) {
+            order.push_back(found->second);
+        } else if (shard.count == 1 && !is_chosen.contains(job)) {
+            if (auto known = record.last(jobs[job].file())) order.push_back(std::move(*known));
+        }
+    }
+    std::string trouble;
+    try {
+        record.complete(order, shard.count == 1);
+    } catch (const std::exception& error) {
+        trouble = error.what();  // the lines appended so far hold all the same
+    }
+    const std::size_t made = batch.finished.size();
+    if (!quiet) {
+        std::size_t told = 0;
+        for (const auto& [job, result] : batch.finished) {
+            for (const std::string& text : result.told) {
+                if (text.find("warning:") == std::string::npos) continue;
+                if (++told <= 20) tell("{}: {}\n", result.file, text);
+            }
+        }
+        if (told > 20)
+            tell("sikku: and {} more warnings, which {} holds\n", told - 20, (folder / shard.record_name()).string());
+        const double seconds = now() - started;
+        tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
+             counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
+        if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
+        if (skipped > 0) tell(", {} there already", skipped);
+        if (!batch.failures.empty()) tell(", {} failed", batch.failures.size());
+        if (batch.left() > 0) tell(", {} not begun", batch.left());
+        tell("\n");
+    }
+    if (interrupted()) {
+        throw Interrupted(
+            fmt::format("interrupted; {} of {} are there, the same command goes on", finished.size(), chosen.size())
+                .c_str());
+    }
+    for (const Failure& failure : batch.failures) {
+        const GalleryJob& job = jobs[failure.job];
+        std::string message = failure.message;
+        while (message.ends_with('\n')) message.pop_back();
+        tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", job.file(), message);
+    }
+    if (!trouble.empty()) tell("sikku: {}\n", trouble);
+    if (!batch.failures.empty() || !trouble.empty()) throw CLI::RuntimeError(1);
+    if (shard.count > 1) return;
+    // ==== The sheet (poster, contact sheet) is made here from `jobs` and `finished`, whole galleries only. ====
+    // ==== The page (index.html) is made here from the same, after the sheet. ====
+}
+
+}  // namespace
+
+void add_gallery(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("gallery", "Many prints and scores, in parallel; goes on where it was");
+    auto options = std::make_shared<Options>();
+    command->add_option("PATTERNS", options->request.patterns,
+                        "Names, globs, folders or files; without any, all patterns that come along and draw");
+    command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
+    command->add_option("--file", options->request.gallery_file, "A gallery file, gallery.toml: what is to be made");
+    command->add_option("--manifest", options->request.manifest, "A file of jobs, one a line of JSON");
+    command->add_flag("--list", options->list, "Show the jobs, make nothing");
+    command->add_flag("--json", options->json, "With --list: as a manifest");
+    command->add_flag("--dry-run", options->dry_run, "Forecast symbols, time, bytes and memory of each job");
+    command->add_option("--only", options->only, "Make this job anew, and no other")->allow_extra_args(false);
+    command->add_flag("--force", options->force, "Make all anew, and replace files of others that are in the way");
+    command->add_flag("--keep-going", options->keep_going, "Go on with other jobs after one failed");
+    command->add_option("--memory", options->memory, "Most memory, such as 1G; jobs wait rather than exceed it");
+    command->add_option("-j,--jobs", options->threads, "Jobs at a time; 0: one for each core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_option("--shard", options->shard,
+                        "i/N: part i of N, balanced by forecast; without it, as Slurm, Open MPI or Kubernetes say");
+    command->add_option("--slurm", options->slurm, "Write a script for an array of N tasks, and submit it")
+        ->check(CLI::Range(1, 100'000));
+    command->add_option(
+        "-f,--format", options->texts["format"],
+        "svg, pdf, png, tif, jpg, exr, mid, musicxml, ly, wav, flac, notes.svg, html; several with commas");
+    command->add_option("--name", options->texts["name"], "Names of the files: {pattern}-n{n}, any key in braces");
+    command->add_option("--set", options->request.overrides, "KEY=VALUE of the pattern; 60:90:5 makes several")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    for (const GalleryKey& key : gallery_keys()) {
+        if (!key.is_option) continue;
+        const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
+        if (key.is_flag) {
+            command->add_flag(names, options->flags[key.name], key.help);
+        } else {
+            command->add_option(names, options->texts[key.name], key.help)->type_name("VALUE");
+        }
+    }
+    command->footer(
+        "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
+        "alone. Files that others made are never touched.\n\n"
+        "Examples:\n"
+        "  sikku gallery -o kolams -f svg,png --size 130x130mm --dpi 100 kolams\n"
+        "  sikku gallery koch-island --generations 0:4 --set 'angle increment=80:100:5'\n"
+        "  sikku gallery --file gallery.toml --shard 3/8\n"
+        "  seq 8 | parallel sikku gallery --file gallery.toml --shard {}/8");
+    command->callback([options, &quiet] { run(*options, quiet); });
+}
+
+}  // namespace sikku

@@ -1,0 +1,977 @@
+#include "cli/gallery_jobs.h"
+
+#include "art/style.h"
+#include "engine/text.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <glob.h>
+
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
+
+namespace sikku {
+namespace {
+
+enum class Use { any, print, score };
+enum class Kind { text, number, whole, flag };
+
+struct KeyFacts {
+    GalleryKey shown;
+    Use use = Use::any;
+    Kind kind = Kind::text;
+    bool overrides = false;  ///< it is a key of the pattern, not an option
+};
+
+const std::vector<KeyFacts>& all_keys() {
+    static const std::vector<KeyFacts> keys = [] {
+        std::vector<KeyFacts> list = {
+            {{"n", "Derivation length, or a range of them: 1:6", false, true}, Use::any, Kind::whole, false},
+            {{"variant", "One of the pattern's variants", false, true}, Use::any, Kind::text, false},
+            {{"budget", "Most nodes of a derivation that are visited", false, true}, Use::any, Kind::number, false},
+            {{"seed", "Of chance", false, true}, Use::any, Kind::whole, false},
+            {{"size", "Of a print: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT", false, true},
+             Use::print,
+             Kind::text,
+             false},
+            {{"landscape", "The page lies on its side", true, true}, Use::print, Kind::flag, false},
+            {{"margin", "On all four sides", false, true}, Use::print, Kind::text, false},
+            {{"fit", "Fill the page within its margins (default)", true, true}, Use::print, Kind::flag, false},
+            {{"step", "Length of one turtle step on paper", false, true}, Use::print, Kind::text, false},
+            {{"rotate", "Degrees anticlockwise", false, true}, Use::print, Kind::number, false},
+            {{"mirror", "Left and right exchanged", true, true}, Use::print, Kind::flag, false},
+            {{"window", "What of the drawing fills the page: X0,Y0,X1,Y1 in turtle steps", false, true},
+             Use::print,
+             Kind::text,
+             false},
+            {{"compression", "Of PNG: 1, quick and large, to 9", false, true}, Use::print, Kind::whole, false},
+            {{"dpi", "Pixels an inch of pictures", false, true}, Use::print, Kind::number, false},
+            {{"angle", "The pattern's angle: its define of that name, or its angle increment", false, true},
+             Use::any,
+             Kind::text,
+             true},
+            {{"angle-increment", "", false, false}, Use::any, Kind::text, true},
+            {{"angle-factor", "", false, false}, Use::any, Kind::text, true},
+            {{"heading", "", false, false}, Use::any, Kind::text, true},
+            {{"turn", "", false, false}, Use::any, Kind::text, true},
+            {{"scale-factor", "", false, false}, Use::print, Kind::text, true},
+        };
+        for (const std::string_view key : style_keys()) {
+            list.push_back({{std::string(key), "As the key of patterns", false, true}, Use::print, Kind::text, true});
+        }
+        for (const std::string_view key : melody_keys()) {
+            list.push_back({{std::string(key), "As of `sikku play`", false, true}, Use::score, Kind::text, false});
+        }
+        const std::vector<KeyFacts> of_play = {
+            {{"from-bar", "Begin at this bar", false, true}, Use::score, Kind::whole, false},
+            {{"bars", "So many bars", false, true}, Use::score, Kind::whole, false},
+            {{"seconds", "At most so long", false, true}, Use::score, Kind::number, false},
+            {{"transpose", "Semitones", false, true}, Use::score, Kind::number, false},
+            {{"humanise", "0 to 1: how far from exact a player is", false, true}, Use::score, Kind::number, false},
+            {{"midi-format", "1, a track for each voice, or 0", false, true}, Use::score, Kind::whole, false},
+            {{"tuning", "Microtones by pitch bend or by the MIDI Tuning Standard: bend, mts", false, true},
+             Use::score,
+             Kind::text,
+             false}};
+        list.insert(list.end(), of_play.begin(), of_play.end());
+        return list;
+    }();
+    return keys;
+}
+
+const KeyFacts* find_key(std::string_view name) {
+    for (const KeyFacts& key : all_keys()) {
+        if (key.shown.name == name) return &key;
+    }
+    return nullptr;
+}
+
+/// Formats of prints, then of scores.
+constexpr std::array<std::string_view, 8> print_formats = {"svg", "pdf", "png", "tif", "tiff", "jpg", "jpeg", "exr"};
+constexpr std::array<std::string_view, 9> score_formats = {"mid", "midi", "musicxml",  "xml", "ly",
+                                                           "wav", "flac", "notes.svg", "html"};
+
+bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// A value of a gallery file or a manifest, with its place.
+struct Raw {
+    enum class Type { text, list, table, other };
+    Type type = Type::text;
+    std::string text;  ///< numbers and flags too
+    std::vector<Raw> list;
+    std::vector<std::pair<std::string, Raw>> table;  ///< in the order of the file; a value's place is its key's
+    std::string place;
+    std::pair<std::uint32_t, std::uint32_t> order{0, 0};
+};
+
+[[noreturn]] void fail(const std::string& place, const std::string& message) {
+    throw UsageError(place.empty() ? message : place + ": " + message);
+}
+
+std::string place_of(const std::string& file, const toml::source_position& position) {
+    return fmt::format("{}:{}:{}", file, position.line, position.column);
+}
+
+Raw raw_of(const toml::node& node, const std::string& file) {
+    Raw raw;
+    raw.place = place_of(file, node.source().begin);
+    raw.order = {node.source().begin.line, node.source().begin.column};
+    if (const auto* text = node.as_string()) {
+        raw.text = text->get();
+    } else if (const auto* whole = node.as_integer()) {
+        raw.text = fmt::format("{}", whole->get());
+    } else if (const auto* number = node.as_floating_point()) {
+        if (!std::isfinite(number->get())) fail(raw.place, "expected a finite number");
+        raw.text = fmt::format("{}", number->get());
+        if (raw.text.ends_with(".0")) raw.text.resize(raw.text.size() - 2);
+    } else if (const auto* flag = node.as_boolean()) {
+        raw.text = flag->get() ? "true" : "false";
+    } else if (const auto* array = node.as_array()) {
+        raw.type = Raw::Type::list;
+        for (const toml::node& element : *array) raw.list.push_back(raw_of(element, file));
+    } else if (const auto* table = node.as_table()) {
+        raw.type = Raw::Type::table;
+        for (const auto& [key, value] : *table) {
+            Raw inner = raw_of(value, file);
+            inner.place = place_of(file, key.source().begin);
+            inner.order = {key.source().begin.line, key.source().begin.column};
+            raw.table.emplace_back(std::string(key.str()), std::move(inner));
+        }
+        std::stable_sort(raw.table.begin(), raw.table.end(),
+                         [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+    } else {
+        raw.type = Raw::Type::other;
+    }
+    return raw;
+}
+
+/// JSON keeps no places: a key's is where its name first stands in the line.
+Raw raw_of(const nlohmann::ordered_json& json, const std::string& place, const std::string& line_place,
+           const std::string& line) {
+    Raw raw;
+    raw.place = place;
+    if (json.is_string()) {
+        raw.text = json.get<std::string>();
+    } else if (json.is_number_float()) {
+        raw.text = fmt::format("{}", json.get<double>());
+        if (raw.text.ends_with(".0")) raw.text.resize(raw.text.size() - 2);
+    } else if (json.is_number() || json.is_boolean()) {
+        raw.text = json.dump();
+    } else if (json.is_array()) {
+        raw.type = Raw::Type::list;
+        for (const auto& element : json) raw.list.push_back(raw_of(element, place, line_place, line));
+    } else if (json.is_object()) {
+        raw.type = Raw::Type::table;
+        for (const auto& [key, value] : json.items()) {
+            const std::size_t at = line.find('"' + key + '"');
+            std::size_t column = 1;
+            for (std::size_t i = 0; at != std::string::npos && i < at; ++i) {
+                column += (static_cast<unsigned char>(line[i]) & 0xC0) != 0x80 ? 1 : 0;
+            }
+            raw.table.emplace_back(key, raw_of(value, fmt::format("{}:{}", line_place, column), line_place, line));
+        }
+    } else {
+        raw.type = Raw::Type::other;
+    }
+    return raw;
+}
+
+/// `60:90:5`, not written out.
+struct Stretch {
+    double first = 0;
+    double step = 1;
+    double count = 1;
+
+    std::string value(std::uint64_t index) const {
+        // Twelve digits, so that 0.1 + 0.2 is 0.3.
+        std::string text = fmt::format("{:.12g}", first + static_cast<double>(index) * step);
+        return text == "-0" ? "0" : text;
+    }
+};
+
+/// `A:B` or `A:B:STEP`; nullopt for what is none.
+std::optional<Stretch> read_stretch(const std::string& text, const std::string& place) {
+    std::vector<double> numbers;
+    for (std::size_t at = 0;;) {
+        const std::size_t colon = std::min(text.find(':', at), text.size());
+        double number = 0;
+        if (!read_number(std::string_view(text).substr(at, colon - at), number)) return std::nullopt;
+        numbers.push_back(number);
+        if (colon == text.size()) break;
+        at = colon + 1;
+    }
+    if (numbers.size() < 2 || numbers.size() > 3) return std::nullopt;
+    Stretch stretch{numbers[0], numbers.size() == 3 ? numbers[2] : 1.0, 0};
+    const double steps = (numbers[1] - stretch.first) / stretch.step;
+    if (stretch.step == 0 || !(steps >= 0)) {
+        fail(place, fmt::format("the range {} holds nothing", printable(text)));
+    }
+    stretch.count = std::floor(steps + 1e-9) + 1;
+    return stretch;
+}
+
+/// A key and the values it takes one after the other.
+struct Axis {
+    std::string key;
+    std::string place;
+    std::vector<std::string> values;
+    std::optional<Stretch> stretch;  ///< instead of values
+    bool in_set = false;
+
+    double count() const { return stretch ? stretch->count : static_cast<double>(values.size()); }
+    std::string value(std::uint64_t index) const { return stretch ? stretch->value(index) : values[index]; }
+};
+
+/// What is asked for together.
+struct Item {
+    std::string place;
+    bool needs_pattern = false;
+    std::filesystem::path folder;
+    std::vector<std::string> patterns;
+    std::string patterns_place;
+    std::vector<std::string> formats;
+    std::string formats_place;
+    std::optional<std::string> name;
+    std::string name_place;
+    std::vector<Axis> axes;
+
+    void take(Axis axis) {
+        for (Axis& old : axes) {
+            if (old.key == axis.key && old.in_set == axis.in_set) {
+                old = std::move(axis);
+                return;
+            }
+        }
+        axes.push_back(std::move(axis));
+    }
+};
+
+std::vector<std::string> words_of(const Raw& raw, std::string_view key) {
+    std::vector<std::string> words;
+    if (raw.type == Raw::Type::text) {
+        words.push_back(raw.text);
+    } else if (raw.type == Raw::Type::list) {
+        for (const Raw& element : raw.list) {
+            if (element.type != Raw::Type::text) fail(element.place, fmt::format("{}: expected a text", key));
+            words.push_back(element.text);
+        }
+    } else {
+        fail(raw.place, fmt::format("{}: expected a text or a list of texts", key));
+    }
+    if (words.empty()) fail(raw.place, fmt::format("{}: this list is empty", key));
+    return words;
+}
+
+bool is_whole(const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && stop == text.data() + text.size();
+}
+
+void check_value(const std::string& key, Kind kind, const std::string& value, const std::string& place) {
+    double number = 0;
+    if (kind == Kind::number && !read_number(value, number)) {
+        fail(place, fmt::format("{}: expected a number, not '{}'", key, printable(value, 80)));
+    }
+    if (kind == Kind::whole && !is_whole(value)) {
+        fail(place, fmt::format("{}: expected a whole number, 0 or more, not '{}'", key, printable(value, 80)));
+    }
+    if (kind == Kind::flag && value != "true" && value != "false") {
+        fail(place, fmt::format("{}: expected true or false, not '{}'", key, printable(value, 80)));
+    }
+}
+
+Axis axis_of(const std::string& key, const Raw& raw, Kind kind, bool in_set) {
+    Axis axis{key, raw.place, {}, std::nullopt, in_set};
+    axis.values = words_of(raw, key);
+    if (axis.values.size() == 1) axis.stretch = read_stretch(axis.values[0], raw.place);
+    if (axis.stretch) {
+        const auto whole = [](double value) { return value >= 0 && value == std::floor(value) && value < 1e11; };
+        if (kind == Kind::flag || (kind == Kind::whole && !(whole(axis.stretch->first) &&
+                                                            axis.stretch->step == std::floor(axis.stretch->step)))) {
+            fail(raw.place, fmt::format("{}: expected whole numbers, 0 or more", key));
+        }
+        return axis;
+    }
+    for (const std::string& value : axis.values) check_value(key, kind, value, raw.place);
+    return axis;
+}
+
+/// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
+std::string folded_key(std::string key) {
+    for (char& letter : key) {
+        if (letter == '_' || letter == ' ') letter = '-';
+    }
+    if (key == "generations" || key == "steps") return "n";
+    if (key == "seeds" || key == "formats" || key == "patterns") key.pop_back();
+    return key;
+}
+
+void check_format(const std::string& format, const std::string& place) {
+    if (is_one_of(format, print_formats) || is_one_of(format, score_formats)) return;
+    std::vector<std::string_view> known(print_formats.begin(), print_formats.end());
+    known.insert(known.end(), score_formats.begin(), score_formats.end());
+    const std::string_view near = nearest(format, known);
+    fail(place, fmt::format("there is no format '{}'{}", printable(format, 80),
+                            near.empty() ? fmt::format("; there are {}", fmt::join(known, ", "))
+                                         : fmt::format("; did you mean '{}'?", near)));
+}
+
+/// Commas part several, on the command line as in a file.
+std::vector<std::string> read_formats(const std::vector<std::string>& words, const std::string& place) {
+    std::vector<std::string> formats;
+    for (const std::string& word : words) {
+        for (std::size_t at = 0; at <= word.size();) {
+            const std::size_t comma = std::min(word.find(',', at), word.size());
+            std::string format = lower_case(word.substr(at, comma - at));
+            while (format.starts_with(' ') || format.starts_with('.')) format.erase(0, 1);
+            while (format.ends_with(' ')) format.pop_back();
+            check_format(format, place);
+            formats.push_back(format);
+            at = comma + 1;
+        }
+    }
+    return formats;
+}
+
+void read_key(const std::string& written, const Raw& raw, Item& item) {
+    const std::string key = folded_key(written);
+    if (key == "pattern") {
+        item.patterns = words_of(raw, key);
+        item.patterns_place = raw.place;
+    } else if (key == "format") {
+        item.formats = read_formats(words_of(raw, key), raw.place);
+        item.formats_place = raw.place;
+    } else if (key == "name") {
+        if (raw.type != Raw::Type::text) fail(raw.place, "name: expected a text");
+        item.name = raw.text;
+        item.name_place = raw.place;
+    } else if (key == "set") {
+        if (raw.type != Raw::Type::table) fail(raw.place, "set: expected a table such as { r = 0.5 }");
+        for (const auto& [name, value] : raw.table) item.take(axis_of(name, value, Kind::text, true));
+    } else if (const KeyFacts* facts = find_key(key)) {
+        item.take(axis_of(key, raw, facts->kind, false));
+    } else {
+        std::vector<std::string_view> known = {"pattern", "format", "name", "set", "generations", "item"};
+        for (const KeyFacts& each : all_keys()) known.push_back(each.shown.name);
+        const std::string_view near = nearest(key, known);
+        fail(raw.place, fmt::format("nobody knows the key '{}'{}", printable(written, 80),
+                                    near.empty() ? "; keys and defines of patterns go into `set = { … }`"
+                                                 : fmt::format("; did you mean '{}'?", near)));
+    }
+}
+
+std::string read_text_file(const std::string& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) throw UsageError(fmt::format("{} is a folder", file));
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream.is_open() || stream.bad()) {
+        throw UsageError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
+    }
+    return text;
+}
+
+/// The defaults go into `defaults`.
+std::vector<Item> read_gallery_file(const std::string& file, Item& defaults) {
+    Raw root;
+    try {
+        root = raw_of(toml::parse(read_text_file(file), file), file);
+    } catch (const toml::parse_error& error) {
+        fail(place_of(file, error.source().begin), printable(error.description(), 300));
+    }
+    const Raw* items = nullptr;
+    defaults.folder = std::filesystem::path(file).parent_path();
+    defaults.place = file + ":1:1";
+    for (const auto& [key, value] : root.table) {
+        if (key == "item") {
+            items = &value;
+        } else {
+            read_key(key, value, defaults);
+        }
+    }
+    std::vector<Item> list;
+    if (!items) return list;
+    if (items->type != Raw::Type::list) fail(items->place, "item: write it as [[item]], one for each");
+    for (const Raw& element : items->list) {
+        if (element.type != Raw::Type::table) fail(element.place, "item: write it as [[item]], one for each");
+        Item item = defaults;
+        item.place = element.place;
+        item.needs_pattern = true;
+        for (const auto& [key, value] : element.table) read_key(key, value, item);
+        list.push_back(std::move(item));
+    }
+    return list;
+}
+
+std::vector<Item> read_manifest(const std::string& file, const Item& defaults) {
+    std::vector<Item> list;
+    const std::string text = read_text_file(file);
+    std::size_t number = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        at = end + 1;
+        ++number;
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        const std::string line_place = fmt::format("{}:{}", file, number);
+        nlohmann::ordered_json json;
+        try {
+            json = nlohmann::ordered_json::parse(line);
+        } catch (const nlohmann::json::parse_error& error) {
+            fail(fmt::format("{}:{}", line_place, std::max<std::size_t>(error.byte, 1)), "this is no JSON");
+        }
+        if (!json.is_object()) fail(line_place + ":1", "expected a job: { \"pattern\": … }");
+        Item item = defaults;
+        item.place = line_place + ":1";
+        item.needs_pattern = true;
+        item.folder = std::filesystem::path(file).parent_path();
+        const Raw raw = raw_of(json, item.place, line_place, line);
+        for (const auto& [key, value] : raw.table) read_key(key, value, item);
+        list.push_back(std::move(item));
+    }
+    return list;
+}
+
+bool has_wildcards(std::string_view word) {
+    return word.find_first_of("*?[") != std::string_view::npos;
+}
+
+/// Finds patterns and reads each once.
+class PatternShelf {
+public:
+    using Pointer = std::shared_ptr<const GalleryPattern>;
+
+    std::vector<Pointer> find(const std::string& word, const std::filesystem::path& folder,
+                              const std::string& place) {
+        std::vector<Pointer> found;
+        if (word == "-") fail(place, "a gallery reads no pattern from standard input");
+        const std::filesystem::path path = folder / word;
+        std::error_code error;
+        if (has_wildcards(word)) {
+            glob_t matches{};
+            if (glob(path.c_str(), 0, nullptr, &matches) == 0) {
+                for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
+                    const std::filesystem::path match = matches.gl_pathv[i];
+                    if (match.extension() == ".lsys") found.push_back(of_file(match));
+                }
+            }
+            globfree(&matches);
+            if (!found.empty()) return found;
+            for (const KnownPattern& pattern : known()) {
+                const std::string full = pattern.kind + "/" + pattern.name;
+                const bool is_full = word.find('/') != std::string::npos;
+                if (fnmatch(word.c_str(), (is_full ? full : pattern.name).c_str(), 0) == 0) {
+                    found.push_back(of_known(pattern));
+                }
+            }
+            if (found.empty()) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+            return found;
+        }
+        if (std::filesystem::is_directory(path, error)) {
+            std::vector<std::filesystem::path> files;
+            for (std::filesystem::recursive_directory_iterator entry(path, error), end; !error && entry != end;
+                 entry.increment(error)) {
+                if (entry->path().extension() == ".lsys") files.push_back(entry->path());
+            }
+            std::sort(files.begin(), files.end());
+            for (const auto& file : files) found.push_back(of_file(file));
+            if (found.empty()) fail(place, fmt::format("{}: there is no pattern in this folder", path.string()));
+            return found;
+        }
+        if (std::filesystem::exists(path, error)) return {of_file(path)};
+        for (const KnownPattern& pattern : known()) {
+            if (pattern.name == word || pattern.kind == word || pattern.kind + "/" + pattern.name == word) {
+                found.push_back(of_known(pattern));
+            }
+        }
+        if (!found.empty()) return found;
+        std::vector<std::string_view> names;
+        for (const KnownPattern& pattern : known()) names.push_back(pattern.name);
+        const std::string_view near = nearest(word, names);
+        fail(place, fmt::format("there is no file and no pattern '{}'{}", printable(word, 80),
+                                near.empty() ? "; `sikku patterns` lists those that come along"
+                                             : fmt::format("; did you mean '{}'?", near)));
+    }
+
+    /// All that come along and draw.
+    std::vector<Pointer> all() {
+        std::vector<Pointer> found;
+        for (const KnownPattern& pattern : known()) {
+            if (pattern.kind != "words") found.push_back(of_known(pattern));
+        }
+        if (found.empty()) throw UsageError("no patterns were found");
+        return found;
+    }
+
+private:
+    const std::vector<KnownPattern>& known() {
+        if (!is_listed_) known_ = known_patterns();
+        is_listed_ = true;
+        return known_;
+    }
+
+    Pointer of_known(const KnownPattern& known) { return read(known.file, known.name, known.name + ".lsys"); }
+
+    Pointer of_file(const std::filesystem::path& file) { return read(file, file.string(), file.string()); }
+
+    Pointer read(const std::filesystem::path& file, const std::string& shown, const std::string& called) {
+        Pointer& known = read_[file.string()];
+        if (known) return known;
+        GalleryPattern pattern;
+        pattern.name = file.stem().string();
+        pattern.kind = file.parent_path().filename().string();
+        pattern.path = file.string();
+        pattern.shown = shown;
+        try {
+            pattern.text = std::make_shared<PatternText>(PatternText{called, read_pattern_text(file.string()).text});
+        } catch (const UsageError& error) {
+            pattern.problem = error.what();
+        }
+        known = std::make_shared<const GalleryPattern>(std::move(pattern));
+        return known;
+    }
+
+    bool is_listed_ = false;
+    std::vector<KnownPattern> known_;
+    std::map<std::string, Pointer> read_;
+};
+
+/// As part of a file's name.
+std::string name_part(std::string_view value) {
+    std::string part;
+    for (const char letter : value) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '_' ||
+                           letter == '+' || letter == '-' || (static_cast<unsigned char>(letter) & 0x80) != 0;
+        if (plain) {
+            part += letter;
+        } else if (!part.empty() && part.back() != '-') {
+            part += '-';
+        }
+    }
+    while (part.ends_with('-')) part.pop_back();
+    return part;
+}
+
+/// Makes the jobs of items.
+class Expansion {
+public:
+    explicit Expansion(std::vector<Item> items) : items_(std::move(items)) {
+        for (const Item& item : items_) patterns_.push_back(patterns_of(item));
+    }
+
+    /// Of all items, before anything is written out.
+    /// @throws UsageError if they are too many
+    void require_few() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            for (const auto& pattern : patterns_[i]) {
+                for (const std::string& format : formats_of(items_[i], *pattern)) {
+                    double product = 1;
+                    for (const Axis& axis : items_[i].axes) product *= matters(axis, format) ? axis.count() : 1;
+                    sum += product;
+                }
+            }
+            if (sum > most_gallery_jobs) {
+                fail(items_[i].place, fmt::format("this would make {:.0f} jobs; at most {:.0f} are made at a time",
+                                                  sum, most_gallery_jobs));
+            }
+        }
+    }
+
+    std::vector<GalleryJob> jobs() {
+        std::vector<GalleryJob> list;
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            for (const auto& pattern : patterns_[i]) {
+                for (const std::string& format : formats_of(items_[i], *pattern)) {
+                    expand(items_[i], pattern, format, list);
+                }
+            }
+        }
+        std::unordered_map<std::string, const GalleryJob*> names;
+        for (const GalleryJob& job : list) {
+            const auto [known, is_new] = names.emplace(job.file(), &job);
+            if (is_new) continue;
+            const std::string& other = known->second->place;
+            fail(job.place, fmt::format("two jobs are named '{}'{}; `name` can tell them apart", job.file(),
+                                        other.empty() || other == job.place ? "" : " (the other: " + other + ")"));
+        }
+        return list;
+    }
+
+private:
+    std::vector<PatternShelf::Pointer> patterns_of(const Item& item) {
+        if (item.patterns.empty()) {
+            if (item.needs_pattern) fail(item.place, "this item has no pattern");
+            return shelf_.all();
+        }
+        std::vector<PatternShelf::Pointer> found;
+        std::set<const GalleryPattern*> seen;
+        for (const std::string& word : item.patterns) {
+            for (const auto& pattern : shelf_.find(word, item.folder, item.patterns_place)) {
+                if (seen.insert(pattern.get()).second) found.push_back(pattern);
+            }
+        }
+        return found;
+    }
+
+    static std::vector<std::string> formats_of(const Item& item, const GalleryPattern& pattern) {
+        if (!item.formats.empty()) return item.formats;
+        if (pattern.kind == "melodies") return {"svg", "mid"};
+        return {"svg"};
+    }
+
+    static bool matters(const Axis& axis, const std::string& format) {
+        if (axis.in_set) return true;
+        const Use use = find_key(axis.key)->use;
+        return use == Use::any || (use == Use::score) == is_one_of(format, score_formats);
+    }
+
+    /// The key of the pattern that `angle` stands for.
+    static std::string override_key(const std::string& key, const GalleryPattern& pattern) {
+        if (key == "angle") {
+            Diagnostics ignored;
+            if (!pattern.text) return key;
+            const Pattern parsed = parse_pattern(pattern.text->name, pattern.text->text, ignored);
+            for (const Define& define : parsed.defines) {
+                if (define.name.view() == "angle") return key;
+            }
+            return "angle increment";
+        }
+        std::string name = key;
+        std::replace(name.begin(), name.end(), '-', ' ');
+        return name;
+    }
+
+    void expand(const Item& item, const PatternShelf::Pointer& pattern, const std::string& format,
+                std::vector<GalleryJob>& list) {
+        std::vector<const Axis*> axes;
+        std::vector<std::string> targets;  // the pattern's key, where an axis sets one
+        for (const Axis& axis : item.axes) {
+            if (!matters(axis, format)) continue;
+            axes.push_back(&axis);
+            const bool overrides = !axis.in_set && find_key(axis.key)->overrides;
+            targets.push_back(axis.in_set ? axis.key : overrides ? override_key(axis.key, *pattern) : "");
+        }
+        std::vector<std::uint64_t> at(axes.size(), 0);
+        while (true) {
+            GalleryJob job;
+            job.format = format;
+            job.pattern = pattern;
+            job.place = item.place;
+            job.folder = item.folder;
+            for (std::size_t i = 0; i < axes.size(); ++i) {
+                const std::string value = axes[i]->value(at[i]);
+                if (!targets[i].empty()) {
+                    job.overrides[targets[i]] = value;
+                } else if (value != "false" || find_key(axes[i]->key)->kind != Kind::flag) {
+                    job.keys[axes[i]->key] = value;
+                }
+            }
+            job.name = name_of(item, job, axes, at);
+            check(item, job);
+            list.push_back(std::move(job));
+            // The last axis runs fastest.
+            std::size_t axis = axes.size();
+            while (axis > 0 && static_cast<double>(++at[axis - 1]) >= axes[axis - 1]->count()) at[--axis] = 0;
+            if (axis == 0) return;
+        }
+    }
+
+    std::string name_of(const Item& item, const GalleryJob& job, const std::vector<const Axis*>& axes,
+                        const std::vector<std::uint64_t>& at) {
+        std::string name;
+        if (!item.name) {
+            name = name_part(job.pattern->name);
+            if (job.keys.contains("variant")) name += "-" + name_part(job.keys.at("variant"));
+            for (std::size_t i = 0; i < axes.size(); ++i) {
+                if (axes[i]->count() < 2 || axes[i]->key == "variant") continue;
+                name += fmt::format("-{}{}", name_part(axes[i]->key), name_part(axes[i]->value(at[i])));
+            }
+        } else {
+            const std::string& form = *item.name;
+            for (std::size_t i = 0; i < form.size();) {
+                if (form[i] != '{') {
+                    name += form[i++];
+                    continue;
+                }
+                const std::size_t end = form.find('}', i);
+                if (end == std::string::npos) fail(item.name_place, "name: '{' without '}'");
+                name += name_part(placeholder(item, job, axes, at, form.substr(i + 1, end - i - 1)));
+                i = end + 1;
+            }
+        }
+        for (const std::filesystem::path& part : std::filesystem::path(name)) {
+            const std::string text = part.string();
+            if (text.empty() || text == "/" || text.starts_with('.')) {
+                fail(item.name_place.empty() ? item.place : item.name_place,
+                     fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
+            }
+        }
+        const std::string file = name + "." + job.format;
+        if (name.empty() || file == "index.html" || file.find('\0') != std::string::npos || file.size() > 1000) {
+            fail(item.name_place.empty() ? item.place : item.name_place,
+                 fmt::format("name: '{}' cannot be the name of an output", printable(file, 80)));
+        }
+        return name;
+    }
+
+    std::string placeholder(const Item& item, const GalleryJob& job, const std::vector<const Axis*>& axes,
+                            const std::vector<std::uint64_t>& at, const std::string& written) {
+        if (written == "pattern") return job.pattern->name;
+        if (written == "kind") return job.pattern->kind;
+        if (written == "format") return job.format;
+        const std::string key = folded_key(written);
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (axes[i]->key == key || axes[i]->key == written) return axes[i]->value(at[i]);
+        }
+        if (key == "n") return derivation_length(job);
+        for (const Axis& axis : item.axes) {
+            if (axis.key == key || axis.key == written) return axis.value(0);
+        }
+        if (const KeyFacts* facts = find_key(key); facts) return "";
+        std::vector<std::string_view> known = {"pattern", "kind", "format", "n"};
+        for (const Axis& axis : item.axes) known.push_back(axis.key);
+        const std::string_view near = nearest(written, known);
+        fail(item.name_place, fmt::format("name: nobody knows {{{}}}{}", printable(written, 80),
+                                          near.empty() ? fmt::format("; there are {}", fmt::join(known, ", "))
+                                                       : fmt::format("; did you mean {{{}}}?", near)));
+    }
+
+    /// The pattern's own, with what the job changes in it.
+    std::string derivation_length(const GalleryJob& job) {
+        try {
+            const LoadedPattern loaded = load(print_settings(job, "x.svg").pattern, true);
+            return fmt::format("{}", loaded.grammar.steps());
+        } catch (const std::exception&) {
+            return "";  // the job itself tells why
+        }
+    }
+
+    static void check(const Item& item, const GalleryJob& job) {
+        try {
+            if (job.is_score()) {
+                check_score(score_settings(job, job.file()));
+            } else {
+                plan_print(print_settings(job, job.file()));
+            }
+        } catch (const UsageError& error) {
+            // Of a single option, where that was said.
+            const std::string message = error.what();
+            for (const Axis& axis : item.axes) {
+                const bool is_option = message.starts_with("--" + axis.key) || message.starts_with(axis.key + ":");
+                if (is_option && !axis.place.empty()) fail(axis.place, message);
+            }
+            fail(job.place, message);
+        }
+    }
+
+    std::vector<Item> items_;
+    PatternShelf shelf_;
+    std::vector<std::vector<PatternShelf::Pointer>> patterns_;
+};
+
+double number_of(const GalleryJob& job, const char* key, double otherwise) {
+    const auto found = job.keys.find(key);
+    double value = otherwise;
+    if (found != job.keys.end()) read_number(found->second, value);
+    return value;
+}
+
+template <typename Whole>
+void whole_of(const GalleryJob& job, const char* key, Whole& value) {
+    const auto found = job.keys.find(key);
+    if (found == job.keys.end()) return;
+    const std::string& text = found->second;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) {
+        throw UsageError(fmt::format("{}: {} is too large", key, text));
+    }
+}
+
+PatternOptions pattern_options(const GalleryJob& job) {
+    PatternOptions options;
+    options.pattern = job.pattern->path;
+    options.text = job.pattern->text;
+    if (job.keys.contains("n")) options.steps = job.keys.at("n");
+    if (job.keys.contains("variant")) options.variant = job.keys.at("variant");
+    for (const auto& [key, value] : job.overrides) options.settings.push_back(key + "=" + value);
+    if (job.keys.contains("seed")) options.settings.push_back("seed=" + job.keys.at("seed"));
+    return options;
+}
+
+/// What was asked for on the command line goes before what a file says.
+void take_request(const GalleryRequest& request, Item& item) {
+    for (const auto& [key, value] : request.keys) {
+        Raw raw;
+        raw.text = value;
+        if (key == "format" || key == "name") {
+            read_key(key, raw, item);
+        } else {
+            item.take(axis_of(key, raw, find_key(key)->kind, false));
+        }
+    }
+    for (const std::string& text : request.overrides) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw UsageError(fmt::format("--set {}: expected KEY=VALUE", text));
+        }
+        Raw raw;
+        raw.text = text.substr(equals + 1);
+        item.take(axis_of(text.substr(0, equals), raw, Kind::text, true));
+    }
+}
+
+}  // namespace
+
+const std::vector<GalleryKey>& gallery_keys() {
+    static const std::vector<GalleryKey> keys = [] {
+        std::vector<GalleryKey> list;
+        for (const KeyFacts& key : all_keys()) list.push_back(key.shown);
+        return list;
+    }();
+    return keys;
+}
+
+bool GalleryJob::is_score() const {
+    return is_one_of(format, score_formats);
+}
+
+std::string GalleryJob::text() const {
+    nlohmann::json json;
+    json["name"] = name;
+    json["format"] = format;
+    json["pattern"] = pattern->shown;
+    for (const auto& [key, value] : keys) json[key] = value;
+    for (const auto& [key, value] : overrides) json["set"][key] = value;
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string GalleryJob::hash() const {
+    TextHash hash;
+    hash.add_piece(SIKKU_VERSION);
+    hash.add_piece(format);
+    hash.add_piece(pattern->text ? pattern->text->text : "");
+    for (const auto& [key, value] : keys) {
+        if (key == "budget") continue;  // it says whether there is a file, not what is in it
+        hash.add_piece(key);
+        hash.add_piece(value);
+    }
+    hash.add_piece("");
+    for (const auto& [key, value] : overrides) {
+        hash.add_piece(key);
+        hash.add_piece(value);
+    }
+    if (is_score() && pattern->text) {
+        const std::string whole = text() + pattern->text->text;
+        if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
+            for (const auto& [file, held] : scala_files(score_settings(*this, "x.mid"))) {
+                hash.add_piece(file);
+                hash.add_piece(held);
+            }
+        }
+    }
+    return hash.digits();
+}
+
+DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& output) {
+    DrawSettings settings;
+    settings.pattern = pattern_options(job);
+    settings.output = output.string();
+    const auto text = [&](const char* key, std::string& value) {
+        if (job.keys.contains(key)) value = job.keys.at(key);
+    };
+    text("size", settings.size);
+    text("margin", settings.margin);
+    if (job.keys.contains("step") && !job.keys.contains("fit")) settings.step = job.keys.at("step");
+    if (job.keys.contains("window")) settings.window = job.keys.at("window");
+    whole_of(job, "compression", settings.compression);
+    settings.landscape = job.keys.contains("landscape");
+    settings.mirror = job.keys.contains("mirror");
+    settings.rotate = number_of(job, "rotate", settings.rotate);
+    settings.dpi = number_of(job, "dpi", settings.dpi);
+    settings.budget = number_of(job, "budget", settings.budget);
+    settings.threads = 1;
+    return settings;
+}
+
+PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& output) {
+    PlaySettings settings;
+    settings.pattern = pattern_options(job);
+    settings.patterns = {job.pattern->path};
+    settings.output = output.string();
+    settings.folder = job.folder;
+    const auto keys = melody_keys();
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const auto found = job.keys.find(std::string(keys[i]));
+        if (found != job.keys.end()) settings.keys[i] = found->second;
+    }
+    whole_of(job, "from-bar", settings.from_bar);
+    if (settings.from_bar < 1) throw UsageError("from-bar: bars are counted from 1");
+    whole_of(job, "bars", settings.bars);
+    whole_of(job, "seed", settings.seed);
+    whole_of(job, "midi-format", settings.format);
+    if (settings.format != 0 && settings.format != 1) throw UsageError("midi-format: expected 0 or 1");
+    settings.seconds = number_of(job, "seconds", settings.seconds);
+    settings.transpose = number_of(job, "transpose", settings.transpose);
+    settings.humanise = number_of(job, "humanise", settings.humanise);
+    settings.budget = number_of(job, "budget", settings.budget);
+    if (job.keys.contains("tuning")) settings.tuning = job.keys.at("tuning");
+    if (settings.tuning != "bend" && settings.tuning != "mts") throw UsageError("tuning: expected bend or mts");
+    return settings;
+}
+
+std::vector<GalleryJob> gallery_jobs(const GalleryRequest& request) {
+    Item defaults;
+    std::vector<Item> items;
+    if (!request.gallery_file.empty()) items = read_gallery_file(request.gallery_file, defaults);
+    if (!request.manifest.empty()) {
+        std::vector<Item> more = read_manifest(request.manifest, defaults);
+        items.insert(items.end(), more.begin(), more.end());
+    }
+    if (!request.patterns.empty()) {
+        // Seen from here, not from the gallery file.
+        Item item = defaults;
+        item.folder.clear();
+        item.place.clear();
+        item.patterns_place.clear();
+        item.patterns = request.patterns;
+        items.push_back(std::move(item));
+    } else if (items.empty() && request.manifest.empty()) {
+        items.push_back(defaults);
+    }
+    for (Item& item : items) take_request(request, item);
+    Expansion expansion(std::move(items));
+    expansion.require_few();
+    return expansion.jobs();
+}
+
+void TextHash::add(std::string_view bytes) {
+    __extension__ using Wide = unsigned __int128;
+    constexpr Wide prime = (Wide{1} << 88) + 0x13b;
+    Wide state = (Wide{high_} << 64) | low_;
+    for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * prime;
+    high_ = static_cast<std::uint64_t>(state >> 64);
+    low_ = static_cast<std::uint64_t>(state);
+}
+
+void TextHash::add_piece(std::string_view bytes) {
+    add(fmt::format("{}:", bytes.size()));
+    add(bytes);
+}
+
+std::string TextHash::digits() const {
+    return fmt::format("{:016x}{:016x}", high_, low_);
+}
+
+}  // namespace sikku

@@ -1,0 +1,92 @@
+// cli/gallery_jobs.h: what a gallery is to hold, as a plain list of jobs: from a gallery file, a manifest, a command
+// line.
+#pragma once
+
+#include "cli/draw.h"
+#include "cli/play.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// More jobs are refused before they are expanded.
+constexpr double most_gallery_jobs = 1'000'000;
+
+/// A pattern of a gallery, read once.
+struct GalleryPattern {
+    std::string name;                         ///< without folder and ending
+    std::string kind;                         ///< the folder it lies in
+    std::string path;                         ///< to read it, and to find what lies beside it
+    std::string shown;                        ///< as a manifest names it
+    std::shared_ptr<const PatternText> text;  ///< null if it cannot be read
+    std::string problem;                      ///< then: why
+};
+
+/// Everything that it takes to make one file, whoever makes it, wherever and when.
+struct GalleryJob {
+    std::string name;    ///< of the file, without the ending; `/` leads into folders
+    std::string format;  ///< the ending: svg, png, mid …; `notes.svg` is the score of `sikku play`
+    std::shared_ptr<const GalleryPattern> pattern;
+    std::map<std::string, std::string> keys;       ///< options of draw and play that were given and matter here
+    std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
+    std::string place;             ///< where it was asked for, `gallery.toml:3:1`; empty: command line
+    std::filesystem::path folder;  ///< what its options name lies here
+
+    /// The file's path below the folder of the gallery.
+    std::string file() const { return name + "." + format; }
+    bool is_score() const;
+    /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
+    std::string text() const;
+    /// 32 hexadecimal digits of all that decides what the file holds: settings, pattern, files the pattern names,
+    /// version of the program.
+    std::string hash() const;
+};
+
+/// For a job that is a print.
+DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& output);
+/// For a job that is a score.
+PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& output);
+
+/// A key of gallery files, and an option of `sikku gallery`.
+struct GalleryKey {
+    std::string name;
+    std::string help;
+    bool is_flag = false;
+    bool is_option = true;  ///< the command line has it, too
+};
+const std::vector<GalleryKey>& gallery_keys();
+
+/// What the command line asks for.
+struct GalleryRequest {
+    std::vector<std::string> patterns;  ///< names, globs, folders, files
+    std::string gallery_file;
+    std::string manifest;
+    std::map<std::string, std::string> keys;  ///< these go before what the files say
+    std::vector<std::string> overrides;       ///< KEY=VALUE
+};
+
+/// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
+/// @throws UsageError with file, line and column for every mistake that can be seen before a pattern is compiled
+std::vector<GalleryJob> gallery_jobs(const GalleryRequest& request);
+
+/// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.
+class TextHash {
+public:
+    void add(std::string_view bytes);
+    /// The same, but with its length, so that pieces cannot run into each other.
+    void add_piece(std::string_view bytes);
+    std::string digits() const;
+
+private:
+    std::uint64_t high_ = 0x6c62272e07bb0142;
+    std::uint64_t low_ = 0x62b821756295c58d;
+};
+
+}  // namespace sikku

@@ -1,0 +1,465 @@
+// tests/gallery_test.cpp: `sikku gallery` from outside: what it makes, how it goes on, and what it refuses.
+#include "tests/files.h"
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/mount.h>
+
+#include <algorithm>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// Every file of a folder, hidden ones too, with what it holds.
+std::map<std::string, std::string> tree(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) {
+            files[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path());
+        }
+    }
+    return files;
+}
+
+/// Names of the files that differ, for messages.
+std::string differences(const std::map<std::string, std::string>& one,
+                        const std::map<std::string, std::string>& two) {
+    std::string text;
+    for (const auto& [name, held] : one) {
+        const auto other = two.find(name);
+        if (other == two.end() || other->second != held) text += name + "\n";
+    }
+    for (const auto& [name, held] : two) {
+        if (!one.contains(name)) text += name + "\n";
+    }
+    return text;
+}
+
+std::size_t lines_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+const std::string square = "axiom: F-F-F-F\nderivation length: 2\nF --> F-F+F+FF-F-F+F\n";
+
+const std::string small_gallery =
+    "size = '50x50mm'\n"
+    "dpi = 100\n"
+    "format = ['svg', 'png']\n"
+    "[[item]]\n"
+    "pattern = 'square.lsys'\n"
+    "n = '0:3'\n"
+    "[[item]]\n"
+    "pattern = ['hilbert', 'dragon']\n"
+    "n = [2, 5]\n"
+    "angle = '80:90:10'\n"
+    "[[item]]\n"
+    "pattern = 'hilbert-in-c'\n"
+    "format = 'mid'\n"
+    "humanise = 0.5\n"
+    "seed = '1:3'\n";
+constexpr std::size_t small_count = 8 + 16 + 3;
+
+/// A folder with the small gallery in it.
+class GalleryTest : public ::testing::Test {
+protected:
+    GalleryTest() {
+        folder.write("square.lsys", square);
+        folder.write("gallery.toml", small_gallery);
+    }
+    Outcome gallery(std::vector<std::string> arguments,
+                    std::vector<std::pair<std::string, std::string>> environment = {}) const {
+        arguments.insert(arguments.begin(), "gallery");
+        return run(arguments, {.folder = folder.path(), .environment = std::move(environment)});
+    }
+    Outcome small(const std::string& output, std::vector<std::string> more = {}) const {
+        more.insert(more.begin(), {"--file", "gallery.toml", "-o", output});
+        return gallery(std::move(more));
+    }
+    ScratchFolder folder;
+};
+
+TEST_F(GalleryTest, MakesWhatTheFileSays) {
+    const Outcome outcome = small("out");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    const auto files = tree(folder / "out");
+    EXPECT_EQ(files.size(), small_count + 1);
+    for (const char* name : {"square-n0.svg", "square-n3.png", "hilbert-n2-angle80.svg", "dragon-n5-angle90.png",
+                             "hilbert-in-c-seed2.mid", "gallery.jsonl"}) {
+        EXPECT_TRUE(files.contains(name)) << name;
+    }
+    EXPECT_EQ(lines_of(files.at("gallery.jsonl")), small_count);
+    EXPECT_NE(files.at("hilbert-in-c-seed1.mid"), files.at("hilbert-in-c-seed2.mid"));
+    // The same as the commands for one make.
+    ASSERT_EQ(run({"-q", "draw", "square.lsys", "-n", "3", "--size", "50x50mm", "--dpi", "100", "-o", "x.png"},
+                  {.folder = folder.path()})
+                  .status,
+              0);
+    EXPECT_EQ(contents(folder / "x.png"), files.at("square-n3.png"));
+}
+
+TEST_F(GalleryTest, ListsAndReadsItsList) {
+    const Outcome list = small("out", {"--list"});
+    EXPECT_EQ(list.status, 0);
+    EXPECT_EQ(lines_of(list.output), small_count);
+    EXPECT_TRUE(has(list.output, "hilbert-n5-angle90.svg"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    const Outcome json = small("out", {"--list", "--json"});
+    folder.write("jobs.jsonl", json.output);
+    const Outcome again = gallery({"--manifest", "jobs.jsonl", "--list", "--json"});
+    EXPECT_EQ(again.output, json.output) << again.errors;
+    ASSERT_EQ(small("one").status, 0);
+    ASSERT_EQ(gallery({"--manifest", "jobs.jsonl", "-o", "two"}).status, 0);
+    EXPECT_EQ(differences(tree(folder / "one"), tree(folder / "two")), "");
+}
+
+TEST_F(GalleryTest, ForecastsWithoutMakingAnything) {
+    const Outcome outcome = gallery({"hilbert", "-n", "40:41", "--dry-run", "-o", "out", "--budget", "1e30"});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_TRUE(has(outcome.output, "4029752732048763915687251"));
+    EXPECT_TRUE(has(outcome.output, "2 jobs"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST_F(GalleryTest, NamesByTemplate) {
+    folder.write("t.toml",
+                 "name = '{kind}/{pattern}-{n}-{r}'\n[[item]]\npattern = 'hilbert'\n[item.set]\n"
+                 "heading = ['0', '90']\nr = '0.1:0.3:0.1'\n");
+    const Outcome list = gallery({"--file", "t.toml", "--list"});
+    // `heading` is not in the name.
+    EXPECT_EQ(list.status, 2);
+    EXPECT_TRUE(has(list.errors, "t.toml:2:1: two jobs are named 'curves/hilbert-"));
+    const Outcome named = gallery({"--file", "t.toml", "--list", "--name", "{heading}/{pattern}-{r}"});
+    EXPECT_EQ(named.status, 0) << named.errors;
+    for (const char* name : {"0/hilbert-0.1.svg", "0/hilbert-0.3.svg", "90/hilbert-0.2.svg"}) {
+        EXPECT_TRUE(has(named.output, name));
+    }
+    const Outcome own = gallery({"hilbert", "--list", "--name", "{pattern}-n{n}"});
+    EXPECT_EQ(own.output.find("{"), std::string::npos);
+    EXPECT_EQ(own.output.find("-n."), std::string::npos) << "the pattern's own length: " << own.output;
+}
+
+TEST_F(GalleryTest, PatternsByGlobKindFolderAndFile) {
+    EXPECT_TRUE(has(gallery({"koch*", "--list"}).output, "koch-island"));
+    EXPECT_TRUE(has(gallery({"kolams/*", "--list"}).output, "snake-kolam"));
+    EXPECT_EQ(gallery({"kolams", "--list"}).output, gallery({"kolams/*", "--list"}).output);
+    std::filesystem::create_directories(folder / "mine/deep");
+    folder.write("mine/a.lsys", square);
+    folder.write("mine/deep/b.lsys", square);
+    EXPECT_EQ(lines_of(gallery({"mine", "--list"}).output), 2U);
+    EXPECT_EQ(lines_of(gallery({"mine/*.lsys", "--list"}).output), 1U);
+    EXPECT_EQ(lines_of(gallery({"mine/a.lsys", "mine", "--list"}).output), 2U) << "each only once";
+    EXPECT_GT(lines_of(gallery({"--list"}).output), 60U);
+}
+
+TEST_F(GalleryTest, MistakesHavePlaces) {
+    const auto refused = [&](const std::string& text, std::string_view message) {
+        folder.write("bad.toml", text);
+        const Outcome outcome = gallery({"--file", "bad.toml", "-o", "out"});
+        EXPECT_EQ(outcome.status, 2) << text;
+        EXPECT_TRUE(has(outcome.errors, message)) << text;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out")) << text;
+    };
+    refused("dpi = 100\nanlge = 3\n", "bad.toml:2:1: nobody knows the key 'anlge'; did you mean 'angle'?");
+    refused("[[item]]\npattern = 'hilbert'\n  marign = '1cm'\n", "bad.toml:3:3: nobody knows the key 'marign'");
+    refused("x = \n", "bad.toml:1:5");
+    refused("pattern = 'hilbert'\nn = 'a'\n", "bad.toml:2:1: n: expected a whole number");
+    refused("pattern = 'hilbert'\nn = -1\n", "bad.toml:2:1: n: expected a whole number");
+    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: the range 5:1 holds nothing");
+    refused("pattern = 'hilbert'\nn = []\n", "bad.toml:2:1: n: this list is empty");
+    refused("[[item]]\nn = 3\n", "bad.toml:1:1: this item has no pattern");
+    refused("pattern = 'hilbrt'\n",
+            "bad.toml:1:1: there is no file and no pattern 'hilbrt'; did you mean 'hilbert'?");
+    refused("format = 'sgv'\n", "bad.toml:1:1: there is no format 'sgv'; did you mean 'svg'?");
+    refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: --size 3x");
+    refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: nobody knows {m}");
+    refused("pattern = 'hilbert'\nname = '../x'\n", "bad.toml:2:1: name: '../x' cannot be");
+    refused("pattern = 'hilbert'\nname = '.x'\n", "cannot be the name");
+    refused("pattern = ['hilbert', 'dragon']\nname = 'x'\n", "two jobs are named 'x.svg'");
+    refused("[[item]]\npattern = 'hilbert'\n[[item]]\npattern = 'hilbert'\n",
+            "bad.toml:3:1: two jobs are named 'hilbert.svg' (the other: bad.toml:1:1)");
+    refused("pattern = 'hilbert'\nn = '1:1000000000'\n", "this would make 1000000000 jobs");
+    refused("pattern = 'hilbert'\nset = { a = '0:1:1e-300', b = '1:1000000' }\n", "jobs; at most");
+    folder.write("bad.jsonl", "{\"pattern\": \"hilbert\"}\n{\"pattern\": \"hilbert\", \"nn\": 3}\n");
+    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:2:24: nobody knows the key 'nn'"));
+    folder.write("bad.jsonl", "{\"pattern\": }\n");
+    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:1:13: this is no JSON"));
+    EXPECT_EQ(gallery({"--file", "none.toml"}).status, 2);
+    EXPECT_EQ(gallery({"hilbert", "--memory", "much"}).status, 2);
+    EXPECT_EQ(gallery({"hilbert", "--only", "hilbrt"}).status, 2);
+    EXPECT_EQ(gallery({"hilbert", "--shard", "3/2"}).status, 2);
+}
+
+TEST_F(GalleryTest, ResumesAndRedoesWhatChanged) {
+    ASSERT_EQ(small("out").status, 0);
+    const auto first = tree(folder / "out");
+    const auto made_at = std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg");
+    EXPECT_TRUE(has(small("out").errors, "0 made, 27 there already"));
+    EXPECT_EQ(differences(first, tree(folder / "out")), "");
+    // One that is gone, one that was cut, one pattern that changed, one job asked for.
+    std::filesystem::remove(folder / "out/dragon-n2-angle80.svg");
+    std::filesystem::resize_file(folder / "out/dragon-n5-angle80.png", 10);
+    EXPECT_TRUE(has(small("out").errors, "2 made"));
+    EXPECT_EQ(differences(first, tree(folder / "out")), "");
+    EXPECT_TRUE(has(small("out", {"--only", "square-n2"}).errors, "2 made"));
+    EXPECT_EQ(differences(first, tree(folder / "out")), "");
+    folder.write("square.lsys", square + "stroke: 1mm #123\n");
+    EXPECT_TRUE(has(small("out").errors, "19 there already"));
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg"), made_at);
+    folder.write("square.lsys", square + "stroke: 1mm #456\n");
+    EXPECT_TRUE(has(small("out").errors, "19 there already")) << "files of the same size";
+    folder.write("square.lsys", square);
+    EXPECT_TRUE(has(small("out").errors, "8 made"));
+    EXPECT_EQ(differences(first, tree(folder / "out")), "");
+    EXPECT_TRUE(has(small("out", {"--force"}).errors, "27 made"));
+}
+
+TEST_F(GalleryTest, AKilledRunGoesOn) {
+    ASSERT_EQ(small("whole").status, 0);
+    const auto whole = tree(folder / "whole");
+    // Some die before their first job, some after their last.
+    std::mt19937 chance(4);
+    std::size_t unfinished = 0;
+    for (int round = 0; round < (sanitized ? 5 : 50); ++round) {
+        const std::string out = "killed" + std::to_string(round);
+        {
+            const Child child({"gallery", "--file", "gallery.toml", "-o", out}, {.folder = folder.path()});
+            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % 400));
+            child.send(SIGKILL);
+        }
+        if (std::filesystem::exists(folder / out)) {
+            const auto left = tree(folder / out);
+            unfinished += left.size() < whole.size() || left.at("gallery.jsonl") != whole.at("gallery.jsonl") ? 1 : 0;
+            for (const auto& [name, held] : left) {
+                if (whole.contains(name) && !name.ends_with(".jsonl")) {
+                    EXPECT_EQ(held, whole.at(name)) << "torn: " << name;
+                }
+            }
+        }
+        const Outcome outcome = small(out);
+        ASSERT_EQ(outcome.status, 0) << outcome.errors;
+        ASSERT_EQ(differences(whole, tree(folder / out)), "");
+        std::filesystem::remove_all(folder / out);
+    }
+    EXPECT_GT(unfinished, 0U);
+}
+
+TEST_F(GalleryTest, TornLinesCountForNothing) {
+    ASSERT_EQ(small("out").status, 0);
+    const auto whole = tree(folder / "out");
+    const std::string record = whole.at("gallery.jsonl");
+    std::ofstream(folder / "out/gallery.jsonl") << record.substr(0, record.size() / 2);
+    // Of files without a record only --force knows what to do.
+    const Outcome outcome = small("out", {"--keep-going"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "was not made by this gallery"));
+    EXPECT_EQ(small("out", {"--force"}).status, 0);
+    EXPECT_EQ(differences(whole, tree(folder / "out")), "");
+}
+
+TEST_F(GalleryTest, ShardsAreDisjointCompleteAndEqual) {
+    ASSERT_EQ(small("whole").status, 0);
+    const auto whole = tree(folder / "whole");
+    for (const int count : {1, 2, 3, 8}) {
+        std::multiset<std::string> listed;
+        const std::string out = "of" + std::to_string(count);
+        for (int index = count; index >= 1; --index) {
+            const std::string shard = std::to_string(index) + "/" + std::to_string(count);
+            std::istringstream list(small(out, {"--list", "--shard", shard}).output);
+            for (std::string line; std::getline(list, line);) listed.insert(line);
+            ASSERT_EQ(small(out, {"--shard", shard}).status, 0);
+        }
+        EXPECT_EQ(listed.size(), small_count);
+        EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()).size(), small_count);
+        const auto parts = tree(folder / out);
+        EXPECT_EQ(parts.size(), small_count + static_cast<std::size_t>(count));
+        for (const auto& [name, held] : parts) {
+            if (!name.ends_with(".jsonl")) {
+                EXPECT_EQ(held, whole.at(name)) << name;
+            }
+        }
+        // The whole has nothing left to do but to join the records.
+        EXPECT_TRUE(has(small(out).errors, "0 made, 27 there already"));
+        EXPECT_EQ(differences(whole, tree(folder / out)), "");
+    }
+}
+
+TEST_F(GalleryTest, ShardsOfBatchSystems) {
+    const auto listed = [&](std::vector<std::pair<std::string, std::string>> environment,
+                            std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"--file", "gallery.toml", "--list"});
+        return gallery(std::move(more), std::move(environment)).output;
+    };
+    const std::string second = listed({}, {"--shard", "2/3"});
+    EXPECT_EQ(listed({{"SLURM_ARRAY_TASK_ID", "8"},
+                      {"SLURM_ARRAY_TASK_MIN", "7"},
+                      {"SLURM_ARRAY_TASK_MAX", "9"},
+                      {"SLURM_ARRAY_TASK_COUNT", "3"}}),
+              second);
+    EXPECT_EQ(listed({{"OMPI_COMM_WORLD_RANK", "1"}, {"OMPI_COMM_WORLD_SIZE", "3"}}), second);
+    EXPECT_EQ(listed({{"JOB_COMPLETION_INDEX", "1"}, {"JOB_COMPLETIONS", "3"}}), second);
+    EXPECT_EQ(listed({{"JOB_COMPLETION_INDEX", "1"}}, {"--shard", "/3"}), second);
+    const Outcome lost = gallery({"hilbert", "--list"}, {{"JOB_COMPLETION_INDEX", "1"}});
+    EXPECT_EQ(lost.status, 2);
+    EXPECT_TRUE(has(lost.errors, "--shard /N"));
+}
+
+TEST_F(GalleryTest, WritesAScriptForSlurm) {
+    std::filesystem::create_directories(folder / "bin");
+    folder.write("bin/sbatch", "#!/bin/sh\necho \"$@\" >> '" + folder.file("called") + "'\necho '17;cluster'\n");
+    std::filesystem::permissions(folder / "bin/sbatch", std::filesystem::perms::all);
+    const Outcome outcome = gallery({"--file", "gallery.toml", "-o", "out", "--slurm", "4", "--memory", "1G"},
+                                    {{"PATH", folder.file("bin") + ":/usr/bin:/bin"}});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    const std::string called = contents(folder / "called");
+    EXPECT_TRUE(has(called, "--requeue --mem=1024M --array=0-3"));
+    EXPECT_TRUE(has(called, "--dependency=afterok:17 "));
+    const std::string script = contents(folder / "out.sbatch");
+    EXPECT_TRUE(has(script, "#SBATCH --requeue"));
+    EXPECT_EQ(script.find("--slurm"), std::string::npos);
+    // As Slurm would.
+    for (const char* task : {"0", "1", "2", "3"}) {
+        EXPECT_EQ(run({folder.file("out.sbatch")}, {.environment = {{"SLURM_ARRAY_TASK_ID", task},
+                                                                    {"SLURM_ARRAY_TASK_MIN", "0"},
+                                                                    {"SLURM_ARRAY_TASK_COUNT", "4"}},
+                                                    .program = "sh"})
+                      .status,
+                  0);
+    }
+    EXPECT_EQ(run({folder.file("out.sbatch")}, {.program = "sh"}).status, 0);
+    ASSERT_EQ(small("whole").status, 0);
+    EXPECT_EQ(differences(tree(folder / "whole"), tree(folder / "out")), "");
+}
+
+TEST_F(GalleryTest, OneFailsAmongGoodOnes) {
+    folder.write("bad.lsys", "axiom F\n");
+    const std::vector<std::string> asked = {"bad.lsys", "hilbert", "dragon", "koch-island", "-o", "out", "-j", "1"};
+    const Outcome stopped = gallery(asked);
+    EXPECT_EQ(stopped.status, 1);
+    EXPECT_TRUE(has(stopped.errors, "sikku: bad.svg failed: "));
+    std::vector<std::string> going = asked;
+    going.push_back("--keep-going");
+    const Outcome outcome = gallery(going);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "1 failed"));
+    EXPECT_TRUE(has(outcome.errors, "bad.lsys:1:"));
+    EXPECT_EQ(tree(folder / "out").size(), 4U);
+    folder.write("bad.lsys", "axiom: F\n");
+    EXPECT_EQ(gallery(asked).status, 0);
+    EXPECT_EQ(tree(folder / "out").size(), 5U);
+}
+
+TEST_F(GalleryTest, ForeignFilesStay) {
+    std::filesystem::create_directories(folder / "out");
+    folder.write("out/hilbert.svg", "mine");
+    folder.write("out/note.txt", "mine, too");
+    folder.write("out/.hilbert.svg.notes", "and this");
+    const Outcome outcome = gallery({"hilbert", "dragon", "-o", "out", "--keep-going"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "'out/hilbert.svg' is there already and was not made by this gallery"));
+    EXPECT_EQ(contents(folder / "out/hilbert.svg"), "mine");
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/dragon.svg"));
+    EXPECT_EQ(gallery({"hilbert", "dragon", "-o", "out", "--force"}).status, 0);
+    EXPECT_NE(contents(folder / "out/hilbert.svg"), "mine");
+    EXPECT_EQ(contents(folder / "out/note.txt"), "mine, too");
+    EXPECT_EQ(contents(folder / "out/.hilbert.svg.notes"), "and this");
+}
+
+TEST_F(GalleryTest, AFolderThatCannotBeWritten) {
+    folder.write("file", "");
+    const Outcome outcome = gallery({"hilbert", "-o", "file"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "cannot write 'file"));
+    if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+    std::filesystem::create_directories(folder / "closed");
+    std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_read);
+    EXPECT_EQ(gallery({"hilbert", "-o", "closed"}).status, 1);
+}
+
+TEST_F(GalleryTest, TwoRunsAtATimeDoNotMix) {
+    ASSERT_EQ(small("out").status, 0);
+    const int held = open(folder.file("out/gallery.jsonl").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    const Outcome outcome = small("out");
+    close(held);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "another run is at work"));
+}
+
+TEST_F(GalleryTest, AFullDisk) {
+    std::filesystem::create_directories(folder / "disk");
+    if (mount("none", folder.file("disk").c_str(), "tmpfs", 0, "size=48k") != 0) GTEST_SKIP() << "nothing to mount";
+    const Outcome full = small("disk");
+    const auto left = tree(folder / "disk");
+    const bool more = mount("none", folder.file("disk").c_str(), "tmpfs", MS_REMOUNT, "size=4m") == 0;
+    const Outcome again = small("disk");
+    const auto after = tree(folder / "disk");
+    umount(folder.file("disk").c_str());
+    EXPECT_EQ(full.status, 1);
+    EXPECT_TRUE(has(full.errors, "No space left on device"));
+    ASSERT_EQ(small("whole").status, 0);
+    const auto whole = tree(folder / "whole");
+    for (const auto& [name, held] : left) {
+        if (!name.ends_with(".jsonl")) {
+            EXPECT_EQ(held, whole.at(name)) << name;
+        }
+    }
+    if (!more) return;
+    EXPECT_EQ(again.status, 0) << again.errors;
+    EXPECT_EQ(differences(whole, after), "");
+}
+
+TEST_F(GalleryTest, StopsTidilyAndGoesOn) {
+    ASSERT_EQ(gallery({"hilbert", "-n", "3:8", "-f", "png", "--size", "150x150mm", "-o", "whole"}).status, 0);
+    {
+        Child child({"gallery", "hilbert", "-n", "3:8", "-f", "png", "--size", "150x150mm", "-o", "out"},
+                    {.folder = folder.path()});
+        child.await_handler(SIGTERM);
+        child.send(SIGTERM);
+        const Outcome outcome = child.wait();
+        if (outcome.status != 0) {
+            EXPECT_EQ(outcome.status, 130);
+            EXPECT_TRUE(has(outcome.errors, "the same command goes on"));
+        }
+    }
+    for (const auto& [name, held] : tree(folder / "out")) EXPECT_FALSE(name.ends_with(".tmp")) << name;
+    ASSERT_EQ(gallery({"hilbert", "-n", "3:8", "-f", "png", "--size", "150x150mm", "-o", "out"}).status, 0);
+    EXPECT_EQ(differences(tree(folder / "whole"), tree(folder / "out")), "");
+}
+
+TEST_F(GalleryTest, NothingDependsOnTheClockOrOnThreads) {
+    ASSERT_EQ(small("one", {"-j", "1"}).status, 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    ASSERT_EQ(small("two", {"-j", "5"}).status, 0);
+    EXPECT_EQ(differences(tree(folder / "one"), tree(folder / "two")), "");
+    // A clock that went back: what is there is from the future.
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "one")) {
+        std::filesystem::last_write_time(entry.path(),
+                                         std::filesystem::file_time_type::clock::now() + std::chrono::hours(1000));
+    }
+    EXPECT_TRUE(has(small("one").errors, "0 made"));
+}
+
+TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
+    const Outcome refused = gallery({"hilbert", "-f", "png", "--size", "A0", "--memory", "1M", "-o", "out"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(has(refused.errors, "more than --memory leaves"));
+    if (sanitized) return;
+    const Outcome outcome = gallery({"snake-kolam", "dragon", "hilbert", "gosper*", "-f", "png", "--size", "A1",
+                                     "--memory", "300M", "-o", "out"});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_LT(outcome.peak, 330 * 1024);
+}
+
+}  // namespace
+}  // namespace sikku
