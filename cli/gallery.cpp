@@ -5,6 +5,7 @@
 #include "cli/gallery_jobs.h"
 #include "cli/gallery_record.h"
 #include "cli/gallery_shards.h"
+#include "cli/gallery_summary.h"
 #include "engine/text.h"
 
 #include <fcntl.h>
@@ -49,6 +50,8 @@ struct Options {
     int threads = 0;
     std::string shard;
     std::size_t slurm = 0;
+    std::string poster;   ///< size of its sheet
+    std::string contact;  ///< likewise
 };
 
 double now() {
@@ -580,8 +583,17 @@ void run(Options& options, bool quiet) {
     if (!trouble.empty()) tell("sikku: {}\n", trouble);
     if (!batch.failures.empty() || !trouble.empty()) throw CLI::RuntimeError(1);
     if (shard.count > 1) return;
-    // ==== The sheet (poster, contact sheet) is made here from `jobs` and `finished`, whole galleries only. ====
-    // ==== The page (index.html) is made here from the same, after the sheet. ====
+    if (!options.only.empty()) return;
+    Telling telling;
+    telling.quiet = quiet;
+    telling.watch = [](std::uint64_t) {
+        if (interrupted()) throw Interrupted();
+    };
+    if (!options.poster.empty())
+        draw_gallery_sheet(jobs, folder, {"poster", options.poster, true, options.force}, telling);
+    if (!options.contact.empty())
+        draw_gallery_sheet(jobs, folder, {"contact", options.contact, false, options.force}, telling);
+    write_gallery_index(jobs, folder, options.force);
 }
 
 }  // namespace
@@ -594,6 +606,12 @@ void add_gallery(CLI::App& app, bool& quiet) {
     command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
     command->add_option("--file", options->request.gallery_file, "A gallery file, gallery.toml: what is to be made");
     command->add_option("--manifest", options->request.manifest, "A file of jobs, one a line of JSON");
+    command
+        ->add_option("--poster", options->poster,
+                     "All prints on one sheet of this size, with captions: poster.svg, poster.pdf, poster.png")
+        ->type_name("SIZE");
+    command->add_option("--contact", options->contact, "A contact sheet likewise, with names: contact.svg, …")
+        ->type_name("SIZE");
     command->add_flag("--list", options->list, "Show the jobs, make nothing");
     command->add_flag("--json", options->json, "With --list: as a manifest");
     command->add_flag("--dry-run", options->dry_run, "Forecast symbols, time, bytes and memory of each job");
@@ -629,6 +647,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         "alone. Files that others made are never touched.\n\n"
         "Examples:\n"
         "  sikku gallery -o kolams -f svg,png --size 130x130mm --dpi 100 kolams\n"
+        "  sikku gallery kolams koch-island -o wall --poster A1\n"
         "  sikku gallery koch-island --generations 0:4 --set 'angle increment=80:100:5'\n"
         "  sikku gallery --file gallery.toml --shard 3/8\n"
         "  seq 8 | parallel sikku gallery --file gallery.toml --shard {}/8");

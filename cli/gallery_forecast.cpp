@@ -1,5 +1,6 @@
 #include "cli/gallery_forecast.h"
 
+#include "art/draw_view.h"
 #include "art/raster.h"
 #include "engine/forecast.h"
 
@@ -54,7 +55,7 @@ void forecast_print(const GalleryJob& job, const LoadedPattern& loaded, double n
     result.bytes = 1000 + text + std::min(pixels * 3, pixels * 0.03 + drawn * 4);
     // Lines of the flattened drawing, a band at work, and what the library keeps of the file.
     result.band = size.width * rows * 12;
-    result.memory = 6e6 + pieces * 12 + 1.5 * result.band;
+    result.memory = 6e6 + std::min(pieces * 12, 64e6) + 1.5 * result.band;
 }
 
 void forecast_score(const GalleryJob& job, double nodes, double drawn, JobForecast& result) {
@@ -71,6 +72,14 @@ void forecast_score(const GalleryJob& job, double nodes, double drawn, JobForeca
         result.bytes += notes * 120;
         result.memory += notes * 300;
     }
+}
+
+/// See draw_view().
+bool has_view(const Grammar& grammar, const LoadedPattern& loaded, const GalleryJob& job) {
+    const PrintFormat format = plan_print(print_settings(job, job.file())).drawing.format;
+    if (format == PrintFormat::svg || format == PrintFormat::pdf) return false;
+    const Key* line = loaded.pattern.find("line");
+    return !(line && line->value.view() == "spline") && Parts<double>::make(grammar).has_value();
 }
 
 }  // namespace
@@ -97,7 +106,13 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
         double nodes = known ? known->nodes : std::min(unknown_symbols, budget);
         double drawn = known ? drawn_symbols(grammar, *known) : nodes / 2;
         const bool whole = !job.is_score() || !(job.keys.contains("bars") || job.keys.contains("seconds"));
-        if (nodes > budget && whole && !job.is_score()) {
+        // A picture of a large word may cost what is seen of it.
+        const bool is_seen = !job.is_score() && nodes > most_read_symbols && has_view(grammar, loaded, job);
+        if (is_seen) {
+            const PlannedPrint planned = plan_print(print_settings(job, job.file()));
+            const PixelSize size = pixel_size(planned.print.page, planned.print.dpi);
+            nodes = drawn = std::min(nodes, 8.0 * size.width * size.height);
+        } else if (nodes > budget && whole && !job.is_score()) {
             require_affordable(shorten(grammar), true, budget);
         }
         nodes = std::min(nodes, budget);

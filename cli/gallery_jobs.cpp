@@ -1,5 +1,7 @@
 #include "cli/gallery_jobs.h"
 
+#include "cli/gallery_summary.h"
+
 #include "art/style.h"
 #include "engine/text.h"
 
@@ -720,7 +722,7 @@ private:
             }
         }
         const std::string file = name + "." + job.format;
-        if (name.empty() || file == "index.html" || file.find('\0') != std::string::npos || file.size() > 1000) {
+        if (name.empty() || is_summary(file) || file.find('\0') != std::string::npos || file.size() > 1000) {
             fail(item.name_place.empty() ? item.place : item.name_place,
                  fmt::format("name: '{}' cannot be the name of an output", printable(file, 80)));
         }

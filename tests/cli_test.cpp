@@ -742,5 +742,35 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));
 }
 
+TEST(Draw, PicturesAndWindowsOfAnyOrder) {
+    const ScratchFolder folder;
+    const auto drawn = [&](std::vector<std::string> arguments, const std::string& name) {
+        arguments.insert(arguments.begin(), {"draw", "hilbert"});
+        arguments.insert(arguments.end(), {"-o", folder.file(name)});
+        return run(arguments);
+    };
+    const std::vector<std::string> large = {"-n", "60", "--size", "40x40mm", "--dpi", "150"};
+    for (const char* threads : {"1", "2"}) {
+        std::vector<std::string> arguments = large;
+        arguments.insert(arguments.end(), {"-j", threads});
+        const Outcome outcome = drawn(arguments, std::string(threads) + ".png");
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    }
+    EXPECT_EQ(contents(folder.file("1.png")), contents(folder.file("2.png")));
+    const std::string far = "-1152921504606846000,384307168202282325,-1152921504606845990,384307168202282335";
+    for (const char* name : {"w.svg", "w.pdf", "w.png"}) {
+        const Outcome outcome = drawn({"-n", "60", "--size", "40x40mm", "--window", far}, name);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    }
+    EXPECT_LT(contents(folder.file("w.svg")).size(), 30'000u);
+    const Outcome bad = drawn({"--window", "1,2,3"}, "bad.svg");
+    EXPECT_EQ(bad.status, 2);
+    EXPECT_NE(bad.errors.find("X0,Y0,X1,Y1"), std::string::npos) << bad.errors;
+    const Outcome spline = run({"draw", "snake-kolam", "--window", "0,0,9,9", "-o", folder.file("no.svg")});
+    EXPECT_EQ(spline.status, 1);
+    EXPECT_NE(spline.errors.find("straight lines"), std::string::npos) << spline.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("no.svg")));
+}
+
 }  // namespace
 }  // namespace sikku

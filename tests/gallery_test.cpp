@@ -375,6 +375,43 @@ TEST_F(GalleryTest, ForeignFilesStay) {
     EXPECT_EQ(contents(folder / "out/.hilbert.svg.notes"), "and this");
 }
 
+TEST_F(GalleryTest, MakesAPageAndSheets) {
+    const std::vector<std::string> command = {"-q", "gallery",  "kolams", "-o",        folder.file("wall"),
+                                              "-f", "svg,png",  "--size", "40x40mm",   "--dpi",
+                                              "50", "--poster", "A5",     "--contact", "A6"};
+    ASSERT_EQ(run(command).status, 0);
+    const auto first = tree(folder.file("wall"));
+    for (const char* name : {"index.html", "poster.svg", "poster.pdf", "poster.png", "contact.svg", "contact.pdf",
+                             "contact.png", "snake-kolam.svg", "snake-kolam.png"}) {
+        EXPECT_TRUE(first.contains(name)) << name;
+    }
+    const std::string& page = first.at("index.html");
+    for (const char* name : {"snake-kolam", "anklets-of-krishna", "bag-of-candies", "mango-leaves"}) {
+        EXPECT_NE(page.find(name), std::string::npos) << name;
+    }
+    // Again: nothing is made anew, and all is the same.
+    ASSERT_EQ(run(command).status, 0);
+    EXPECT_EQ(differences(first, tree(folder.file("wall"))), "");
+    // A page of others is not ours to replace.
+    folder.write("wall/index.html", "<p>mine</p>");
+    const Outcome refused = run(command);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.errors.find("made by others"), std::string::npos) << refused.errors;
+    EXPECT_EQ(contents(folder.file("wall/index.html")), "<p>mine</p>");
+}
+
+TEST_F(GalleryTest, GenerationsStandInRows) {
+    ASSERT_EQ(run({"-q", "gallery", "koch-island", "koch-curve", "-o", folder.file("rows"), "--generations", "0:3",
+                   "-f", "svg", "--size", "40x40mm", "--poster", "A5"})
+                  .status,
+              0);
+    const auto files = tree(folder.file("rows"));
+    std::size_t prints = 0;
+    for (const auto& [name, held] : files) prints += name.starts_with("koch-") ? 1 : 0;
+    EXPECT_EQ(prints, 8u);
+    EXPECT_TRUE(files.contains("poster.svg"));
+}
+
 TEST_F(GalleryTest, AFolderThatCannotBeWritten) {
     folder.write("file", "");
     const Outcome outcome = gallery({"hilbert", "-o", "file"});

@@ -43,6 +43,6 @@ else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
 
-for music in scores sound page; do
-    tests/full/"$music".sh "$program"
+for part in scores sound page gallery; do
+    tests/full/"$part".sh "$program"
 done

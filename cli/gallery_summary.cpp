@@ -1,0 +1,241 @@
+#include "cli/gallery_summary.h"
+
+#include "art/output_file.h"
+#include "art/sheet.h"
+#include "cli/gallery_page.h"
+#include "engine/forecast.h"
+#include "engine/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+constexpr std::array<std::string_view, 2> sheet_names = {"poster", "contact"};
+constexpr std::array<std::string_view, 3> sheet_formats = {"svg", "pdf", "png"};
+
+/// Jobs of one name, in the order of their first.
+struct Item {
+    std::vector<const GalleryJob*> jobs;
+    const GalleryJob* find(std::string_view format) const {
+        for (const GalleryJob* job : jobs) {
+            if (job->format == format) return job;
+        }
+        return nullptr;
+    }
+};
+
+std::vector<Item> items_of(const std::vector<GalleryJob>& jobs) {
+    std::vector<Item> items;
+    std::map<std::string_view, std::size_t> places;
+    for (const GalleryJob& job : jobs) {
+        const auto [place, is_new] = places.emplace(job.name, items.size());
+        if (is_new) items.emplace_back();
+        items[place->second].jobs.push_back(&job);
+    }
+    return items;
+}
+
+LoadedPattern load_quietly(const GalleryJob& job) {
+    return load(job.is_score() ? score_settings(job, job.file()).pattern : print_settings(job, job.file()).pattern,
+                true);
+}
+
+/// How the word grows: with the step's number in the exponent, with a power of it, or not at all; empty where the
+/// grammar does not tell.
+std::string growth_of(const Grammar& grammar) {
+    std::array<double, 3> lengths{};
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        const auto longer = grammar.with_steps(std::int64_t{40} << i);
+        const auto known = longer ? estimate(*longer, false) : std::nullopt;
+        if (!known || !std::isfinite(known->log10_length)) return {};
+        lengths[i] = known->log10_length;
+    }
+    const double first = lengths[1] - lengths[0];
+    const double second = lengths[2] - lengths[1];
+    if (second < 1e-9) return "bounded";
+    // Twice the steps add as much again to a power, and twice as much to an exponent.
+    return second > 1.5 * first ? "exponential" : "polynomial";
+}
+
+std::string angle_of(const Pattern& pattern) {
+    const std::string increment = pattern.text("angle increment");
+    if (!increment.empty()) return increment;
+    const std::string factor = pattern.text("angle factor");
+    int parts = 0;
+    const auto [end, error] = std::from_chars(factor.data(), factor.data() + factor.size(), parts);
+    if (error != std::errc() || end != factor.data() + factor.size() || parts <= 0) return {};
+    return fmt::format("{:.6g}", 360.0 / parts);
+}
+
+class FileBytes : public ByteSink {
+public:
+    explicit FileBytes(OutputFile& file) : file_(file) {}
+    void write(std::string_view bytes) override { file_.write(bytes); }
+    void overwrite(std::uint64_t position, std::string_view bytes) override { file_.overwrite(position, bytes); }
+
+private:
+    OutputFile& file_;
+};
+
+GalleryEntry entry_of(const Item& item) {
+    const GalleryJob& first = *item.jobs.front();
+    const LoadedPattern loaded = load_quietly(first);
+    GalleryEntry entry;
+    entry.name = first.name;
+    entry.title = loaded.pattern.text("title");
+    if (entry.title.empty()) entry.title = first.pattern->name;
+    entry.source = loaded.pattern.text("source");
+    entry.description = loaded.pattern.text("description");
+    entry.kind = first.pattern->kind;
+    entry.n = std::to_string(loaded.grammar.steps());
+    entry.angle = angle_of(loaded.pattern);
+    entry.growth = growth_of(loaded.grammar);
+    for (const auto& [key, value] : first.overrides) {
+        entry.settings += fmt::format("{}{} = {}", entry.settings.empty() ? "" : ", ", key, value);
+    }
+    entry.pattern = first.pattern->text ? first.pattern->text->text : std::string();
+    // What a browser shows comes first; a picture is the quickest thumbnail.
+    const GalleryJob* shown = nullptr;
+    for (const std::string_view format : {"svg", "png", "jpg", "notes.svg", "pdf", "tif", "exr"}) {
+        if (!shown) shown = item.find(format);
+    }
+    if (!shown) shown = &first;
+    entry.print = shown->file();
+    for (const std::string_view format : {"png", "jpg", "svg", "notes.svg"}) {
+        const GalleryJob* small = item.find(format);
+        if (small && entry.thumbnail.empty()) entry.thumbnail = small->file();
+    }
+    if (!shown->is_score()) {
+        const Page page = plan_print(print_settings(*shown, shown->file())).print.page;
+        entry.width = static_cast<int>(std::lround(page.width));
+        entry.height = static_cast<int>(std::lround(page.height));
+    }
+    static const std::map<std::string_view, std::string_view> labels = {
+        {"mid", "MIDI"},  {"midi", "MIDI"},  {"musicxml", "MusicXML"}, {"xml", "MusicXML"},        {"ly", "LilyPond"},
+        {"wav", "sound"}, {"flac", "sound"}, {"html", "play"},         {"notes.svg", "the notes"}, {"svg", "SVG"},
+        {"pdf", "PDF"},   {"png", "PNG"},    {"tif", "TIFF"},          {"tiff", "TIFF"},           {"jpg", "JPEG"},
+        {"jpeg", "JPEG"}, {"exr", "EXR"}};
+    for (const GalleryJob* job : item.jobs) {
+        if (job == shown) continue;
+        const auto label = labels.find(job->format);
+        entry.extras.emplace_back(label == labels.end() ? job->format : std::string(label->second), job->file());
+    }
+    return entry;
+}
+
+/// What sikku writes says so near its beginning or its end.
+void require_ours(const std::filesystem::path& file) {
+    constexpr std::streamoff reach = 8192;
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    if (!stream) return;
+    const std::streamoff size = stream.tellg();
+    std::string text(static_cast<std::size_t>(2 * reach), '\0');
+    stream.seekg(0);
+    stream.read(text.data(), reach);
+    stream.clear();
+    stream.seekg(std::max<std::streamoff>(0, size - reach));
+    stream.read(text.data() + reach, reach);
+    if (lower_case(text).find("sikku") == std::string::npos) {
+        throw std::runtime_error(
+            fmt::format("{} was made by others, and is left as it is: another folder, or --force, which replaces it",
+                        file.string()));
+    }
+}
+
+}  // namespace
+
+bool is_summary(std::string_view file) {
+    if (file == "index.html") return true;
+    for (const std::string_view name : sheet_names) {
+        for (const std::string_view format : sheet_formats) {
+            if (file == fmt::format("{}.{}", name, format)) return true;
+        }
+    }
+    return false;
+}
+
+void write_gallery_index(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder, bool replaces) {
+    if (!replaces) require_ours(folder / "index.html");
+    std::vector<GalleryEntry> entries;
+    for (const Item& item : items_of(jobs)) entries.push_back(entry_of(item));
+    OutputFile file(folder / "index.html");
+    FileBytes bytes(file);
+    write_gallery_page("Sikku", entries, bytes);
+    file.commit();
+}
+
+void draw_gallery_sheet(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder,
+                        const SheetRequest& request, const Telling& telling) {
+    std::vector<SheetCell> cells;
+    std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
+    std::vector<std::pair<const GalleryJob*, LoadedPattern>> prints;
+    for (const Item& item : items_of(jobs)) {
+        const auto print =
+            std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return !job->is_score(); });
+        if (print == item.jobs.end()) continue;
+        prints.emplace_back(*print, load_quietly(**print));
+        lengths[(*print)->pattern.get()].insert(prints.back().second.grammar.steps());
+    }
+    if (prints.empty()) return;
+    const bool has_rows =
+        std::all_of(lengths.begin(), lengths.end(), [](const auto& one) { return one.second.size() > 1; });
+    const GalleryPattern* row = nullptr;
+    for (auto& [job, loaded] : prints) {
+        const PlannedPrint planned = plan_print(print_settings(*job, job->file()));
+        SheetCell cell;
+        Diagnostics diagnostics;
+        cell.style = read_style(loaded.pattern, planned.print.dpi, diagnostics);
+        diagnostics.throw_if_errors();
+        cell.placement = planned.drawing.placement;
+        cell.title = loaded.pattern.text("title");
+        if (cell.title.empty()) cell.title = job->pattern->name;
+        cell.grammar = std::make_shared<const Grammar>(std::move(loaded.grammar));
+        if (has_rows) {
+            cell.caption = {fmt::format("n = {}", cell.grammar->steps())};
+            if (job->pattern.get() != row) cell.heading = cell.title;
+            row = job->pattern.get();
+        } else if (request.is_poster) {
+            cell.caption = caption_of(*cell.grammar, cell.title);
+        } else {
+            cell.caption = {job->name};
+        }
+        if (!job->overrides.empty() && request.is_poster) {
+            std::string settings;
+            for (const auto& [key, value] : job->overrides) {
+                settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ", key, value);
+            }
+            cell.caption.push_back(settings);
+        }
+        cells.push_back(std::move(cell));
+    }
+    DrawSettings settings;
+    settings.size = request.size;
+    for (const std::string_view format : sheet_formats) {
+        settings.output = (folder / fmt::format("{}.{}", request.name, format)).string();
+        if (!request.replaces) require_ours(settings.output);
+        const PlannedPrint planned = plan_print(settings);
+        SheetOptions options;
+        options.format = planned.drawing.format;
+        options.page = planned.print.page;
+        options.page.margin = std::min(options.page.width, options.page.height) / 25;
+        // Large sheets are looked at from further away, and memory has an end.
+        options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
+        options.caption_lines = request.is_poster ? 5 : 1;
+        options.made = fmt::format("sikku {}", SIKKU_VERSION);
+        options.watch = telling.watch;
+        draw_sheet(cells, options, settings.output);
+    }
+}
+
+}  // namespace sikku
