@@ -83,6 +83,13 @@ void add_budget_option(CLI::App& command, double& budget) {
         ->capture_default_str();
 }
 
+std::string known_gallery(const std::string& name) {
+    std::error_code error;
+    if (name.empty() || std::filesystem::exists(name, error)) return name;
+    const auto known = patterns_folder() / "posters" / (name + ".toml");
+    return std::filesystem::exists(known, error) ? known.string() : name;
+}
+
 std::vector<KnownPattern> known_patterns() {
     std::vector<KnownPattern> found;
     std::error_code error;

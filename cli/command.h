@@ -104,6 +104,9 @@ struct KnownPattern {
     std::string kind;  ///< the folder: kolams, tilings, …
     std::filesystem::path file;
 };
+/// The gallery file of that name among those that come along, patterns/posters/NAME.toml, if no file has it.
+std::string known_gallery(const std::string& name);
+
 /// Sorted by kind and name.
 std::vector<KnownPattern> known_patterns();
 

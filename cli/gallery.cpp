@@ -50,8 +50,6 @@ struct Options {
     int threads = 0;
     std::string shard;
     std::size_t slurm = 0;
-    std::string poster;   ///< size of its sheet
-    std::string contact;  ///< likewise
 };
 
 double now() {
@@ -497,6 +495,7 @@ void run(Options& options, bool quiet) {
         if (is_set) options.request.keys[key] = "true";
     }
     const double memory = read_memory(options.memory);
+    options.request.gallery_file = known_gallery(options.request.gallery_file);
     const std::vector<GalleryJob> jobs = gallery_jobs(options.request);
     if (options.slurm > 0) return submit(options, jobs.size());
     const Shard shard = read_shard(options.shard, [](const char* name) { return std::getenv(name); });
@@ -589,10 +588,10 @@ void run(Options& options, bool quiet) {
     telling.watch = [](std::uint64_t) {
         if (interrupted()) throw Interrupted();
     };
-    if (!options.poster.empty())
-        draw_gallery_sheet(jobs, folder, {"poster", options.poster, true, options.force}, telling);
-    if (!options.contact.empty())
-        draw_gallery_sheet(jobs, folder, {"contact", options.contact, false, options.force}, telling);
+    if (!options.request.poster.empty())
+        draw_gallery_sheet(jobs, folder, {"poster", options.request.poster, true, options.force}, telling);
+    if (!options.request.contact.empty())
+        draw_gallery_sheet(jobs, folder, {"contact", options.request.contact, false, options.force}, telling);
     write_gallery_index(jobs, folder, options.force);
 }
 
@@ -604,13 +603,15 @@ void add_gallery(CLI::App& app, bool& quiet) {
     command->add_option("PATTERNS", options->request.patterns,
                         "Names, globs, folders or files; without any, all patterns that come along and draw");
     command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
-    command->add_option("--file", options->request.gallery_file, "A gallery file, gallery.toml: what is to be made");
+    command->add_option(
+        "--file", options->request.gallery_file,
+        "A gallery file, gallery.toml: what is to be made; or the name of one that comes along, such as figure-2.5");
     command->add_option("--manifest", options->request.manifest, "A file of jobs, one a line of JSON");
     command
-        ->add_option("--poster", options->poster,
+        ->add_option("--poster", options->request.poster,
                      "All prints on one sheet of this size, with captions: poster.svg, poster.pdf, poster.png")
         ->type_name("SIZE");
-    command->add_option("--contact", options->contact, "A contact sheet likewise, with names: contact.svg, …")
+    command->add_option("--contact", options->request.contact, "A contact sheet likewise, with names: contact.svg, …")
         ->type_name("SIZE");
     command->add_flag("--list", options->list, "Show the jobs, make nothing");
     command->add_flag("--json", options->json, "With --list: as a manifest");

@@ -365,7 +365,8 @@ void read_key(const std::string& written, const Raw& raw, Item& item) {
     } else if (const KeyFacts* facts = find_key(key)) {
         item.take(axis_of(key, raw, facts->kind, false));
     } else {
-        std::vector<std::string_view> known = {"pattern", "format", "name", "set", "generations", "item"};
+        std::vector<std::string_view> known = {"pattern",     "format", "name",   "set",
+                                               "generations", "item",   "poster", "contact"};
         for (const KeyFacts& each : all_keys()) known.push_back(each.shown.name);
         const std::string_view near = nearest(key, known);
         fail(raw.place, fmt::format("nobody knows the key '{}'{}", printable(written, 80),
@@ -378,15 +379,20 @@ std::string read_text_file(const std::string& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw UsageError(fmt::format("{} is a folder", file));
     std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream.is_open() || stream.bad()) {
-        throw UsageError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
+    if (!stream.is_open()) throw UsageError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
+    constexpr std::size_t most_bytes = std::size_t{1} << 28;
+    std::string text;
+    for (std::array<char, 65536> block{}; stream && text.size() <= most_bytes;) {
+        stream.read(block.data(), block.size());
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     }
+    if (stream.bad()) throw UsageError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
+    if (text.size() > most_bytes) throw UsageError(fmt::format("{}: over 256 MB", file));
     return text;
 }
 
-/// The defaults go into `defaults`.
-std::vector<Item> read_gallery_file(const std::string& file, Item& defaults) {
+/// The defaults go into `defaults`; sizes of sheets into `request`, unless it has them already.
+std::vector<Item> read_gallery_file(const std::string& file, Item& defaults, GalleryRequest& request) {
     Raw root;
     try {
         root = raw_of(toml::parse(read_text_file(file), file), file);
@@ -399,6 +405,11 @@ std::vector<Item> read_gallery_file(const std::string& file, Item& defaults) {
     for (const auto& [key, value] : root.table) {
         if (key == "item") {
             items = &value;
+        } else if (key == "poster" || key == "contact") {
+            if (value.type != Raw::Type::text)
+                fail(value.place, key + ": expected the size of the sheet, such as \"A1\"");
+            std::string& size = key == "poster" ? request.poster : request.contact;
+            if (size.empty()) size = value.text;
         } else {
             read_key(key, value, defaults);
         }
@@ -933,10 +944,10 @@ PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& 
     return settings;
 }
 
-std::vector<GalleryJob> gallery_jobs(const GalleryRequest& request) {
+std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     Item defaults;
     std::vector<Item> items;
-    if (!request.gallery_file.empty()) items = read_gallery_file(request.gallery_file, defaults);
+    if (!request.gallery_file.empty()) items = read_gallery_file(request.gallery_file, defaults, request);
     if (!request.manifest.empty()) {
         std::vector<Item> more = read_manifest(request.manifest, defaults);
         items.insert(items.end(), more.begin(), more.end());

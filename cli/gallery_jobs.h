@@ -70,11 +70,12 @@ struct GalleryRequest {
     std::string manifest;
     std::map<std::string, std::string> keys;  ///< these go before what the files say
     std::vector<std::string> overrides;       ///< KEY=VALUE
+    std::string poster, contact;              ///< sizes of sheets; where empty, the gallery file's are filled in
 };
 
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
 /// @throws UsageError with file, line and column for every mistake that can be seen before a pattern is compiled
-std::vector<GalleryJob> gallery_jobs(const GalleryRequest& request);
+std::vector<GalleryJob> gallery_jobs(GalleryRequest& request);
 
 /// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.
 class TextHash {

@@ -93,7 +93,7 @@ TEST_F(GalleryTest, MakesWhatTheFileSays) {
     const Outcome outcome = small("out");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     const auto files = tree(folder / "out");
-    EXPECT_EQ(files.size(), small_count + 1);
+    EXPECT_EQ(files.size(), small_count + 2);
     for (const char* name : {"square-n0.svg", "square-n3.png", "hilbert-n2-angle80.svg", "dragon-n5-angle90.png",
                              "hilbert-in-c-seed2.mid", "gallery.jsonl"}) {
         EXPECT_TRUE(files.contains(name)) << name;
@@ -282,7 +282,8 @@ TEST_F(GalleryTest, ShardsAreDisjointCompleteAndEqual) {
         EXPECT_EQ(listed.size(), small_count);
         EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()).size(), small_count);
         const auto parts = tree(folder / out);
-        EXPECT_EQ(parts.size(), small_count + static_cast<std::size_t>(count));
+        // The whole has a page, too.
+        EXPECT_EQ(parts.size(), small_count + static_cast<std::size_t>(count) + (count == 1 ? 1 : 0));
         for (const auto& [name, held] : parts) {
             if (!name.ends_with(".jsonl")) {
                 EXPECT_EQ(held, whole.at(name)) << name;
@@ -356,7 +357,7 @@ TEST_F(GalleryTest, OneFailsAmongGoodOnes) {
     EXPECT_EQ(tree(folder / "out").size(), 4U);
     folder.write("bad.lsys", "axiom: F\n");
     EXPECT_EQ(gallery(asked).status, 0);
-    EXPECT_EQ(tree(folder / "out").size(), 5U);
+    EXPECT_EQ(tree(folder / "out").size(), 6U) << "with a page, now that all is there";
 }
 
 TEST_F(GalleryTest, ForeignFilesStay) {
@@ -398,6 +399,17 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
     EXPECT_EQ(refused.status, 1);
     EXPECT_NE(refused.errors.find("made by others"), std::string::npos) << refused.errors;
     EXPECT_EQ(contents(folder.file("wall/index.html")), "<p>mine</p>");
+}
+
+TEST_F(GalleryTest, PostersThatComeAlong) {
+    for (const char* name : {"figure-2.2", "figure-2.5"}) {
+        const Outcome outcome = gallery({"--file", name, "-o", name});
+        ASSERT_EQ(outcome.status, 0) << outcome.errors;
+        EXPECT_TRUE(tree(folder.file(name)).contains("poster.pdf"));
+    }
+    folder.write("sheet.toml", "poster = 3\n");
+    const Outcome bad = gallery({"--file", "sheet.toml", "-o", "x"});
+    EXPECT_EQ(bad.status, 2);
 }
 
 TEST_F(GalleryTest, GenerationsStandInRows) {

@@ -6,7 +6,8 @@ build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev
 test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     midicsv python3-mido)
 # For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.
-full_packages=(clang libclang-rt-14-dev inkscape lilypond musescore3 fluidsynth timgm6mb-soundfont flac chromium)
+full_packages=(clang libclang-rt-14-dev inkscape lilypond musescore3 fluidsynth timgm6mb-soundfont flac chromium
+    slurm-wlm munge)
 command -v npm > /dev/null || full_packages+=(npm)
 
 # Those of its arguments that are not installed, a line each.

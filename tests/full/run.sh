@@ -43,6 +43,6 @@ else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
 
-for part in scores sound page gallery; do
+for part in scores sound page gallery slurm; do
     tests/full/"$part".sh "$program"
 done
