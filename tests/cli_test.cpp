@@ -742,7 +742,7 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));
 }
 
-TEST(Draw, PicturesAndWindowsOfAnyOrder) {
+TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     const ScratchFolder folder;
     const auto drawn = [&](std::vector<std::string> arguments, const std::string& name) {
         arguments.insert(arguments.begin(), {"draw", "hilbert"});
