@@ -242,7 +242,9 @@ public:
                0;
     }
     static std::int64_t ticks(std::int64_t steps, std::int64_t unit) {
-        return steps > latest / unit ? latest : steps * unit;
+        std::int64_t product = 0;
+        // A division to see whether it fits would take longer than all else that a note takes.
+        return __builtin_mul_overflow(steps, unit, &product) || product > latest ? latest : product;
     }
     static std::int64_t length(const Step& step) { return std::abs(step.x) + std::abs(step.y); }
     static std::int64_t degree(std::int64_t twice) { return twice >= 0 ? (twice + 1) / 2 : -((-twice) / 2); }
