@@ -70,6 +70,13 @@ struct PatternText {
 };
 PatternText read_pattern_text(const std::string& pattern);
 
+/// `1 note`, `2 notes`.
+template <typename Number>
+std::string counted(const Number& count, std::string_view what) {
+    const std::string digits = fmt::format("{}", count);
+    return fmt::format("{} {}{}", digits, what, digits == "1" ? "" : "s");
+}
+
 /// Options of every command that takes a pattern.
 struct PatternOptions {
     std::string pattern;

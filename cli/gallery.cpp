@@ -71,10 +71,6 @@ std::string bytes_text(double bytes) {
     return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// `1G`, `512M`, `2GiB`: bytes. Half of what the machine has to give, if nothing is said.
 double read_memory(const std::string& text) {
     if (text.empty()) return static_cast<double>(memory_budget()) * 32;

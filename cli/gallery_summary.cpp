@@ -2,6 +2,7 @@
 
 #include "art/output_file.h"
 #include "art/sheet.h"
+#include "cli/file_bytes.h"
 #include "cli/gallery_page.h"
 #include "engine/forecast.h"
 #include "engine/text.h"
@@ -77,16 +78,6 @@ std::string angle_of(const Pattern& pattern) {
     if (error != std::errc() || end != factor.data() + factor.size() || parts <= 0) return {};
     return fmt::format("{:.6g}", 360.0 / parts);
 }
-
-class FileBytes : public ByteSink {
-public:
-    explicit FileBytes(OutputFile& file) : file_(file) {}
-    void write(std::string_view bytes) override { file_.write(bytes); }
-    void overwrite(std::uint64_t position, std::string_view bytes) override { file_.overwrite(position, bytes); }
-
-private:
-    OutputFile& file_;
-};
 
 GalleryEntry entry_of(const Item& item) {
     const GalleryJob& first = *item.jobs.front();
@@ -172,6 +163,7 @@ void write_gallery_index(const std::vector<GalleryJob>& jobs, const std::filesys
     OutputFile file(folder / "index.html");
     FileBytes bytes(file);
     write_gallery_page("Sikku", entries, bytes);
+    bytes.finish();
     file.commit();
 }
 

@@ -2,6 +2,7 @@
 #include "cli/play.h"
 
 #include "art/output_file.h"
+#include "cli/file_bytes.h"
 #include "cli/music_page.h"
 #include "engine/text.h"
 #include "music/audio.h"
@@ -119,32 +120,6 @@ class Nobody : public NoteSink {
 public:
     void notes(std::span<const Note>) override {}
     void finish(std::int64_t) override {}
-};
-
-class FileBytes : public ByteSink {
-public:
-    explicit FileBytes(OutputFile& file) : file_(file) {}
-    void write(std::string_view bytes) override {
-        if (file_.can_insert()) {
-            file_.write(bytes);
-        } else {
-            waiting_ += bytes;  // a pipe cannot go back
-        }
-    }
-    void overwrite(std::uint64_t position, std::string_view bytes) override {
-        if (file_.can_insert()) {
-            file_.overwrite(position, bytes);
-        } else {
-            waiting_.replace(position, bytes.size(), bytes);
-        }
-    }
-    void finish() {
-        if (!waiting_.empty()) file_.write(waiting_);
-    }
-
-private:
-    OutputFile& file_;
-    std::string waiting_;
 };
 
 /// @param first, then  folders where it is looked for
@@ -298,10 +273,6 @@ std::string time_text(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-std::string counted(const Integer& count, std::string_view what) {
-    return fmt::format("{} {}{}", count.str(), what, count == 1 ? "" : "s");
-}
-
 Integer bars_of(const Integer& ticks, const Meter& meter) {
     return (ticks + meter.bar() - 1) / meter.bar();
 }
@@ -337,7 +308,7 @@ void describe(const std::vector<Player>& players, const PlayOptions& piece, bool
         fmt::print("scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
                    bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::print("range     {}\n", range_of(*played, melody));
-        if (known) fmt::print("height    {}\n", counted(known->height, "degree"));
+        if (known) fmt::print("height    {}\n", counted(known->height.str(), "degree"));
     }
 }
 
@@ -382,8 +353,9 @@ PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playi
 void tell_of(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report,
              const Telling& telling) {
     const Melody& first = players.front().melody;
-    telling.say("{}, {}, {}, {}\n", counted(report.notes, "note"), counted(bars_of(report.end, first.meter), "bar"),
-                time_of(report.end, first.tempo), range_of(report, first));
+    telling.say("{}, {}, {}, {}\n", counted(report.notes, "note"),
+                counted(bars_of(report.end, first.meter).str(), "bar"), time_of(report.end, first.tempo),
+                range_of(report, first));
     if (report.moved > 0) {
         const auto spelling = spell(first.scale, first.tonic_spelling);
         telling.say("sikku: warning: {} beyond {} to {} and {}{}\n",
