@@ -125,13 +125,11 @@ void draw_pixels(const Drawing& drawing, const Print& print, const DrawOptions& 
     picture.close();
 }
 
-Grammar made_ready(const Grammar& given, const DrawOptions& options) {
+Grammar resolved(const Grammar& given, const DrawOptions& options) {
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    Grammar grammar = resolve_contexts(shorten(given), whole_words);
-    require_affordable(grammar, true, options.budget);
-    return grammar;
+    return resolve_contexts(shorten(given), whole_words);
 }
 
 }  // namespace
@@ -150,7 +148,8 @@ std::string image_format(PrintFormat format) {
 }
 
 Drawing::Drawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
-    : grammar_(made_ready(grammar, options)), style_(style), options_(options), spline_(style.line == Line::spline) {
+    : grammar_(resolved(grammar, options)), style_(style), options_(options), spline_(style.line == Line::spline) {
+    require_affordable(grammar_, true, options.budget);
     const std::vector<char> reached = grammar_.reachable();
     for (std::size_t i = 0; i < reached.size(); ++i) {
         if (!reached[i]) continue;
@@ -211,14 +210,12 @@ const DrawnExtent& Drawing::extent() {
     return extent_.emplace(extent.box, extent.widest);
 }
 
-DrawReport Drawing::place(Print& print) {
-    const DrawnExtent& seen = extent();
+DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
+                       const PlacementOptions& placement) {
     double ink_steps = 0;
     double ink_millimetres = 0;
-    (style_.stroke.in_steps ? ink_steps : ink_millimetres) = seen.widest / 2;
-    PlacementOptions placement = options_.placement;
-    placement.scale = scale();
-    print.placement = sikku::place(seen.box, print.page, placement, ink_steps, ink_millimetres);
+    (stroke.in_steps ? ink_steps : ink_millimetres) = seen.widest / 2;
+    print.placement = place(seen.box, print.page, placement, ink_steps, ink_millimetres);
     const double step = print.placement.step;
     DrawReport report;
     report.step = step;
@@ -226,6 +223,12 @@ DrawReport Drawing::place(Print& print) {
     report.overflows = report.size.x > print.page.width - 2 * print.page.margin + 1e-6 ||
                        report.size.y > print.page.height - 2 * print.page.margin + 1e-6;
     return report;
+}
+
+DrawReport Drawing::place(Print& print) {
+    PlacementOptions placement = options_.placement;
+    placement.scale = scale();
+    return place_print(print, extent(), style_.stroke, placement);
 }
 
 void Drawing::read(PathSink& sink) const {
@@ -262,7 +265,9 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file) {
+DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, const std::filesystem::path& file) {
+    // Once for both roads.
+    const Grammar grammar = resolved(given, options);
     if (auto report = draw_view(grammar, print, options, file)) return *report;
     Drawing drawing(grammar, print.style, options);
     OutputFile output(file);

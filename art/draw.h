@@ -53,6 +53,11 @@ struct DrawnExtent {
     double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
 };
 
+/// Works out the placement of `print` on its page, with the pen around what is seen; `stroke` tells its measure.
+/// @throws std::runtime_error if the margins leave no room
+DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
+                       const PlacementOptions& placement);
+
 /// A drawing that is placed and then read, any number of times, always into the same strokes: what draw() does
 /// before there is a file.
 class Drawing {

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <vector>
@@ -73,8 +74,8 @@ public:
 
     DrawReport place() {
         const glm::dmat3x2 turned = orientation(options_.placement);
-        Box box;
-        const auto add = [&](glm::dvec2 corner) { box.add(turned * glm::dvec3(corner, 1.0)); };
+        DrawnExtent seen;
+        const auto add = [&](glm::dvec2 corner) { seen.box.add(turned * glm::dvec3(corner, 1.0)); };
         if (options_.window) {
             const auto width = static_cast<double>(options_.window->x1 - options_.window->x0);
             const auto height = static_cast<double>(options_.window->y1 - options_.window->y0);
@@ -87,17 +88,12 @@ public:
             if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
             for (const glm::dvec2 corner : folded->ink_hull) add(corner);
         }
-        if (box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
-        const double pen = options_.window ? 0 : print_.style.pen_width({});
+        if (seen.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
+        // What a window shows goes on around it.
+        seen.widest = options_.window ? 0 : print_.style.pen_width({});
         PlacementOptions placement = options_.placement;
         placement.scale *= grammar_.scale_percent() / 100;
-        const bool in_steps = print_.style.stroke.in_steps;
-        print_.placement = sikku::place(box, print_.page, placement, in_steps ? pen / 2 : 0, in_steps ? 0 : pen / 2);
-        DrawReport report;
-        report.step = print_.placement.step;
-        report.size = (box.high - box.low) * report.step + (in_steps ? pen * report.step : pen);
-        report.overflows = report.size.x > print_.page.width - 2 * print_.page.margin + 1e-6 ||
-                           report.size.y > print_.page.height - 2 * print_.page.margin + 1e-6;
+        const DrawReport report = place_print(print_, seen, print_.style.stroke, placement);
         width_ = print_.style.line_width({}, report.step);
         return report;
     }
@@ -136,21 +132,21 @@ public:
             int count = 0;
             std::vector<std::uint8_t> pixels;
         };
+        using Token = std::shared_ptr<Rows>;
         ViewReport all;
         int next = 0;
         using oneapi::tbb::filter_mode;
-        const auto strips = oneapi::tbb::make_filter<void, Rows*>(
-            filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Rows* {
+        const auto strips = oneapi::tbb::make_filter<void, Token>(
+            filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Token {
                 if (next >= size.height) {
                     control.stop();
                     return nullptr;
                 }
-                auto* strip = new Rows{next, std::min(rows, size.height - next), {}};
+                auto strip = std::make_shared<Rows>(Rows{next, std::min(rows, size.height - next), {}});
                 next += strip->count;
                 return strip;
             });
-        const auto draw = oneapi::tbb::make_filter<Rows*, Rows*>(filter_mode::parallel, [&](Rows* given) {
-            std::unique_ptr<Rows> strip(given);
+        const auto draw = oneapi::tbb::make_filter<Token, Token>(filter_mode::parallel, [&](Token strip) {
             const Strip made = make_strip(strip->first, strip->count);
             Sight sight;
             const double top = strip->first * pixel;
@@ -167,12 +163,11 @@ public:
             all.visited += report.visited;
             all.chords += report.chords;
             all.blots += report.blots;
-            return strip.release();
+            return strip;
         });
-        const auto hand_on = oneapi::tbb::make_filter<Rows*, void>(filter_mode::serial_in_order, [&](Rows* given) {
-            const std::unique_ptr<Rows> strip(given);
-            picture.rows(strip->first, strip->count, strip->pixels);
-        });
+        const auto hand_on = oneapi::tbb::make_filter<Token, void>(
+            filter_mode::serial_in_order,
+            [&](const Token& strip) { picture.rows(strip->first, strip->count, strip->pixels); });
         oneapi::tbb::task_arena arena(threads);
         arena.execute(
             [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
@@ -215,7 +210,7 @@ private:
 
 }  // namespace
 
-std::optional<DrawReport> draw_view(const Grammar& given, Print print, const DrawOptions& options,
+std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const DrawOptions& options,
                                     const std::filesystem::path& file) {
     const bool is_vector = options.format == PrintFormat::svg || options.format == PrintFormat::pdf;
     const auto none = [&](const char* why) -> std::optional<DrawReport> {
@@ -226,10 +221,6 @@ std::optional<DrawReport> draw_view(const Grammar& given, Print print, const Dra
     if (print.style.line == Line::spline || !print.style.draws({})) {
         return none("only drawings of straight lines are seen through a window, and this is none");
     }
-    DerivationOptions whole_words;
-    whole_words.limit_whole_words(options.budget);
-    whole_words.watch = options.watch;
-    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
     if (!options.window) {
         const auto cost = estimate(grammar, true);
         if (cost && cost->nodes <= most_read_symbols) return std::nullopt;

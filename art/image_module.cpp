@@ -174,11 +174,9 @@ private:
     std::vector<float> linear_;
 };
 
-/// Threads are the library's as a whole, and it does not bear two who set them at once.
+/// Of the library as a whole; never fewer than before, as other pictures may be open. To be called by one at a time.
 void set_threads(int threads) {
-    static std::mutex mutex;
     static int most = 0;
-    const std::scoped_lock lock(mutex);
     // TIFF compresses its strips in parallel only if the pool is larger than this.
     threads = std::max(threads, 3);
     if (threads <= most) return;
@@ -295,6 +293,9 @@ void FileWriter::close() {
 }
 
 std::unique_ptr<ImageWriter> open(const std::filesystem::path& path, const ImageSpec& spec) {
+    // The library does not bear two who wake it, or set its threads, at once.
+    static std::mutex mutex;
+    const std::scoped_lock lock(mutex);
     return std::make_unique<FileWriter>(path, spec);
 }
 

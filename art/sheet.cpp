@@ -1,9 +1,9 @@
 #include "art/sheet.h"
 
-#include "art/image_file.h"
 #include "art/lettering.h"
 #include "art/output_file.h"
 #include "art/pdf.h"
+#include "art/picture.h"
 #include "art/raster.h"
 #include "art/svg.h"
 #include "engine/derivation.h"
@@ -538,26 +538,12 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
         }
     }
 
-    ImageSpec spec;
-    spec.format = image_format(options_.format);
-    spec.width = size.width;
-    spec.height = size.height;
-    spec.channels = ground.alpha < 255 ? 4 : 3;
-    spec.dpi = options_.dpi;
-    spec.threads = options_.threads;
-    spec.compression = options_.compression;
-    spec.title = options_.title;
-    spec.description = options_.pattern;
-    spec.software = options_.made;
-    // What the library says of a failure does not name the file.
-    const auto to_file = [&](auto&& write) {
-        try {
-            return write();
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("cannot write '{}': {}", file.string(), error.what()));
-        }
-    };
-    const auto image = to_file([&] { return open_image(output.temporary(), spec); });
+    DrawOptions drawing;
+    drawing.format = options_.format;
+    drawing.threads = options_.threads;
+    drawing.compression = options_.compression;
+    const int channels = ground.alpha < 255 ? 4 : 3;
+    Picture picture(print_, drawing, channels, output, file);
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
     for (Strip& strip : strips) {
         if (strip.bottom == strip.top) continue;
@@ -590,18 +576,18 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
                 return block;
             });
         const auto render = oneapi::tbb::make_filter<Block*, Block*>(filter_mode::parallel, [&](Block* block) {
-            render_block(strip, size.width, spec.channels, *block);
+            render_block(strip, size.width, channels, *block);
             return block;
         });
         const auto write = oneapi::tbb::make_filter<Block*, void>(filter_mode::serial_in_order, [&](Block* block) {
             watch(0);
-            to_file([&] { image->rows(block->top, block->rows, block->pixels); });
+            picture.rows(block->top, block->rows, block->pixels);
             idle.push(block);
         });
         oneapi::tbb::parallel_pipeline(owned.size(), begin & render & write);
         strip = {};
     }
-    to_file([&] { image->close(); });
+    picture.close();
 }
 
 /// The angle of `+`, as the first symbol of that letter has it.

@@ -1,5 +1,4 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
-#include "art/image_file.h"
 #include "art/output_file.h"
 #include "cli/gallery_forecast.h"
 #include "cli/gallery_jobs.h"
@@ -14,7 +13,6 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -130,28 +128,9 @@ private:
     std::mutex mutex_;
 };
 
-/// Pictures are opened by a library whose pool of threads must not change its size while several are open: it is
-/// brought to the size that pictures of up to three threads take.
+/// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
+/// the beginning.
 constexpr int most_picture_threads = 3;
-
-/// Loads the module for pictures, which is to be done by one thread, by writing a picture that nobody sees.
-void warm_up_pictures() {
-    const int descriptor = ::memfd_create("warm", MFD_CLOEXEC);
-    if (descriptor < 0) return;
-    try {
-        ImageSpec spec;
-        spec.format = "png";
-        spec.width = spec.height = spec.channels = 1;
-        spec.threads = most_picture_threads;
-        const auto image = open_image(fmt::format("/proc/self/fd/{}", descriptor), spec);
-        const std::array<std::uint8_t, 1> pixel{};
-        image->rows(0, 1, pixel);
-        image->close();
-    } catch (const std::exception&) {
-        // Every picture will tell why.
-    }
-    ::close(descriptor);
-}
 
 /// A job that is to be made in this run.
 struct Task {
@@ -524,7 +503,6 @@ void run(Options& options, bool quiet) {
         tasks.push_back({pending[i], std::move(forecasts[i])});
         pictures = pictures || tasks.back().forecast.band > 0;
     }
-    if (pictures) warm_up_pictures();
     Batch batch(jobs, hashes, folder, record, options, quiet);
     if (!tasks.empty()) batch.run(std::move(tasks), std::max(memory - base_memory(pictures), memory / 8));
     for (auto& [job, result] : batch.finished) finished.emplace(job, result);

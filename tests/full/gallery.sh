@@ -8,15 +8,6 @@ program=$(realpath "$1")
 screenshot=${2:+$(realpath "$2")}
 here=$(realpath "$(dirname "$0")")
 
-skip() { echo "skipped: the gallery in a browser ($1)"; exit 0; }
-browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
-    skip "chromium is not installed"
-command -v npm > /dev/null || skip "npm is not installed"
-
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-npm install --silent --no-audit --no-fund --no-save playwright-core > npm.log 2>&1 ||
-    skip "npm cannot install playwright-core: $(tail -n 1 npm.log)"
+. "$here/browser.sh" "the gallery in a browser"
 "$program" --quiet gallery kolams tilings -o x
 timeout 180 node "$here/gallery.mjs" "$folder" "$browser" x $screenshot
