@@ -5,14 +5,13 @@
 #include "art/picture.h"
 #include "art/raster.h"
 #include "art/svg.h"
+#include "art/threads.h"
 #include "art/view.h"
 #include "engine/derivation.h"
 #include "engine/fold.h"
 #include "engine/forecast.h"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -126,7 +125,7 @@ public:
 
         const int channels = make_strip(0, row_block).raster->channels();
         Picture picture(print_, options_, channels, output, file);
-        const int threads = options_.threads > 0 ? options_.threads : oneapi::tbb::info::default_concurrency();
+        const int threads = thread_count(options_.threads);
         struct Rows {
             int first = 0;
             int count = 0;
@@ -168,9 +167,9 @@ public:
         const auto hand_on = oneapi::tbb::make_filter<Token, void>(
             filter_mode::serial_in_order,
             [&](const Token& strip) { picture.rows(strip->first, strip->count, strip->pixels); });
-        oneapi::tbb::task_arena arena(threads);
-        arena.execute(
-            [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
+        on_threads(threads, [&] {
+            oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on);
+        });
         picture.close();
         return all;
     }

@@ -3,12 +3,10 @@
 #include "art/blend.h"
 #include "art/fill.h"
 #include "art/stroke.h"
+#include "art/threads.h"
 
 #include <oneapi/tbb/concurrent_queue.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -778,7 +776,7 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
 
 void BandRaster::render(int threads, const RowSink& rows) {
     const int channels = this->channels();
-    if (threads <= 0) threads = oneapi::tbb::info::default_concurrency();
+    threads = thread_count(threads);
     const auto deliver = [&](const Workplace& workplace, int band) {
         const int top = band * band_rows_;
         rows(top, std::min(band_rows_, size_.height - top), workplace.canvas.pixels());
@@ -826,13 +824,8 @@ void BandRaster::render(int threads, const RowSink& rows) {
         deliver(*job.workplace, job.band);
         idle.push(job.workplace);
     });
-    // More threads than cores are only had, and without a warning on the terminal, if they are allowed here, too.
-    const oneapi::tbb::global_control allowed(
-        oneapi::tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(std::max(threads, oneapi::tbb::info::default_concurrency())));
-    oneapi::tbb::task_arena arena(threads);
-    arena.execute(
-        [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), bands & draw & hand_on); });
+    on_threads(threads,
+               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), bands & draw & hand_on); });
 }
 
 void BandRaster::render_rows(int first, int end, int channels, const RowSink& rows) const {

@@ -6,13 +6,12 @@
 #include "art/picture.h"
 #include "art/raster.h"
 #include "art/svg.h"
+#include "art/threads.h"
 #include "engine/derivation.h"
 
 #include <fmt/format.h>
 
 #include <oneapi/tbb/concurrent_queue.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -612,13 +611,7 @@ std::string word_text(const Grammar& grammar, const Word& word) {
 
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file) {
-    const int cores = oneapi::tbb::info::default_concurrency();
-    const int threads = options.threads > 0 ? options.threads : cores;
-    // More threads than cores are only had, and without a warning on the terminal, if they are allowed here, too.
-    const oneapi::tbb::global_control allowed(oneapi::tbb::global_control::max_allowed_parallelism,
-                                              static_cast<std::size_t>(std::max(threads, cores)));
-    oneapi::tbb::task_arena arena(threads);
-    return arena.execute([&] {
+    return on_threads(options.threads, [&] {
         Sheet sheet(cells, options);
         const Plan& plan = sheet.arrange();
         OutputFile output(file);

@@ -1,5 +1,6 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
 #include "art/output_file.h"
+#include "art/threads.h"
 #include "cli/gallery_forecast.h"
 #include "cli/gallery_jobs.h"
 #include "cli/gallery_record.h"
@@ -9,10 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -162,12 +160,8 @@ public:
         progress_ = &progress;
         waiting_.assign(tasks.begin(), tasks.end());
         free_ = memory_ = memory;
-        workers_ = options_.threads > 0 ? options_.threads : oneapi::tbb::info::default_concurrency();
-        const oneapi::tbb::global_control allowed(
-            oneapi::tbb::global_control::max_allowed_parallelism,
-            static_cast<std::size_t>(std::max(workers_, oneapi::tbb::info::default_concurrency())));
-        oneapi::tbb::task_arena arena(workers_);
-        arena.execute([&] {
+        workers_ = thread_count(options_.threads);
+        on_threads(workers_, [&] {
             oneapi::tbb::parallel_for(
                 0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
         });
@@ -307,8 +301,7 @@ private:
 /// Calls `work` with every number below `count`, on several threads.
 template <typename Work>
 void for_each_number(std::size_t count, int threads, const Work& work) {
-    oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::info::default_concurrency());
-    arena.execute([&] {
+    on_threads(threads, [&] {
         oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
             if (interrupted()) throw Interrupted();
             work(i);
