@@ -27,7 +27,7 @@ std::string image_format(PrintFormat format);
 struct DrawOptions {
     PrintFormat format = PrintFormat::svg;
     PlacementOptions placement;
-    std::optional<ViewWindow> window;  ///< of straight lines in one pen: what fills the page within its margins
+    std::optional<ViewWindow> window;  ///< of lines in one pen: what fills the page within its margins
     int threads = 0;                   ///< for raster formats; 0: all cores
     int compression = 6;               ///< of PNG: 1, quick and large, to 9
     double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass

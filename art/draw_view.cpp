@@ -4,14 +4,17 @@
 #include "art/pdf.h"
 #include "art/picture.h"
 #include "art/raster.h"
+#include "art/spline_pieces.h"
 #include "art/svg.h"
 #include "art/threads.h"
 #include "art/view.h"
 #include "engine/derivation.h"
 #include "engine/fold.h"
 #include "engine/forecast.h"
+#include "engine/turtle.h"
 
 #include <oneapi/tbb/parallel_pipeline.h>
+#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -60,14 +63,69 @@ Box seen_box(const Print& print, double top, double bottom, double around) {
     return box;
 }
 
+/// Length of what passes; of curves by chords of an eighth.
+class LengthSink : public PathSink {
+public:
+    void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
+    void lines(std::span<const glm::dvec2> ends) override {
+        for (const glm::dvec2 end : ends) add(end);
+    }
+    void curves(std::span<const glm::dvec2> controls) override {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const glm::dvec2 start = at_;
+            for (int k = 1; k <= 8; ++k) {
+                const double t = k / 8.0;
+                const double u = 1 - t;
+                add(u * u * u * start + 3 * u * u * t * controls[i] + 3 * u * t * t * controls[i + 1] +
+                    t * t * t * controls[i + 2]);
+            }
+        }
+    }
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+    double length = 0;
+
+private:
+    void add(glm::dvec2 point) {
+        length += glm::length(point - at_);
+        at_ = point;
+    }
+    glm::dvec2 at_{0.0};
+};
+
+/// How much shorter splines are than the lines through their control points: of the largest derivation length that
+/// costs little.
+double spline_share(const Grammar& grammar) {
+    constexpr double little = 3e5;
+    for (std::int64_t n = std::min<std::int64_t>(grammar.steps(), 64); n >= 0; --n) {
+        const auto smaller = grammar.with_steps(n);
+        if (!smaller) continue;
+        const auto cost = estimate(*smaller, true);
+        if (!cost || cost->nodes > little) continue;
+        LengthSink straight;
+        LengthSink curved;
+        const std::vector<bool> all_open;
+        SplineSink spline(curved, all_open);
+        DerivationOptions interpreted;
+        interpreted.interpreted = true;
+        derive(*smaller, *Turtle::drawing(*smaller, straight, true), interpreted);
+        derive(*smaller, *Turtle::drawing(*smaller, spline, true), interpreted);
+        if (straight.length > 0) return curved.length / straight.length;
+    }
+    return 1;
+}
+
 class ViewDrawer {
 public:
     ViewDrawer(const Grammar& grammar, Print& print, const DrawOptions& options)
-        : grammar_(grammar), print_(print), options_(options) {}
+        : grammar_(grammar), print_(print), options_(options), spline_(print.style.line == Line::spline) {}
 
     /// False if the drawing has no view.
     bool look() {
-        view_ = View::make(grammar_, options_.window);
+        view_ = View::make(grammar_, options_.window, spline_);
         return view_ != nullptr;
     }
 
@@ -85,7 +143,7 @@ public:
         } else {
             const auto folded = fold(grammar_);
             if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
-            for (const glm::dvec2 corner : folded->ink_hull) add(corner);
+            for (const glm::dvec2 corner : spline_ ? folded->box_hull : folded->ink_hull) add(corner);
         }
         if (seen.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
         // What a window shows goes on around it.
@@ -103,12 +161,19 @@ public:
         return pixels < 1 ? pixel / 2 : pixels < 2 ? width_ / 8 : width_ / 4;
     }
 
+    /// Ink, in steps, of a line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much
+    /// shorter than a line is wide.
+    double least(double pixel) const {
+        return (width_ < pixel ? 1e-5 * pixel * pixel / width_ : width_ / 256) / print_.placement.step;
+    }
+
     ViewReport draw_lines(PrintWriter& writer) const {
-        LinesOnly lines(writer);
         Sight sight;
         sight.box = seen_box(print_, 0, print_.page.height, width_);
         sight.chord = width_ / 4 / print_.placement.step;
-        return view_->read(sight, lines, options_.budget, options_.watch);
+        sight.least = width_ / 256 / print_.placement.step;
+        LinesOnly lines(writer);
+        return read(sight, lines, options_.budget, options_.watch);
     }
 
     ViewReport draw_pixels(OutputFile& output, const std::filesystem::path& file) {
@@ -116,6 +181,7 @@ public:
         const double pixel = 25.4 / print_.dpi;
         const double longest = limit(pixel);
         const bool has_blots = width_ < pixel;
+        if (has_blots && spline_) spline_share_ = spline_share(grammar_);
         // Parts that are replaced may be a third of the limit.
         const double density = std::max(1.0, (3 * pixel / longest) * (3 * pixel / longest));
         const double pixels = has_blots ? strip_pixels : strip_chords / density;
@@ -151,8 +217,8 @@ public:
             const double top = strip->first * pixel;
             sight.box = seen_box(print_, top, top + strip->count * pixel, width_ + 2 * pixel);
             (has_blots ? sight.blot : sight.chord) = longest / print_.placement.step;
-            const ViewReport report =
-                view_->read(sight, *made.raster, most_nodes_, [&](std::uint64_t n) { watch(n); });
+            sight.least = least(pixel);
+            const ViewReport report = read(sight, *made.raster, most_nodes_, [&](std::uint64_t n) { watch(n); });
             strip->pixels.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels) *
                                   static_cast<std::size_t>(strip->count));
             made.raster->render(1, [&](int, int, std::span<const std::uint8_t> part) {
@@ -175,6 +241,35 @@ public:
     }
 
 private:
+    /// Curves are told from the lines through their control points only where steps are.
+    ViewReport read(Sight sight, BlotSink& sink, double budget,
+                    const std::function<void(std::uint64_t)>& watch) const {
+        if (!spline_ || longest_step() <= std::max(sight.chord, sight.blot)) {
+            sight.ink = spline_share_;
+            return view_->read(sight, sink, budget, watch);
+        }
+        sight.chord = sight.blot = -1;
+        sight.least = 0;
+        // Where a line enters what is seen, its curve is wrong for a few steps.
+        const glm::dvec2 around(6 * longest_step());
+        sight.box.low -= around;
+        sight.box.high += around;
+        SplinePieces pieces(sink, 1e-6 * longest_step());
+        return view_->read(sight, pieces, budget, watch);
+    }
+
+    double longest_step() const {
+        double longest = 0;
+        const std::vector<char> reached = grammar_.reachable();
+        for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+            const Command& command = grammar_.symbols()[symbol].command;
+            if (reached[symbol] && (command.action == Action::draw || command.action == Action::move)) {
+                longest = std::max(longest, std::fabs(command.value));
+            }
+        }
+        return longest;
+    }
+
     /// A page of some rows of the page.
     struct Strip {
         std::unique_ptr<Print> print;
@@ -201,6 +296,8 @@ private:
     Print& print_;
     const DrawOptions& options_;
     std::unique_ptr<View> view_;
+    bool spline_;
+    double spline_share_ = 1;
     double width_ = 0;  ///< of the pen, millimetres
     double most_nodes_ = 0;
     double nodes_ = 0;
@@ -217,9 +314,7 @@ std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const D
         return std::nullopt;
     };
     if (is_vector && !options.window) return std::nullopt;
-    if (print.style.line == Line::spline || !print.style.draws({})) {
-        return none("only drawings of straight lines are seen through a window, and this is none");
-    }
+    if (!print.style.draws({})) return none("lines that leave no ink are not seen");
     if (!options.window) {
         const auto cost = estimate(grammar, true);
         if (cost && cost->nodes <= most_read_symbols) return std::nullopt;

@@ -8,7 +8,8 @@
 
 namespace sikku {
 
-/// As draw(), of a grammar whose contexts are resolved, for what a View can be made of: straight lines in one pen.
+/// As draw(), of a grammar whose contexts are resolved, for what a View can be made of: lines in one pen,
+/// straight or splines.
 /// Taken for a window, and for pictures of words of more than `most_read_symbols`; else nullopt, and nothing is
 /// written. Pictures are made in strips, each from a walk of its own that passes over what lies outside. Under a pen
 /// of a pixel, parts up to half a pixel become blots of their ink; under a wider one, parts up to a quarter of its

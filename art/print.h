@@ -39,6 +39,9 @@ struct Blot {
 /// Receives a drawing of which some parts are blots.
 class BlotSink : public PathSink {
 public:
+    /// A line of the turtle begins at a place; what is seen of it follows in strokes, until it ends at another.
+    virtual void begin_line(glm::dvec2) {}
+    virtual void end_line(glm::dvec2) {}
     /// A number for what blot() is to leave; the same may be asked for again and again.
     virtual std::size_t prepare(const Blot& blot, const Pen& pen) = 0;
     /// What was prepared, around its centre of mass.

@@ -1,5 +1,6 @@
 #include "art/view.h"
 
+#include "engine/clumps.h"
 #include "engine/derivation.h"
 
 #include <fmt/format.h>
@@ -62,33 +63,58 @@ bool misses(const Box& box, glm::dvec2 at, const DrawnPart<Number>& part) {
 /// Draws parts, in doubles.
 class Drawer {
 public:
-    Drawer(const Parts<double>& parts, const BracketTable& brackets, const Sight& sight, BlotSink& sink,
-           double budget, const std::function<void(std::uint64_t)>& watch)
-        : parts_(parts), brackets_(brackets), sight_(sight), sink_(sink), budget_(budget), watch_(watch) {
+    Drawer(const Parts<double>& parts, const Clumps& clumps, const BracketTable& brackets, bool moves_draw,
+           const Sight& sight, BlotSink& sink, double budget, const std::function<void(std::uint64_t)>& watch)
+        : parts_(parts),
+          clumps_(clumps),
+          brackets_(brackets),
+          moves_draw_(moves_draw),
+          sight_(sight),
+          sink_(sink),
+          budget_(budget),
+          watch_(watch) {
         points_.reserve(most_points);
-        if (sight.blot >= 0) blots_.assign(parts_.all().size(), not_prepared);
+        if (sight.blot >= 0) {
+            blots_.assign(parts_.all().size(), not_prepared);
+            blots_of_clumps_.assign(clumps_.all().size(), not_prepared);
+        }
     }
 
-    void draw(const Symbol* symbol, int level, glm::dvec2 point, std::uint32_t heading) {
+    void draw(Symbol symbol, int level, glm::dvec2 point, std::uint32_t heading) {
         at_ = {point.x, point.y, heading};
-        frames_.push_back({symbol, symbol + 1, level});
+        look(symbol, level);
         while (!frames_.empty()) {
             Frame& frame = frames_.back();
-            if (frame.next == frame.end) {
+            if (frame.next != frame.end) {
+                look(*frame.next++, frame.level);
+            } else if (frame.clump == frame.last_clump) {
                 frames_.pop_back();
-                continue;
+            } else {
+                const Clump& clump = *frame.clump++;
+                // One that holds a single symbol is looked at as that symbol.
+                if (clump.end - clump.begin > 1 && take(clump.part, frame.level, blots_of_clumps_,
+                                                        static_cast<std::size_t>(&clump - clumps_.all().data()))) {
+                    continue;
+                }
+                frame.next = clump.begin;
+                frame.end = clump.end;
             }
-            const Symbol* here = frame.next++;
-            const int depth = frame.level;
-            if (!visit(*here, depth)) frames_.push_back(frame_below(parts_, here, depth));
         }
     }
 
     void lift() {
         if (!is_down_) return;
+        if (left_out_ > 0) add(at_.point());
         flush();
         sink_.end_stroke(false);
         is_down_ = false;
+    }
+
+    /// One line ends and another begins.
+    void next_line(glm::dvec2 end, glm::dvec2 start) {
+        lift();
+        sink_.end_line(end);
+        sink_.begin_line(start);
     }
 
     /// Counts nodes, here and elsewhere.
@@ -101,20 +127,39 @@ public:
     ViewReport report;
 
 private:
-    /// True if nothing of the symbol is left to do.
-    bool visit(Symbol symbol, int level) {
-        count();
+    /// What is left to be drawn of a successor: first some symbols, then clumps.
+    struct Frame {
+        const Symbol* next;
+        const Symbol* end;
+        const Clump* clump;
+        const Clump* last_clump;
+        int level;
+    };
+
+    void look(Symbol symbol, int level) {
         if (brackets_.is_push[symbol]) {
+            count();
+            if (moves_draw_) next_line(at_.point(), at_.point());
             stack_.push_back(at_);
-            return true;
+            return;
         }
         if (brackets_.is_pop[symbol]) {
-            lift();
-            at_ = stack_.back();
+            count();
+            const Place<double>& from = stack_.back();
+            next_line(at_.point(), from.point());
+            at_ = from;
             stack_.pop_back();
-            return true;
+            return;
         }
-        const DrawnPart<double>& part = parts_.part(symbol, level, at_.heading);
+        const std::size_t index = parts_.index(symbol, level, at_.heading);
+        if (take(parts_.all()[index], level, blots_, index)) return;
+        const auto below = clumps_.below(index);
+        frames_.push_back({nullptr, nullptr, below.data(), below.data() + below.size(), level - 1});
+    }
+
+    /// False if the part must be looked at more closely.
+    bool take(const DrawnPart<double>& part, int level, std::vector<std::size_t>& blots, std::size_t index) {
+        count();
         if (!part.draws()) {
             if (part.x != 0 || part.y != 0) lift();
             at_.pass(part, parts_.headings());
@@ -127,21 +172,27 @@ private:
             return true;
         }
         const double extent = static_cast<double>(part.extent);
-        if (extent <= sight_.blot) {
-            lift();
-            std::size_t& blot = blots_[static_cast<std::size_t>(&part - parts_.all().data())];
-            if (blot == not_prepared) blot = sink_.prepare({part.spread, part.high - part.low, part.ink}, {});
-            sink_.blot(blot, here + part.centre);
-            if (level > 0) ++report.blots;
+        if (is_little(part.ink)) {
             at_.pass(part, parts_.headings());
             return true;
         }
-        if (level > 0 && extent > sight_.chord) return false;
+        const bool is_step = level == 0 && &blots == &blots_;
+        if (extent <= sight_.blot) {
+            lift();
+            std::size_t& blot = blots[index];
+            if (blot == not_prepared)
+                blot = sink_.prepare({part.spread, part.high - part.low, part.ink * sight_.ink}, {});
+            sink_.blot(blot, here + part.centre);
+            if (!is_step) ++report.blots;
+            at_.pass(part, parts_.headings());
+            return true;
+        }
+        if (!is_step && extent > sight_.chord) return false;
         if (!is_down_) {
             sink_.begin_stroke(here, Pen{});
             is_down_ = true;
         }
-        if (level > 0) {
+        if (!is_step) {
             if (part.returns) add(here + part.centre);
             ++report.chords;
         }
@@ -150,7 +201,16 @@ private:
         return true;
     }
 
+    /// Of a line, no more is left out than cannot be seen at its next corner.
+    bool is_little(double ink) {
+        if (ink >= sight_.least || (sight_.blot < 0 && !is_down_)) return false;
+        if (sight_.blot >= 0) return true;
+        left_out_ += ink;
+        return left_out_ < sight_.least;
+    }
+
     void add(glm::dvec2 point) {
+        left_out_ = 0;
         points_.push_back(point);
         if (points_.size() == most_points) flush();
     }
@@ -162,7 +222,9 @@ private:
     static constexpr std::size_t most_points = 256;
     static constexpr std::size_t not_prepared = SIZE_MAX;
     const Parts<double>& parts_;
+    const Clumps& clumps_;
     const BracketTable& brackets_;
+    bool moves_draw_;
     const Sight sight_;
     BlotSink& sink_;
     double budget_;
@@ -172,6 +234,8 @@ private:
     std::vector<Place<double>> stack_;
     std::vector<glm::dvec2> points_;
     std::vector<std::size_t> blots_;  // what the sink calls them, by part
+    std::vector<std::size_t> blots_of_clumps_;
+    double left_out_ = 0;  // of the line, since its last corner
     bool is_down_ = false;
 };
 
@@ -179,17 +243,25 @@ private:
 template <class Number>
 class NumberView final : public View {
 public:
-    NumberView(const Grammar& grammar, Parts<Number> parts, Parts<double> rough, Number x, Number y)
-        : grammar_(grammar), parts_(std::move(parts)), rough_(std::move(rough)), brackets_(grammar), x_(x), y_(y) {}
+    NumberView(const Grammar& grammar, Parts<Number> parts, Parts<double> rough, bool moves_draw, Number x, Number y)
+        : grammar_(grammar),
+          parts_(std::move(parts)),
+          rough_(std::move(rough)),
+          clumps_(grammar, rough_),
+          brackets_(grammar),
+          moves_draw_(moves_draw),
+          x_(x),
+          y_(y) {}
 
     ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                     const std::function<void(std::uint64_t)>& watch) const override {
-        Drawer drawer(rough_, brackets_, sight, sink, budget, watch);
+        Drawer drawer(rough_, clumps_, brackets_, moves_draw_, sight, sink, budget, watch);
         // Doubles place what is that large within a millionth of a millionth of the window.
         const double largest =
             0x1p12 * std::max(sight.box.high.x - sight.box.low.x, sight.box.high.y - sight.box.low.y);
         Place<Number> at{-x_, -y_, 0};
         std::vector<Place<Number>> stack;
+        sink.begin_line(at.point());
         const Word& axiom = grammar_.axiom();
         std::vector<Frame> frames{{axiom.data(), axiom.data() + axiom.size(), parts_.levels()}};
         while (!frames.empty()) {
@@ -202,11 +274,12 @@ public:
             const int level = frame.level;
             drawer.count();
             if (brackets_.is_push[*symbol]) {
+                if (moves_draw_) drawer.next_line(at.point(), at.point());
                 stack.push_back(at);
                 continue;
             }
             if (brackets_.is_pop[*symbol]) {
-                drawer.lift();
+                drawer.next_line(at.point(), stack.back().point());
                 at = stack.back();
                 stack.pop_back();
                 continue;
@@ -218,7 +291,7 @@ public:
             } else if (misses(sight.box, here, part)) {
                 drawer.lift();
             } else if (level == 0 || static_cast<double>(part.extent) <= largest) {
-                drawer.draw(symbol, level, here, at.heading);
+                drawer.draw(*symbol, level, here, at.heading);
             } else {
                 frames.push_back(frame_below(parts_, symbol, level));
                 continue;
@@ -226,6 +299,7 @@ public:
             at.pass(part, parts_.headings());
         }
         drawer.lift();
+        sink.end_line(at.point());
         return drawer.report;
     }
 
@@ -233,15 +307,18 @@ private:
     const Grammar& grammar_;
     Parts<Number> parts_;
     Parts<double> rough_;
+    Clumps clumps_;
     BracketTable brackets_;
+    bool moves_draw_;
     Number x_, y_;  // of the origin
 };
 
 template <class Number>
-std::unique_ptr<View> make_view(const Grammar& grammar, Parts<double> rough, const ViewWindow& origin) {
-    auto parts = Parts<Number>::make(grammar);
+std::unique_ptr<View> make_view(const Grammar& grammar, Parts<double> rough, bool moves_draw,
+                                const ViewWindow& origin) {
+    auto parts = Parts<Number>::make(grammar, moves_draw);
     if (!parts) return nullptr;
-    return std::make_unique<NumberView<Number>>(grammar, std::move(*parts), std::move(rough),
+    return std::make_unique<NumberView<Number>>(grammar, std::move(*parts), std::move(rough), moves_draw,
                                                 static_cast<Number>(origin.x0), static_cast<Number>(origin.y0));
 }
 
@@ -295,15 +372,15 @@ std::optional<ViewWindow> parse_window(std::string_view text) {
     return window;
 }
 
-std::unique_ptr<View> View::make(const Grammar& grammar, const std::optional<ViewWindow>& window) {
-    auto parts = Parts<double>::make(grammar);
+std::unique_ptr<View> View::make(const Grammar& grammar, const std::optional<ViewWindow>& window, bool moves_draw) {
+    auto parts = Parts<double>::make(grammar, moves_draw);
     if (!parts) return nullptr;
-    if (!window) return make_view<double>(grammar, std::move(*parts), {});
+    if (!window) return make_view<double>(grammar, std::move(*parts), moves_draw, {});
     // Sums of whole numbers are exact as long as the whole drawing is within the bits of a place.
     const auto largest = [](const glm::dvec2& corner) { return std::max(std::fabs(corner.x), std::fabs(corner.y)); };
     const double reach = std::max(largest(parts->whole().low), largest(parts->whole().high));
-    return reach < 0x1p60 ? make_view<long double>(grammar, std::move(*parts), *window)
-                          : make_view<Quad>(grammar, std::move(*parts), *window);
+    return reach < 0x1p60 ? make_view<long double>(grammar, std::move(*parts), moves_draw, *window)
+                          : make_view<Quad>(grammar, std::move(*parts), moves_draw, *window);
 }
 
 }  // namespace sikku

@@ -28,6 +28,8 @@ struct Sight {
     Box box;            ///< what is seen, the pen's width around it included, as seen from the view's origin
     double chord = -1;  ///< parts up to this extent become their chords
     double blot = -1;   ///< parts up to this extent become blots
+    double ink = 1;     ///< so much of a blot's length is drawn: curves are shorter than what they follow
+    double least = 0;   ///< parts that have less ink than this and join others are left out
 };
 
 struct ViewReport {
@@ -39,15 +41,17 @@ struct ViewReport {
 /// More than `budget` nodes were visited.
 BudgetError too_much(double budget);
 
-/// A drawing of straight lines in one pen, ready to be looked at.
+/// A drawing of lines in one pen, ready to be looked at.
 class View {
 public:
     virtual ~View() = default;
 
     /// The whole drawing in doubles or, with a window, what is seen from its lower left corner, with places in as
     /// many bits as it takes (up to 113; exact where steps are whole and turns are quarters).
+    /// With `moves_draw`, what is seen are the control points of a spline: see Turtle::drawing().
     /// `grammar` must outlive it. Nullptr where Parts cannot be made.
-    static std::unique_ptr<View> make(const Grammar& grammar, const std::optional<ViewWindow>& window);
+    static std::unique_ptr<View> make(const Grammar& grammar, const std::optional<ViewWindow>& window,
+                                      bool moves_draw = false);
 
     /// One walk. Several threads may walk at once.
     /// @param budget  most nodes to visit; more is a BudgetError

@@ -152,7 +152,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->excludes(fit);
     command
         ->add_option("--window", options->window,
-                     "The part X0,Y0,X1,Y1 of the drawing, in turtle steps, fills the page; of straight lines in one "
+                     "The part X0,Y0,X1,Y1 of the drawing, in turtle steps, fills the page; of lines in one "
                      "pen, at any derivation length")
         ->type_name("X0,Y0,X1,Y1")
         ->excludes(fit);

@@ -14,34 +14,6 @@ constexpr std::size_t most_parts = 1'000'000;
 // Boxes are sums of rounded numbers.
 constexpr double box_slack = 1e-14;
 
-/// Goes on with `next`, which begins where `all` has led.
-template <class Number>
-void append(DrawnPart<Number>& all, const DrawnPart<Number>& next) {
-    if (next.draws()) {
-        const glm::dvec2 at{static_cast<double>(all.x), static_cast<double>(all.y)};
-        const glm::dvec2 low = at + next.low;
-        const glm::dvec2 high = at + next.high;
-        if (all.draws()) {
-            all.low = glm::dvec2(std::min(all.low.x, low.x), std::min(all.low.y, low.y));
-            all.high = glm::dvec2(std::max(all.high.x, high.x), std::max(all.high.y, high.y));
-        } else {
-            all.low = low;
-            all.high = high;
-        }
-        all.extent = static_cast<float>(std::max(all.high.x - all.low.x, all.high.y - all.low.y));
-        // Two masses become one; Steiner's theorem.
-        const double ink = all.ink + next.ink;
-        const double share = ink > 0 ? next.ink / ink : 0;
-        const glm::dvec2 apart = at + next.centre - all.centre;
-        const glm::dvec3 between{apart.x * apart.x, apart.x * apart.y, apart.y * apart.y};
-        all.spread = (1 - share) * all.spread + share * next.spread + share * (1 - share) * between;
-        all.centre += share * apart;
-        all.ink = ink;
-    }
-    all.x += next.x;
-    all.y += next.y;
-}
-
 template <class Number>
 struct Vector {
     Number x, y;
@@ -86,6 +58,26 @@ bool is_plain(Action action) {
 }
 
 }  // namespace
+
+template <class Number>
+void DrawnPart<Number>::append(const DrawnPart& next) {
+    if (next.draws()) {
+        const glm::dvec2 at{static_cast<double>(x), static_cast<double>(y)};
+        low = draws() ? glm::min(low, at + next.low) : at + next.low;
+        high = draws() ? glm::max(high, at + next.high) : at + next.high;
+        extent = static_cast<float>(std::max(high.x - low.x, high.y - low.y));
+        // Two masses become one; Steiner's theorem.
+        const double all = ink + next.ink;
+        const double share = all > 0 ? next.ink / all : 0;
+        const glm::dvec2 apart = at + next.centre - centre;
+        const glm::dvec3 between{apart.x * apart.x, apart.x * apart.y, apart.y * apart.y};
+        spread = (1 - share) * spread + share * next.spread + share * (1 - share) * between;
+        centre += share * apart;
+        ink = all;
+    }
+    x += next.x;
+    y += next.y;
+}
 
 /// Which headings occur at which level, from the axiom down. False if there are too many.
 template <class Number>
@@ -153,7 +145,7 @@ bool Parts<Number>::find_headings(const Grammar& grammar, const std::vector<std:
 }
 
 template <class Number>
-std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar) {
+std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool moves_draw) {
     const Lattice lattice = make_lattice(grammar);
     if (grammar.whole_word_steps() > 0 || lattice.headings == 0) return std::nullopt;
     Parts parts;
@@ -196,7 +188,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar) {
             if (command.action != Action::draw && command.action != Action::move) continue;
             part.x = static_cast<Number>(command.value) * directions[heading].x;
             part.y = static_cast<Number>(command.value) * directions[heading].y;
-            if (command.action == Action::move) continue;
+            if (command.action == Action::move && !moves_draw) continue;
             const glm::dvec2 end{static_cast<double>(part.x), static_cast<double>(part.y)};
             part.low = glm::dvec2(std::min(end.x, 0.0), std::min(end.y, 0.0));
             part.high = glm::dvec2(std::max(end.x, 0.0), std::max(end.y, 0.0));
@@ -231,7 +223,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar) {
             // A symbol may be composed in a heading in which only others occur: nobody will ask for it.
             if (!parts.occurs(level, heading)) return true;
             const DrawnPart<Number>& next = parts.parts_[parts.index(child, level, heading)];
-            append(part, next);
+            part.append(next);
             heading = (heading + next.turn) % parts.headings_;
         }
         part.turn = (heading + parts.headings_ - first) % parts.headings_;
@@ -262,6 +254,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar) {
     return parts;
 }
 
+template struct DrawnPart<double>;
 template class Parts<double>;
 template class Parts<long double>;
 template class Parts<Quad>;

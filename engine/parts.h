@@ -28,6 +28,8 @@ struct DrawnPart {
     glm::dvec3 spread{0.0};  ///< and its covariance: xx, xy, yy
 
     bool draws() const { return extent >= 0; }
+    /// Goes on with what `next` draws, from where this has led; `turn` and `returns` are left alone.
+    void append(const DrawnPart& next);
 };
 
 /// The parts of all symbols at all levels, in the headings in which they occur, of a drawing with one pen: straight
@@ -37,11 +39,11 @@ struct DrawnPart {
 template <class Number>
 class Parts {
 public:
-    /// `grammar` must outlive them.
+    /// `grammar` must outlive them. With `moves_draw`, steps that do not draw are drawn all the same, as of a spline.
     /// Nullopt for other drawings (contexts, colours, widths, polygons, discs, brackets that stay open, angles that
     /// are no parts of a turn), for more than a million parts, and for lengths that doubles do not hold.
     /// Cost: O(size of the tables x steps x headings).
-    static std::optional<Parts> make(const Grammar& grammar);
+    static std::optional<Parts> make(const Grammar& grammar, bool moves_draw = false);
 
     /// Tables that are applied to the axiom, `interpret:` included.
     int levels() const { return static_cast<int>(tables_.size()); }
@@ -52,6 +54,15 @@ public:
     }
     /// In no order.
     const std::vector<DrawnPart<Number>>& all() const { return parts_; }
+    /// Whether anything occurs in that heading with so many tables still to come.
+    bool occurs(int level, std::uint32_t heading) const {
+        return rows_[static_cast<std::size_t>(level) * headings_ + heading] != UINT32_MAX;
+    }
+    /// Of part() in all().
+    std::size_t index(Symbol symbol, int level, std::uint32_t heading) const {
+        const auto row = static_cast<std::size_t>(level) * headings_ + heading;
+        return static_cast<std::size_t>(rows_[row]) * symbols_ + symbol;
+    }
     /// What a symbol becomes when `level` tables are still to come: one less for what it becomes. Null: itself.
     const Word* successor(Symbol symbol, int level) const {
         return tables_[static_cast<std::size_t>(level) - 1]->successor(symbol);
@@ -61,13 +72,6 @@ public:
 
 private:
     bool find_headings(const Grammar& grammar, const std::vector<std::uint32_t>& turn);
-    bool occurs(int level, std::uint32_t heading) const {
-        return rows_[static_cast<std::size_t>(level) * headings_ + heading] != UINT32_MAX;
-    }
-    std::size_t index(Symbol symbol, int level, std::uint32_t heading) const {
-        const auto row = static_cast<std::size_t>(level) * headings_ + heading;
-        return static_cast<std::size_t>(rows_[row]) * symbols_ + symbol;
-    }
     std::size_t symbols_ = 0;
     std::uint32_t headings_ = 0;
     std::vector<const Table*> tables_;  // by level, from 1

@@ -3,12 +3,15 @@
 #include "art/view.h"
 
 #include "art/raster.h"
+#include "art/spline_pieces.h"
 #include "engine/fold.h"
+#include "engine/spline.h"
 #include "engine/turtle.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -179,6 +182,165 @@ TEST(View, WindowsOfHilbertAreThoseOfAnotherForm) {
     }
 }
 
+/// Every Bézier of a drawing.
+class BezierSink : public PathSink {
+public:
+    using Bezier = std::array<glm::dvec2, 4>;
+    void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
+    void lines(std::span<const glm::dvec2>) override { FAIL(); }
+    void curves(std::span<const glm::dvec2> controls) override {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            beziers.push_back({at_, controls[i], controls[i + 1], controls[i + 2]});
+            at_ = controls[i + 2];
+        }
+    }
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+    /// Those that touch a window, moved and rounded so that they can be compared.
+    std::multiset<std::array<std::int64_t, 8>> within(glm::dvec2 low, double side, glm::dvec2 origin) const {
+        std::multiset<std::array<std::int64_t, 8>> found;
+        for (const Bezier& bezier : beziers) {
+            Box box;
+            for (const glm::dvec2 point : bezier) box.add(point - origin);
+            const glm::dvec2 high = low + side;
+            if (box.high.x < low.x || box.low.x > high.x || box.high.y < low.y || box.low.y > high.y) continue;
+            std::array<std::int64_t, 8> rounded{};
+            for (std::size_t i = 0; i < 4; ++i) {
+                rounded[2 * i] = std::llround((bezier[i].x - origin.x) * 1e6);
+                rounded[2 * i + 1] = std::llround((bezier[i].y - origin.y) * 1e6);
+            }
+            found.insert(rounded);
+        }
+        return found;
+    }
+    std::vector<Bezier> beziers;
+
+private:
+    glm::dvec2 at_{0.0};
+};
+
+TEST(View, SplinesThroughAWindowAreThoseOfTheWholeDrawing) {
+    const std::vector<std::string> patterns = {
+        "axiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 4\n",
+        "angle factor: 8\nmove: f\naxiom: -X--X\nX --> XfX--XfX\nderivation length: 4\n",
+        "angle increment: 25.7\naxiom: F\nF --> F[+F]F[-F]fF\nderivation length: 4\n",
+        "angle factor: 6\naxiom: F++F++F\nF --> F-F++F-F\nderivation length: 4\n",
+    };
+    for (const std::string& pattern : patterns) {
+        const Grammar grammar = grammar_of(pattern);
+        StrokeCensus census;
+        DerivationOptions interpreted;
+        interpreted.interpreted = true;
+        derive(grammar, *Turtle::drawing(grammar, census, true), interpreted);
+        BezierSink whole;
+        SplineSink spline(whole, census.closed);
+        derive(grammar, *Turtle::drawing(grammar, spline, true), interpreted);
+        const auto folded = fold(grammar);
+        Box box;
+        for (const glm::dvec2 corner : folded.value().box_hull) box.add(corner);
+        const glm::dvec2 size = box.high - box.low;
+        std::size_t compared = 0;
+        // Around the beginning, and here and there; the last sees all.
+        for (const glm::dvec2 middle :
+             {glm::dvec2(0, 0), box.low + 0.3 * size, box.low + 0.5 * size, box.low + glm::dvec2(0.7, 0.2) * size,
+              box.low + glm::dvec2(0.1, 0.9) * size}) {
+            for (const double side : {3.5, 9.25, 3 * std::max(size.x, size.y)}) {
+                SCOPED_TRACE(fmt::format("{} {} {} {}", pattern, middle.x, middle.y, side));
+                const glm::dvec2 low = middle - glm::dvec2(side / 2 + 0.123, side / 2 - 0.217);
+                const auto view =
+                    View::make(grammar,
+                               ViewWindow{static_cast<Quad>(low.x), static_cast<Quad>(low.y),
+                                          static_cast<Quad>(low.x + side), static_cast<Quad>(low.y + side)},
+                               true);
+                ASSERT_TRUE(view);
+                Sight sight;
+                sight.box.add(glm::dvec2(-6));
+                sight.box.add(glm::dvec2(side + 6));
+                BezierSink seen;
+                SplinePieces pieces(seen, 1e-6);
+                view->read(sight, pieces, 1e7, {});
+                const auto expected = whole.within({0, 0}, side, low);
+                compared += expected.size();
+                EXPECT_TRUE(seen.within({0, 0}, side, {0, 0}) == expected);
+            }
+        }
+        EXPECT_GT(compared, whole.beziers.size());
+    }
+}
+
+TEST(View, WindowsOfOtherAnglesAreWhereTheyShouldBe) {
+    // Koch's curve of order 19 is 3^19 steps wide. The place of a step follows from its number in base 4, in whole
+    // numbers a + b w, w = exp(i pi / 3).
+    const int order = 19;
+    const Grammar grammar = grammar_of(fmt::format(
+        "angle factor: 6\nturn: left\nheading: 0\naxiom: F\nF --> F+F--F+F\nderivation length: {}\n", order));
+    const Quad height = static_cast<Quad>(std::sqrt(0.75L));
+    std::uint64_t number = 88172645463325252U;
+    for (int i = 0; i < 20; ++i) {
+        number ^= number << 13;
+        number ^= number >> 7;
+        number ^= number << 17;
+        std::int64_t a = 0, b = 0;
+        int heading = 0;  // in sixths
+        std::int64_t length = 1;
+        for (int level = 1; level < order; ++level) length *= 3;
+        const auto go = [&](int direction, std::int64_t far) {
+            constexpr std::array<std::array<int, 2>, 6> way = {{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
+            a += way[static_cast<std::size_t>((direction + 6) % 6)][0] * far;
+            b += way[static_cast<std::size_t>((direction + 6) % 6)][1] * far;
+        };
+        for (int level = 0; level < order; ++level) {
+            const auto digit = (number >> (2 * level)) & 3U;
+            constexpr std::array<int, 4> turned = {0, 1, -1, 0};
+            for (std::uint64_t k = 0; k < digit; ++k) go(heading + turned[k], length);
+            heading = (heading + turned[digit] + 6) % 6;
+            length /= 3;
+        }
+        const Quad x = static_cast<Quad>(a) + static_cast<Quad>(b) / 2;
+        const Quad y = static_cast<Quad>(b) * height;
+        const std::int64_t a0 = a;
+        const std::int64_t b0 = b;
+        go(heading, 1);
+        const glm::dvec2 step{static_cast<double>(a - a0) + static_cast<double>(b - b0) / 2,
+                              static_cast<double>(b - b0) * std::sqrt(0.75)};
+
+        const auto view = View::make(grammar, ViewWindow{x - 1, y - 1, x + 1, y + 1});
+        ASSERT_TRUE(view);
+        Sight sight;
+        sight.box.add({0, 0});
+        sight.box.add({2, 2});
+        class Nearest : public BlotSink {
+        public:
+            explicit Nearest(glm::dvec2 end) : end_(end) {}
+            void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
+            void lines(std::span<const glm::dvec2> ends) override {
+                for (const glm::dvec2 end : ends) {
+                    off = std::min(off, std::max(glm::length(at_ - glm::dvec2(1)), glm::length(end - end_)));
+                    at_ = end;
+                }
+            }
+            void curves(std::span<const glm::dvec2>) override {}
+            void change_pen(const Pen&) override {}
+            void end_stroke(bool) override {}
+            void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+            void disc(glm::dvec2, double, const Pen&) override {}
+            std::size_t prepare(const Blot&, const Pen&) override { return 0; }
+            void blot(std::size_t, glm::dvec2) override {}
+            double off = 1e300;
+
+        private:
+            glm::dvec2 end_;
+            glm::dvec2 at_{0.0};
+        } nearest(glm::dvec2(1) + step);
+        view->read(sight, nearest, 1e6, {});
+        // A hundredth of a pixel where the window is ten thousand pixels wide.
+        EXPECT_LT(nearest.off, 2.0 / 10'000 / 100);
+    }
+}
+
 TEST(View, ReadsWindows) {
     const auto window = parse_window("-1152921504606846975, 0.5,-1152921504606846974.25,1152921504606846976");
     ASSERT_TRUE(window);
@@ -223,6 +385,7 @@ Picture picture_of(const Grammar& grammar, int side, double pen, bool look) {
         sight.box.add(box.low - glm::dvec2(width / step + 1));
         sight.box.add(box.high + glm::dvec2(width / step + 1));
         (width < 1 ? sight.blot : sight.chord) = (width < 1 ? 0.5 : width / 4) / step;
+        sight.least = (width < 1 ? 1e-5 / width : width / 256) / step;
         picture.report = view->read(sight, *raster, 1e9, {});
     } else {
         const auto turtle = Turtle::drawing(grammar, *raster, false);

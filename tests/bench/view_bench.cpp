@@ -49,6 +49,7 @@ Sight sight_of(const Print& print) {
     sight.box.add({-1e30, -1e30});
     sight.box.add({1e30, 1e30});
     (width < 1 ? sight.blot : sight.chord) = (width < 1 ? 0.5 : width / 4) / step;
+    sight.least = width < 1 ? 1e-5 / width / step : width / 256 / step;
     return sight;
 }
 
