@@ -1,7 +1,10 @@
 #include "art/draw.h"
 
 #include "art/draw_view.h"
+#include "art/hpgl.h"
 #include "art/image_file.h"
+#include "art/kolam.h"
+#include "art/ornaments.h"
 #include "art/output_file.h"
 #include "art/pdf.h"
 #include "art/picture.h"
@@ -12,11 +15,13 @@
 #include "engine/text.h"
 #include "engine/turtle.h"
 
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -113,16 +118,191 @@ private:
     double width_ = 0.0;
 };
 
-void draw_pixels(const Drawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
-                 const std::filesystem::path& file) {
+bool is_for_plotters(PrintFormat format) {
+    return format == PrintFormat::hpgl || format == PrintFormat::gcode;
+}
+
+/// A drawing with all that is drawn beside it, in the colours of one palette.
+class Composition {
+public:
+    /// Examines the drawing for its dots, if any are to be drawn; makes room for the border, and the step what the
+    /// distance of the dots asks for.
+    Composition(const Grammar& grammar, Print& print, DrawOptions& options) : options_(options) {
+        if (options.border) print.page.margin += border_width(print.page);
+        if (!print.style.dots) return;
+        KolamOptions examined;
+        examined.spline = print.style.line == Line::spline;
+        examined.budget = options.budget;
+        examined.watch = options.watch;
+        examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
+        dots_ = dot_places(examine_kolam(grammar, examined));
+        distance_ = least_distance(dots_);
+        if (options.dot_spacing) {
+            if (!(distance_ > 0)) throw std::runtime_error("--dot-spacing: there are no two dots");
+            options.placement.step = *options.dot_spacing / distance_;
+        }
+        if (dots_.empty() && options.only_dots) {
+            throw std::runtime_error("there is nothing to draw: the lines enclose no dots");
+        }
+    }
+
+    /// Once the print is placed: its palette grows by the colours of what is added.
+    void add_colours(Print& print) {
+        drawn_ = print.style;
+        Style& style = print.style;
+        if (options_.colours_strokes) add_stroke_colours(style);
+        if (print.style.dots) {
+            dot_pen_.colour = static_cast<int>(style.palette.size());
+            style.palette.push_back(style.dots->colour.value_or(style.line_colour({})));
+        }
+        if (options_.border) {
+            border_colour_ = static_cast<int>(style.palette.size());
+            for (const Colour colour : border_colours()) style.palette.push_back(colour);
+            // The border is no part of what the drawing may fill.
+            print.page.margin -= border_width(print.page);
+        }
+    }
+
+    void draw(const Drawing& drawing, const Print& print, PathSink& sink) const {
+        OldColours lines(sink, drawn_);
+        if (options_.colours_strokes) {
+            StrokeColours coloured(sink, drawn_, stroke_colours_);
+            drawing.read(coloured);
+        } else if (!options_.only_dots) {
+            drawing.read(lines);
+        }
+        const double radius = dot_radius(print);
+        for (const glm::dvec2 dot : dots_) sink.disc(dot, radius, dot_pen_);
+        if (options_.border) draw_border(print, border_colour_, sink);
+    }
+
+private:
+    /// Those of the palette that are seen, if they tell lines apart; else a palette that does.
+    void add_stroke_colours(Style& style) {
+        const std::vector<int> slots = style.line_slots();
+        for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
+            if (slots[static_cast<std::size_t>(i)] == i && style.draws(Pen{.colour = i}))
+                stroke_colours_.push_back(i);
+        }
+        if (stroke_colours_.size() > 1) return;
+        for (const Colour colour : default_palette()) {
+            if (colour == style.ground.value_or(Colour{255, 255, 255, 255}) || colour == style.line_colour({}))
+                continue;
+            stroke_colours_.push_back(static_cast<int>(style.palette.size()));
+            style.palette.push_back(colour);
+        }
+    }
+
+    /// In steps.
+    double dot_radius(const Print& print) const {
+        if (!print.style.dots) return 0;
+        const auto& size = print.style.dots->size;
+        if (!size) return distance_ > 0 ? distance_ / 12 : 0.25;
+        return size->value / (size->in_steps ? 1.0 : print.placement.step) / 2;
+    }
+
+    const DrawOptions& options_;
+    std::vector<glm::dvec2> dots_;
+    double distance_ = 0;  ///< between the nearest of them, in steps
+    Style drawn_;          ///< with the palette of the drawing alone
+    Pen dot_pen_;
+    int border_colour_ = 0;
+    std::vector<int> stroke_colours_;
+};
+
+/// True if more is to be drawn than a View shows.
+bool is_composed(const Style& style, const DrawOptions& options) {
+    return style.dots || options.border || options.colours_strokes || options.plot || options.tiles ||
+           is_for_plotters(options.format);
+}
+
+void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
+    const double width = 0.1 / (print.style.stroke.in_steps ? print.placement.step : 1.0) / print.style.stroke.unit;
+    const Pen pen{width, true, *print.travel_colour};
+    for (const PlotTravel& travel : plan.travels()) {
+        sink.begin_stroke(travel.from, pen);
+        sink.lines(std::span(&travel.to, 1));
+        sink.end_stroke(false);
+    }
+}
+
+void draw_plot(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
+               OutputFile& output, DrawReport& report) {
+    PlotPlan plan(print, options.plot.value_or(PlotOptions{}));
+    composition.draw(drawing, print, plan);
+    plan.arrange();
+    report.plot = plan.report();
+    // Outlines are drawn even where lines are not.
+    Print plotted = print;
+    plotted.style.stroked = true;
+    plotted.is_plot = true;
+    if (is_for_plotters(options.format)) {
+        const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, output)
+                                                                : write_gcode(plotted, options.gcode, output);
+        plan.draw(*writer);
+        writer->finish();
+        return;
+    }
+    if (options.shows_travel) {
+        plotted.travel_colour = static_cast<int>(plotted.style.palette.size());
+        plotted.style.palette.push_back({0x88, 0x88, 0x88, 255});
+    }
+    const auto writer = options.format == PrintFormat::svg ? write_svg(plotted, output) : write_pdf(plotted, output);
+    plan.draw(*writer);
+    if (options.shows_travel) draw_travels(plan, plotted, *writer);
+    writer->finish();
+}
+
+/// Draws into whatever a format takes.
+using Content = std::function<void(PathSink& sink)>;
+
+void write(const Content& content, const Print& print, const DrawOptions& options, OutputFile& output,
+           const std::filesystem::path& file) {
+    if (is_vector(options.format)) {
+        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
+        content(*writer);
+        writer->finish();
+        return;
+    }
     const auto raster = make_raster(print);
-    drawing.read(*raster);
+    content(*raster);
     Picture picture(print, options, raster->channels(), output, file);
     raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
         if (options.watch) options.watch(0);
         picture.rows(first_row, rows, pixels);
     });
     picture.close();
+}
+
+/// Each sheet is drawn from the whole word again, and keeps what is seen on it.
+void draw_tiles(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
+                const std::filesystem::path& file, DrawReport& report) {
+    const int mark_colour = static_cast<int>(print.style.palette.size());
+    const bool is_dark = print.style.ground && print.style.ground->red + print.style.ground->green < 256;
+    const std::uint8_t grey = is_dark ? 0xc0 : 0x70;
+    print.style.palette.push_back({grey, grey, grey, 255});
+    const double around = print.style.line_width({}, print.placement.step) / print.placement.step;
+    std::vector<std::unique_ptr<OutputFile>> outputs;
+    for (const Tile& tile : tiles_of(print.page, *options.tiles)) {
+        const Print sheet = tile_print(print, tile, *options.tiles);
+        outputs.push_back(std::make_unique<OutputFile>(tile_file(file, tile)));
+        const glm::dmat3x2& to_page = sheet.placement.to_page;
+        const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
+        Box seen;
+        for (const double x : {0.0, sheet.page.width}) {
+            for (const double y : {0.0, sheet.page.height}) seen.add(back * (glm::dvec2(x, y) - to_page[2]));
+        }
+        seen.low -= around;
+        seen.high += around;
+        const auto content = [&](PathSink& sink) {
+            ClipSink clip(sink, seen);
+            composition.draw(drawing, print, clip);
+            draw_tile_marks(sheet, tile, *options.tiles, mark_colour, sink);
+        };
+        write(content, sheet, options, *outputs.back(), tile_file(file, tile));
+    }
+    for (const auto& output : outputs) output->commit();
+    report.sheets = static_cast<int>(outputs.size());
 }
 
 Grammar resolved(const Grammar& given, const DrawOptions& options) {
@@ -133,6 +313,10 @@ Grammar resolved(const Grammar& given, const DrawOptions& options) {
 }
 
 }  // namespace
+
+bool is_vector(PrintFormat format) {
+    return format == PrintFormat::svg || format == PrintFormat::pdf || is_for_plotters(format);
+}
 
 std::string image_format(PrintFormat format) {
     switch (format) {
@@ -262,22 +446,47 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
     if (extension == ".tif" || extension == ".tiff") return PrintFormat::tiff;
     if (extension == ".jpg" || extension == ".jpeg") return PrintFormat::jpeg;
     if (extension == ".exr") return PrintFormat::exr;
+    if (extension == ".hpgl" || extension == ".plt") return PrintFormat::hpgl;
+    if (extension == ".gcode" || extension == ".nc") return PrintFormat::gcode;
     return std::nullopt;
 }
 
-DrawReport draw(const Grammar& given, Print print, const DrawOptions& options, const std::filesystem::path& file) {
+DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_options,
+                const std::filesystem::path& file) {
+    DrawOptions options = given_options;
     // Once for both roads.
     const Grammar grammar = resolved(given, options);
-    if (auto report = draw_view(grammar, print, options, file)) return *report;
+    if (!is_composed(print.style, options)) {
+        if (auto report = draw_view(grammar, print, options, file)) return *report;
+    } else if (options.window) {
+        throw std::runtime_error(
+            "--window: dots, borders, colours by strand, tiles and plots need the whole drawing");
+    }
+    Composition composition(grammar, print, options);
     Drawing drawing(grammar, print.style, options);
-    OutputFile output(file);
     DrawReport report = drawing.place(print);
-    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
-        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
-        drawing.read(*writer);
-        writer->finish();
+    const bool is_plot = options.plot || is_for_plotters(options.format);
+    if (options.tiles) {
+        if (is_plot) throw std::runtime_error("--tile: a plot is not cut into sheets");
+        if (options.placement.step) {
+            // The page of the whole is as large as the drawing asks for.
+            print.page.width = report.size.x + 2 * print.page.margin;
+            print.page.height = report.size.y + 2 * print.page.margin;
+            report = drawing.place(print);
+        }
+        composition.add_colours(print);
+        draw_tiles(drawing, composition, print, options, file, report);
+        return report;
+    }
+    OutputFile output(file);
+    composition.add_colours(print);
+    if (is_plot) {
+        draw_plot(drawing, composition, print, options, output, report);
     } else {
-        draw_pixels(drawing, print, options, output, file);
+        const auto content = [&](PathSink& sink) { composition.draw(drawing, print, sink); };
+        write(content, print, options, output, file);
+    }
+    if (!is_vector(options.format)) {
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
     }
     output.commit();

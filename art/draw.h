@@ -1,7 +1,10 @@
 // art/draw.h: from a grammar and its style to a finished print in a file.
 #pragma once
 
+#include "art/gcode.h"
+#include "art/plot.h"
 #include "art/print.h"
+#include "art/tiles.h"
 #include "art/view.h"
 #include "engine/grammar.h"
 #include "engine/path.h"
@@ -16,10 +19,13 @@
 
 namespace sikku {
 
-enum class PrintFormat { svg, pdf, png, tiff, jpeg, exr };
+enum class PrintFormat { svg, pdf, png, tiff, jpeg, exr, hpgl, gcode };
 
 /// By the file's extension (any case); nullopt for one that no writer knows.
 std::optional<PrintFormat> print_format(const std::filesystem::path& file);
+
+/// True for SVG, PDF, HP-GL and G-code.
+bool is_vector(PrintFormat format);
 
 /// A raster format by the name that ImageSpec has for it.
 std::string image_format(PrintFormat format);
@@ -27,10 +33,20 @@ std::string image_format(PrintFormat format);
 struct DrawOptions {
     PrintFormat format = PrintFormat::svg;
     PlacementOptions placement;
-    std::optional<ViewWindow> window;  ///< of lines in one pen: what fills the page within its margins
-    int threads = 0;                   ///< for raster formats; 0: all cores
-    int compression = 6;               ///< of PNG: 1, quick and large, to 9
-    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
+    std::optional<ViewWindow> window;   ///< of lines in one pen: what fills the page within its margins
+    bool only_dots = false;             ///< of a kolam: a sheet to practise on
+    std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
+    bool colours_strokes = false;       ///< each stroke in the next colour of the palette
+    bool border = false;                ///< of red earth, within the margins: see draw_border()
+    std::optional<PlotOptions> plot;    ///< lines are arranged for a plotter, as those of HP-GL and G-code always are
+    bool shows_travel = false;          ///< then, the ways of the lifted pen are drawn, too, in a layer of their own
+    GcodeOptions gcode;
+    /// The print is cut into sheets, each a file (tile_file()). The page is then that of the whole; with a step
+    /// given, as large as the drawing within its margins.
+    std::optional<TileOptions> tiles;
+    int threads = 0;        ///< for raster formats; 0: all cores
+    int compression = 6;    ///< of PNG: 1, quick and large, to 9
+    double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
     /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
@@ -43,6 +59,8 @@ struct DrawReport {
     double step = 0.0;                ///< millimetres of one turtle step
     glm::dvec2 size{0.0};             ///< of the drawing with its pen, in millimetres
     bool overflows = false;           ///< it is larger than the page within its margins (a step was given)
+    int sheets = 0;                   ///< of a print that is cut into tiles
+    std::optional<PlotReport> plot;   ///< of an arranged drawing
     std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
     bool leaves_pattern_out = false;  ///< its text is too long for the format
 };

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 namespace sikku {
@@ -17,9 +18,12 @@ struct Print {
     Style style;
     Placement placement;
     double dpi = 300.0;
-    std::string title;    ///< of the pattern, UTF-8
-    std::string pattern;  ///< the text of the pattern file, so that the print can be made again
-    std::string made;     ///< what made it: `sikku 0.1.0, -n 4`
+    std::string title;                 ///< of the pattern, UTF-8
+    std::string pattern;               ///< the text of the pattern file, so that the print can be made again
+    std::string made;                  ///< what made it: `sikku 0.1.0, -n 4`
+    std::optional<int> travel_colour;  ///< index of the colour in which ways of the lifted pen are shown
+    bool is_plot = false;              ///< layers that no pen draws are marked as such
+    std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
 };
 
 /// A part of a sheet, in millimetres from its top left corner.

@@ -100,6 +100,7 @@ public:
         print_.title = options.title;
         print_.pattern = options.pattern;
         print_.made = options.made;
+        print_.animation = options.animation;
         print_.style.ground = options.ground;
         print_.style.stroke = {1.0, false, 1.0};
         print_.style.palette = {options.ink, options.pale_ink};

@@ -43,9 +43,10 @@ struct SheetOptions {
     bool same_scale = false;        ///< steps are equally long: in each row, if rows have headings, else everywhere
     std::string pattern;            ///< text that is kept with the file, so that it can be made again
     std::string made;               ///< what made it
-    int threads = 0;                ///< 0: all cores
-    int compression = 6;            ///< of PNG: 1, quick and large, to 9
-    double budget = 200e6;          ///< most nodes of the derivation of one cell that are visited in one pass
+    std::optional<double> animation;  ///< seconds in which an SVG draws itself
+    int threads = 0;                  ///< 0: all cores
+    int compression = 6;              ///< of PNG: 1, quick and large, to 9
+    double budget = 200e6;            ///< most nodes of the derivation of one cell that are visited in one pass
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };

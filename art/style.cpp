@@ -23,12 +23,6 @@ constexpr std::size_t most_quoted = 40;  // bytes of the file in a message
 constexpr Colour black{0, 0, 0, 255};
 constexpr Colour white{255, 255, 255, 255};
 
-/// Okabe and Ito 2008, Color Universal Design: told apart by the colour-blind as well.
-std::vector<Colour> default_palette() {
-    return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
-            {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
-}
-
 std::string quoted(std::string_view text) {
     if (text.size() <= most_quoted) return fmt::format("'{}'", text);
     std::size_t end = most_quoted;
@@ -112,37 +106,43 @@ bool begins_number(std::string_view text) {
     return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
+/// A width and a colour, in either order and each optional, or `none`.
 class StrokeReader {
 public:
-    StrokeReader(const Key& key, double dpi, Style& style, Diagnostics& diagnostics)
-        : key_(key), dpi_(dpi), style_(style), diagnostics_(diagnostics) {}
+    StrokeReader(const Key& key, double dpi, Diagnostics& diagnostics)
+        : key_(key), dpi_(dpi), diagnostics_(diagnostics) {}
+
+    std::optional<StrokeWidth> width;
+    std::optional<Colour> colour;
+    bool is_none = false;
 
     void read() {
         std::size_t at = 0;
         Span word = next_word(key_.value, at, false);
         if (word.empty()) {
-            diagnostics_.error(key_.name_at, fmt::format("'stroke:' is empty: expected {}", expected));
+            diagnostics_.error(key_.name_at, fmt::format("'{}:' is empty: expected {}", key_.name, expected));
             return;
         }
         if (lower_case(word.view()) == "none") {
             if (const Span second = next_word(key_.value, at, false); !second.empty()) {
-                diagnostics_.error(second, "'stroke: none' stands alone");
+                diagnostics_.error(second, fmt::format("'{}: none' stands alone", key_.name));
             }
-            style_.stroked = false;
+            is_none = true;
             return;
         }
         for (; !word.empty(); word = next_word(key_.value, at, false)) {
             const std::string_view text = word.view();
             if (begins_number(text)) {
-                width(word, at);
+                read_width(word, at);
             } else if (lower_case(text) == "none") {
-                diagnostics_.error(word, "'none' stands alone in 'stroke:'");
+                diagnostics_.error(word, fmt::format("'none' stands alone in '{}:'", key_.name));
             } else if (has_colour_) {
-                diagnostics_.error(word, fmt::format("{} is too much: 'stroke:' is {}", quoted(text), expected));
+                diagnostics_.error(word,
+                                   fmt::format("{} is too much: '{}:' is {}", quoted(text), key_.name, expected));
                 return;
             } else {
                 has_colour_ = true;
-                style_.stroke_colour = read_colour(word, expected, diagnostics_);
+                colour = read_colour(word, expected, diagnostics_);
             }
         }
     }
@@ -151,7 +151,7 @@ private:
     static constexpr std::string_view expected =
         "a width such as 0.4mm or 0.2 step and a colour, either or both, or none";
 
-    void width(const Span& word, std::size_t& at) {
+    void read_width(const Span& word, std::size_t& at) {
         if (has_width_) {
             diagnostics_.error(word, fmt::format("{} is a second width: one is enough", quoted(word.view())));
         }
@@ -182,20 +182,23 @@ private:
         stroke.value = number * stroke.unit;
         if (error != std::errc() || !std::isfinite(stroke.value) || stroke.value >= widest) {
             diagnostics_.error(
-                word, stroke.in_steps ? "a stroke is narrower than 1000 steps" : "a stroke is narrower than 1000 mm");
+                word, fmt::format("a {} is narrower than 1000 {}", what(), stroke.in_steps ? "steps" : "mm"));
             return;
         }
         if (stroke.value == 0.0) {
-            diagnostics_.error(word,
-                               "a stroke of width 0 cannot be seen: expected a width above 0, or 'stroke: none'");
+            diagnostics_.error(
+                word, fmt::format("a {} of width 0 cannot be seen: expected a width above 0, or '{}: none'", what(),
+                                  key_.name));
             return;
         }
         if (stroke.value < 0.0) {
-            diagnostics_.error(word, "a stroke's width is above 0");
+            diagnostics_.error(word, fmt::format("a {}'s width is above 0", what()));
             return;
         }
-        style_.stroke = stroke;
+        width = stroke;
     }
+
+    std::string_view what() const { return key_.name == "dots" ? "dot" : "stroke"; }
 
     static bool is_unit(std::string_view unit) {
         return unit == "mm" || unit == "cm" || unit == "in" || unit == "pt" || unit == "px" || unit == "step" ||
@@ -204,11 +207,24 @@ private:
 
     const Key& key_;
     double dpi_;
-    Style& style_;
     Diagnostics& diagnostics_;
     bool has_width_ = false;
     bool has_colour_ = false;
 };
+
+void read_stroke(const Key& key, double dpi, Style& style, Diagnostics& diagnostics) {
+    StrokeReader reader(key, dpi, diagnostics);
+    reader.read();
+    style.stroked = !reader.is_none;
+    if (reader.width) style.stroke = *reader.width;
+    style.stroke_colour = reader.colour;
+}
+
+void read_dots(const Key& key, double dpi, Style& style, Diagnostics& diagnostics) {
+    StrokeReader reader(key, dpi, diagnostics);
+    reader.read();
+    if (!reader.is_none) style.dots = DotStyle{reader.width, reader.colour};
+}
 
 void read_ground(const Key& key, Style& style, Diagnostics& diagnostics) {
     constexpr std::string_view expected = "a colour or none";
@@ -264,6 +280,12 @@ std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&
 
 }  // namespace
 
+/// Okabe and Ito 2008, Color Universal Design: told apart by the colour-blind as well.
+std::vector<Colour> default_palette() {
+    return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
+            {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
+}
+
 int Style::index(const Pen& pen) const {
     const auto size = static_cast<long long>(palette.size());
     if (size == 0) return 0;
@@ -309,7 +331,7 @@ double Style::disc_radius(double radius, const Pen& pen, double step) const {
 }
 
 std::vector<std::string_view> style_keys() {
-    return {"line", "stroke", "ground", "fill", "palette"};
+    return {"line", "stroke", "ground", "fill", "palette", "dots"};
 }
 
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
@@ -317,7 +339,8 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     style.ground = white;
     style.palette = default_palette();
     if (const Key* key = pattern.find("line")) read_line(*key, style, diagnostics);
-    if (const Key* key = pattern.find("stroke")) StrokeReader(*key, dpi, style, diagnostics).read();
+    if (const Key* key = pattern.find("stroke")) read_stroke(*key, dpi, style, diagnostics);
+    if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
     if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
     if (const Key* key = pattern.find("palette")) {

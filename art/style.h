@@ -1,4 +1,4 @@
-// art/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette.
+// art/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette, dots.
 #pragma once
 
 #include "art/colour.h"
@@ -20,6 +20,12 @@ struct StrokeWidth {
     double unit = 1.0;  ///< what a width of 1 is that the turtle sets: millimetres of the pattern's unit, or 1 step
 };
 
+/// How the dots of a kolam are drawn.
+struct DotStyle {
+    std::optional<StrokeWidth> size;  ///< diameter; absent: a sixth of the way to the nearest dot
+    std::optional<Colour> colour;     ///< absent: of the lines
+};
+
 struct Style {
     Line line = Line::straight;
     StrokeWidth stroke;
@@ -28,6 +34,7 @@ struct Style {
     std::optional<Colour> ground;         ///< absent: transparent
     std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
     std::vector<Colour> palette;          ///< never empty after read_style
+    std::optional<DotStyle> dots;         ///< absent: none are drawn
 
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;
@@ -46,9 +53,13 @@ struct Style {
     double disc_radius(double radius, const Pen& pen, double step) const;
 };
 
+/// Eight colours that are told apart by everyone, black first.
+std::vector<Colour> default_palette();
+
 /// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each
 /// optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
-/// `palette` (a list of colours, separated by blanks or commas; at most 4096).
+/// `palette` (a list of colours, separated by blanks or commas; at most 4096), `dots` (a size and a colour as of
+/// `stroke`, or `none`).
 std::vector<std::string_view> style_keys();
 
 /// Reads and checks them; what is absent keeps its default: straight, 0.4 mm, black on white, and a palette of

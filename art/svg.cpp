@@ -5,6 +5,7 @@
 #include "engine/text.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -110,6 +111,20 @@ private:
     char command_ = 0;
 };
 
+/// Length of a curve, by eight chords.
+double curve_length(const std::array<glm::dvec2, 4>& b) {
+    double length = 0;
+    glm::dvec2 at = b[0];
+    for (int k = 1; k <= 8; ++k) {
+        const double t = k / 8.0;
+        const double u = 1 - t;
+        const glm::dvec2 next = u * u * u * b[0] + 3 * u * u * t * b[1] + 3 * u * t * t * b[2] + t * t * t * b[3];
+        length += glm::length(next - at);
+        at = next;
+    }
+    return length;
+}
+
 struct Layer : VectorLayer {
     std::uint64_t flushed = 0;     ///< bytes of its text that are in the file already
     std::uint64_t path_begin = 0;  ///< where the open path's attribute d began, as position()
@@ -145,6 +160,7 @@ public:
 
     void finish() override {
         end_part();
+        if (print_.animation) write_animation();
         file_.write("</svg>\n");
     }
 
@@ -197,10 +213,25 @@ private:
 
     void write_ground(const std::optional<Colour>& ground, std::string_view box) {
         if (!ground || ground->alpha == 0) return;
+        // AxiDraw's software passes over layers that begin with a percent sign.
         file_.write(
-            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"ground\">\n"
+            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}ground\">\n"
                         "<rect {} fill=\"{}\"{}/>\n</g>\n",
-                        box, hex(*ground), opacity("fill-opacity", *ground)));
+                        print_.is_plot ? "% " : "", box, hex(*ground), opacity("fill-opacity", *ground)));
+    }
+
+    /// Paths know when they begin and how long they are, in millimetres; the pace is told here, when all are known.
+    /// Readers that know no animation show the whole drawing.
+    void write_animation() {
+        file_.write(
+            fmt::format("<style>\n:root {{ --pace: {}s }}\n"
+                        "path[pathLength] {{ animation: draw calc(var(--l) * var(--pace)) linear "
+                        "calc(var(--b) * var(--pace)) backwards }}\n"
+                        "@keyframes draw {{ from {{ stroke-dasharray: 1 2; stroke-dashoffset: 1.001 }} "
+                        "to {{ stroke-dasharray: 1 2; stroke-dashoffset: 0 }} }}\n"
+                        "@media (prefers-reduced-motion: reduce) {{ path[pathLength] {{ animation: none }} }}\n"
+                        "</style>\n",
+                        decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9)));
     }
 
     struct LayerText {
@@ -266,7 +297,8 @@ private:
     Layer& stroke_layer() override {
         // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
         Layer& layer = open_layer({LayerKind::strokes, slot_}, [&] {
-            return LayerText{fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
+            return LayerText{slot_ == print_.travel_colour ? std::string("% travel")
+                                                           : fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
                              fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
                                          "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
                                          hex(colour_), opacity("opacity", colour_), width_)};
@@ -276,8 +308,9 @@ private:
     }
 
     void write_start() override {
-        if (layer_->path_open && (layer_->strokes < single_strokes || layer_->path_width != width_ ||
-                                  layer_->position() - layer_->path_begin > shared_path_bytes)) {
+        if (layer_->path_open &&
+            (print_.animation || layer_->strokes < single_strokes || layer_->path_width != width_ ||
+             layer_->position() - layer_->path_begin > shared_path_bytes)) {
             end_path(*layer_);
         }
         if (layer_->path_open) {
@@ -299,6 +332,7 @@ private:
             layer_->text.filled_to(out);
         }
         piece_start_ = here_;
+        piece_length_ = 0;
         data_ = PathData(here_);
     }
 
@@ -308,6 +342,7 @@ private:
         PathData path = data_;
         const MicrometrePlacement place = place_;
         for (const glm::dvec2 point : ends) path.line(out, place(point));
+        if (print_.animation) add_lines(ends);
         data_ = path;
         here_ = path.here();
         layer_->text.filled_to(out);
@@ -320,6 +355,7 @@ private:
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
             path.curve(out, place(controls[i]), place(controls[i + 1]), place(controls[i + 2]));
         }
+        if (print_.animation) add_curves(controls);
         data_ = path;
         here_ = path.here();
         layer_->text.filled_to(out);
@@ -342,11 +378,39 @@ private:
         if (closed) layer_->text.append("z");
         layer_->at = closed ? piece_start_ : here_;
         ++layer_->strokes;
+        if (print_.animation && layer_->path_open) {
+            if (closed) piece_length_ += glm::length(millimetres(piece_start_) - millimetres(here_));
+            layer_->text.append(fmt::format("\" pathLength=\"1\" style=\"--b:{};--l:{}\"/>\n",
+                                            decimal(drawn_length_, 3), decimal(piece_length_, 3)));
+            layer_->path_open = false;
+            drawn_length_ += piece_length_;
+        }
     }
 
     static void end_path(Layer& layer) {
         if (layer.path_open) layer.text.append("\"/>\n");
         layer.path_open = false;
+    }
+
+    static glm::dvec2 millimetres(Micrometres point) { return glm::dvec2(point.x, point.y) / 1000.0; }
+
+    void add_lines(std::span<const glm::dvec2> ends) {
+        glm::dvec2 at = millimetres(here_);
+        for (const glm::dvec2 end : ends) {
+            const glm::dvec2 next = millimetres(place_(end));
+            piece_length_ += glm::length(next - at);
+            at = next;
+        }
+    }
+    void add_curves(std::span<const glm::dvec2> controls) {
+        glm::dvec2 at = millimetres(here_);
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const std::array<glm::dvec2, 4> bezier = {at, millimetres(place_(controls[i])),
+                                                      millimetres(place_(controls[i + 1])),
+                                                      millimetres(place_(controls[i + 2]))};
+            piece_length_ += curve_length(bezier);
+            at = bezier[3];
+        }
     }
 
     void flush(Layer& layer) {
@@ -360,6 +424,8 @@ private:
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
     int parts_ = 0;
+    double piece_length_ = 0.0;  ///< of an animated print, in millimetres
+    double drawn_length_ = 0.0;  ///< of all its pieces so far
     Micrometres piece_start_;
     PathData data_{Micrometres{}};
 };

@@ -1,10 +1,12 @@
 // cli/draw.cpp: `sikku draw`: a print.
 #include "cli/draw.h"
 
+#include "art/sheet.h"
 #include "engine/forecast.h"
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
@@ -21,20 +23,23 @@ double length(const char* option, const std::string& text, double dpi) {
     return *value;
 }
 
-Page page_of(const DrawSettings& options) {
-    const auto size = parse_size(options.size, options.dpi);
+Page sheet_of(const char* option, const std::string& text, double dpi) {
+    const auto size = parse_size(text, dpi);
     if (!size) {
-        throw UsageError(
-            fmt::format("--size {}: expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as "
-                        "300x300mm",
-                        options.size));
+        throw UsageError(fmt::format(
+            "{} {}: expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm", option, text));
     }
-    Page page{size->x, size->y, length("--margin", options.margin, options.dpi)};
-    if (options.landscape && page.height > page.width) std::swap(page.width, page.height);
     constexpr double most = 10'000;  // millimetres: wider than any press or plotter
-    if (!(page.width >= 1 && page.height >= 1 && page.width <= most && page.height <= most)) {
-        throw UsageError(fmt::format("--size {}: a page is between 1 mm and 10 m wide and high", options.size));
+    if (!(size->x >= 1 && size->y >= 1 && size->x <= most && size->y <= most)) {
+        throw UsageError(fmt::format("{} {}: a page is between 1 mm and 10 m wide and high", option, text));
     }
+    return {size->x, size->y, 10.0};
+}
+
+Page page_of(const DrawSettings& options) {
+    Page page = sheet_of("--size", options.size, options.dpi);
+    page.margin = length("--margin", options.margin, options.dpi);
+    if (options.landscape && page.height > page.width) std::swap(page.width, page.height);
     if (page.margin < 0) throw UsageError(fmt::format("--margin {}: a margin is 0 or more", options.margin));
     if (!(2 * page.margin < std::min(page.width, page.height))) {
         throw UsageError(fmt::format("--margin {}: the margins leave nothing of a page of {:g} x {:g} mm",
@@ -51,6 +56,109 @@ std::string made_with(const DrawSettings& options, const Grammar& grammar) {
     return text;
 }
 
+/// What is wrong with an option is a mistake of the caller.
+template <typename Check>
+void as_usage(const Check& check) {
+    try {
+        check();
+    } catch (const std::runtime_error& error) {
+        throw UsageError(error.what());
+    }
+}
+
+/// As `dots:` of the pattern would be.
+void apply_dots(DrawSettings& options) {
+    if (!options.dots && !options.dot_spacing) return;
+    const std::string text = options.dots.value_or("");
+    // A dot in the colour of the lines, and as large as it seems fit, has no words in the language.
+    if (!text.empty() && text != "only") options.pattern.more.push_back({"--dots", "dots", text});
+}
+
+void plan_plot(const DrawSettings& options, PrintFormat format, DrawOptions& drawing) {
+    const bool is_plot = options.plotter || format == PrintFormat::hpgl || format == PrintFormat::gcode;
+    if (options.plotter && !is_vector(format))
+        throw UsageError("--plotter: a plot is .svg, .pdf, .hpgl, .plt, .gcode or .nc");
+    if (options.travel && (!is_plot || (format != PrintFormat::svg && format != PrintFormat::pdf))) {
+        throw UsageError("--travel: goes with --plotter, and .svg or .pdf");
+    }
+    if (!options.split.empty() && !is_plot) throw UsageError("--split: goes with --plotter");
+    if (!is_plot) return;
+    as_usage([&] { plot_seconds({}, options.speeds); });
+    drawing.plot.emplace();
+    if (!options.split.empty()) {
+        drawing.plot->split = length("--split", options.split, options.dpi);
+        if (!(drawing.plot->split > 0)) throw UsageError(fmt::format("--split {}: a length above 0", options.split));
+    }
+    drawing.shows_travel = options.travel;
+    const auto profile = gcode_profile(options.profile);
+    if (!profile) throw UsageError(fmt::format("--profile {}: expected grbl or z", options.profile));
+    drawing.gcode = *profile;
+    drawing.gcode.drawing_feed = 60 * options.speeds.drawing;
+    drawing.gcode.travel_feed = 60 * options.speeds.travelling;
+    if (options.gcode_start) drawing.gcode.start = *options.gcode_start;
+    if (options.gcode_end) drawing.gcode.end = *options.gcode_end;
+}
+
+std::string time_text(double seconds) {
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+void tell_plot(const PlotReport& plot, const PlotSpeeds& speeds, const Telling& telling) {
+    const auto told = [&](const PlotTally& tally) {
+        return fmt::format("{:.2f} m drawn, {:.2f} m travelled, {}, about {}", tally.drawn / 1000,
+                           tally.travelled / 1000, counted(tally.lifts, "lift"),
+                           time_text(plot_seconds(tally, speeds)));
+    };
+    telling.say("before: {}\nplot:   {}\n", told(plot.before), told(plot.after));
+    if (plot.duplicates > 0) telling.say("{} drawn twice\n", counted(plot.duplicates, "segment"));
+}
+
+/// Derivation lengths side by side, as the books show them.
+void draw_generations(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
+                      const LoadedPattern& loaded, const Telling& telling) {
+    const std::size_t colon = options.generations.find(':');
+    const auto whole = [&](std::string_view text) -> std::int64_t {
+        std::int64_t value = -1;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || value < 0) {
+            throw UsageError(
+                fmt::format("--generations {}: expected two derivation lengths such as 0:4", options.generations));
+        }
+        return value;
+    };
+    const std::string_view text = options.generations;
+    const std::int64_t first = whole(text.substr(0, colon));
+    const std::int64_t last = colon == std::string::npos ? first : whole(text.substr(colon + 1));
+    if (last < first || last - first >= 100) {
+        throw UsageError(
+            fmt::format("--generations {}: up to 100 derivation lengths, the lower one first", options.generations));
+    }
+    SheetCell cell;
+    cell.grammar = std::make_shared<const Grammar>(loaded.grammar);
+    cell.style = print.style;
+    cell.placement.rotate = options.rotate;
+    cell.placement.mirror = options.mirror;
+    cell.title = print.title;
+    SheetOptions sheet;
+    sheet.format = drawing.format;
+    sheet.page = print.page;
+    sheet.dpi = print.dpi;
+    sheet.title = print.title;
+    sheet.animation = print.animation;
+    sheet.columns = static_cast<int>(last - first + 1);
+    sheet.pattern = print.pattern;
+    sheet.made = print.made;
+    sheet.threads = drawing.threads;
+    sheet.compression = drawing.compression;
+    sheet.budget = drawing.budget;
+    Progress progress(0, telling.quiet);
+    sheet.watch = telling.watch ? telling.watch : progress.watch();
+    draw_sheet(generations(cell, first, last), sheet, options.output);
+}
+
 }  // namespace
 
 PlannedPrint plan_print(const DrawSettings& options) {
@@ -61,8 +169,9 @@ PlannedPrint plan_print(const DrawSettings& options) {
             throw UsageError(fmt::format("-o {}: this is a folder; a print is a file such as {}", options.output,
                                          (std::filesystem::path(options.output) / "print.svg").string()));
         }
-        throw UsageError(
-            fmt::format("-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg or .exr", options.output));
+        throw UsageError(fmt::format(
+            "-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg, .exr, .hpgl, .plt, .gcode or .nc",
+            options.output));
     }
     if (!(options.dpi >= 1 && options.dpi <= 10'000)) throw UsageError("--dpi: between 1 and 10000");
     if (!std::isfinite(options.rotate)) throw UsageError("--rotate: expected degrees");
@@ -71,7 +180,7 @@ PlannedPrint plan_print(const DrawSettings& options) {
     DrawOptions& drawing = planned.drawing;
     print.page = page_of(options);
     print.dpi = options.dpi;
-    const bool pixels = *format != PrintFormat::svg && *format != PrintFormat::pdf;
+    const bool pixels = !is_vector(*format);
     if (pixels && std::max(print.page.width, print.page.height) * options.dpi / 25.4 > 200'000) {
         throw UsageError(
             "the picture would be over 200,000 pixels wide or high: a smaller --size or --dpi is needed");
@@ -97,18 +206,60 @@ PlannedPrint plan_print(const DrawSettings& options) {
     drawing.threads = options.threads;
     drawing.budget = options.budget;
     drawing.compression = options.compression;
+    drawing.only_dots = options.dots == "only";
+    if (options.dot_spacing) {
+        drawing.dot_spacing = length("--dot-spacing", *options.dot_spacing, options.dpi);
+        if (!(*drawing.dot_spacing > 0 && *drawing.dot_spacing <= 10'000)) {
+            throw UsageError(fmt::format("--dot-spacing {}: above 0, and at most 10 m", *options.dot_spacing));
+        }
+        if (options.step) throw UsageError("--dot-spacing: says how long a step is; --step does, too");
+    }
+    if (!options.border.empty() && options.border != "kaavi") {
+        throw UsageError(fmt::format("--border {}: expected kaavi", options.border));
+    }
+    drawing.border = !options.border.empty();
+    if (!options.colour_by.empty() && options.colour_by != "strand") {
+        throw UsageError(fmt::format("--colour-by {}: expected strand", options.colour_by));
+    }
+    drawing.colours_strokes = !options.colour_by.empty();
+    if (options.animate) {
+        if (*format != PrintFormat::svg) throw UsageError("--animate: a print that draws itself is .svg");
+        double seconds = 20;
+        const std::string& text = *options.animate;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+        if ((!text.empty() && (error != std::errc() || end != text.data() + text.size())) ||
+            !(seconds > 0 && seconds <= 86'400)) {
+            throw UsageError(fmt::format("--animate {}: seconds, above 0 and at most a day", text));
+        }
+        print.animation = seconds;
+    }
+    if (options.tile) {
+        TileOptions tiles;
+        tiles.sheet = sheet_of("--tile", *options.tile, options.dpi);
+        tiles.overlap = length("--overlap", options.overlap, options.dpi);
+        drawing.tiles = tiles;
+        as_usage([&] { tiles_of(print.page, tiles); });
+        if (drawing.format == PrintFormat::hpgl || drawing.format == PrintFormat::gcode || options.plotter) {
+            throw UsageError("--tile: a plot is not cut into sheets");
+        }
+    }
+    plan_plot(options, *format, drawing);
     return planned;
 }
 
-void draw_print(const DrawSettings& options, const Telling& telling) {
+void draw_print(const DrawSettings& given, const Telling& telling) {
+    DrawSettings options = given;
     auto [print, drawing] = plan_print(options);
+    apply_dots(options);
     LoadedPattern loaded = load(options.pattern, telling);
     Diagnostics diagnostics;
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
     diagnostics.throw_if_errors();
+    if ((options.dots || options.dot_spacing) && !print.style.dots) print.style.dots.emplace();
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
+    if (!options.generations.empty()) return draw_generations(options, print, drawing, loaded, telling);
     // Contexts are resolved before it is known how much there is to draw.
     std::optional<Progress> progress;
     if (telling.watch) {
@@ -129,7 +280,9 @@ void draw_print(const DrawSettings& options, const Telling& telling) {
             "show` cannot give it back\n",
             options.output);
     }
-    if (report.overflows) {
+    if (report.plot) tell_plot(*report.plot, options.speeds, telling);
+    if (report.sheets > 1) telling.say("{}\n", counted(report.sheets, "sheet"));
+    if (report.overflows && report.sheets == 0) {
         telling.say(
             "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "
             "outside is cut off\n",
@@ -138,8 +291,10 @@ void draw_print(const DrawSettings& options, const Telling& telling) {
 }
 
 void add_draw(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG or EXR");
+    auto* command = app.add_subcommand("draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code");
     auto options = std::make_shared<DrawSettings>();
+    constexpr const char* kolams = "Kolams";
+    constexpr const char* plotters = "Plotters";
     add_pattern_options(*command, options->pattern);
     command->add_option("-o,--output", options->output, "The file; its extension says which kind")->required();
     command
@@ -158,6 +313,53 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->excludes(fit);
     command->add_option("--rotate", options->rotate, "Degrees anticlockwise")->capture_default_str();
     command->add_flag("--mirror", options->mirror, "Left and right exchanged, before --rotate");
+    command
+        ->add_option("--dots", options->dots,
+                     "Draw a kolam's dots: in a size and colour (0.2 step white, 2mm), or only them, to "
+                     "practise on (only)")
+        ->expected(0, 1)
+        ->type_name("[SIZE COLOUR|only]")
+        ->group(kolams);
+    command->add_option("--dot-spacing", options->dot_spacing, "Length between two dots on paper, instead of --fit")
+        ->excludes(fit)
+        ->group(kolams);
+    command->add_option("--border", options->border, "kaavi: a frame of red earth lines")->group(kolams);
+    command->add_option("--colour-by", options->colour_by, "strand: each line in a colour of its own")->group(kolams);
+    command->add_option("--generations", options->generations, "Derivation lengths A to B, side by side")
+        ->type_name("A:B")
+        ->group(kolams);
+    command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
+        ->expected(0, 1)
+        ->type_name("[SECONDS]")
+        ->group(kolams);
+    command
+        ->add_option("--tile", options->tile,
+                     "Cut the print into sheets of this size, each a file, to be glued together")
+        ->type_name("SIZE")
+        ->group(kolams);
+    command->add_option("--overlap", options->overlap, "Of these sheets")->capture_default_str()->group(kolams);
+    command
+        ->add_flag("--plotter", options->plotter,
+                   "Nothing twice, few lifts of the pen, short ways between; HP-GL and G-code always are so")
+        ->group(plotters);
+    command->add_option("--split", options->split, "Length of the longest stroke, for controllers that stutter")
+        ->group(plotters);
+    command->add_flag("--travel", options->travel, "Show the ways of the lifted pen in a layer of their own")
+        ->group(plotters);
+    command->add_option("--pen-speed", options->speeds.drawing, "Drawing, mm a second; for the estimate and G-code")
+        ->capture_default_str()
+        ->group(plotters);
+    command->add_option("--travel-speed", options->speeds.travelling, "Lifted, mm a second")
+        ->capture_default_str()
+        ->group(plotters);
+    command->add_option("--lift-time", options->speeds.lift, "Seconds for lifting and lowering the pen")
+        ->capture_default_str()
+        ->group(plotters);
+    command->add_option("--profile", options->profile, "Of G-code: grbl (M3 and M5 move the pen) or z")
+        ->capture_default_str()
+        ->group(plotters);
+    command->add_option("--gcode-start", options->gcode_start, "Lines before the first stroke")->group(plotters);
+    command->add_option("--gcode-end", options->gcode_end, "Lines after the last")->group(plotters);
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
         ->capture_default_str();
     command->add_option("--compression", options->compression, "Of PNG: 1, quick and large, to 9")
@@ -173,6 +375,8 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
         "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
+        "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
+        "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { draw_print(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });
 }

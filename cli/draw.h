@@ -22,9 +22,24 @@ struct DrawSettings {
     double rotate = 0.0;                ///< degrees anticlockwise
     bool mirror = false;
     double dpi = 300.0;
-    double budget = 200e6;  ///< most nodes of the derivation
-    int compression = 6;    ///< of PNG, 1 to 9
-    int threads = 0;        ///< for pictures; 0: one for each core
+    double budget = 200e6;                   ///< most nodes of the derivation
+    int compression = 6;                     ///< of PNG, 1 to 9
+    int threads = 0;                         ///< for pictures; 0: one for each core
+    std::optional<std::string> dots;         ///< of a kolam: empty, `only`, or a size and a colour
+    std::optional<std::string> dot_spacing;  ///< length between the nearest
+    std::string border;                      ///< `kaavi`
+    std::string colour_by;                   ///< `strand`
+    std::string generations;                 ///< derivation lengths A:B, side by side
+    std::optional<std::string> animate;      ///< seconds; empty: 20
+    std::optional<std::string> tile;         ///< size of the sheets that the print is cut into
+    std::string overlap = "10mm";
+    bool plotter = false;
+    std::string split;    ///< length of the longest stroke
+    bool travel = false;  ///< show the ways of the lifted pen
+    PlotSpeeds speeds;    ///< for the estimate, and of G-code
+    std::string profile = "grbl";
+    std::optional<std::string> gcode_start;
+    std::optional<std::string> gcode_end;
 };
 
 /// What of a print is known before its pattern is read.

@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.get_formatter()->column_width(34);
     add_draw(app, quiet);
+    add_kolam(app, quiet);
     add_play(app, quiet);
     add_gallery(app, quiet);
     add_derive(app, quiet);

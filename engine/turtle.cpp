@@ -103,8 +103,12 @@ template <class Walker, bool Surveying>
 class WalkingTurtle final : public Turtle {
 public:
     WalkingTurtle(std::unique_ptr<Lattice> lattice, Walker walker, const Grammar& grammar, PathSink* sink,
-                  bool moves_draw)
-        : lattice_(std::move(lattice)), walker_(std::move(walker)), sink_(sink), moves_draw_(moves_draw) {
+                  PlaceSink* places, bool moves_draw)
+        : lattice_(std::move(lattice)),
+          walker_(std::move(walker)),
+          sink_(sink),
+          places_(places),
+          moves_draw_(moves_draw) {
         for (const SymbolInfo& symbol : grammar.symbols()) {
             commands_.push_back({symbol.command.action, symbol.command.value,
                                  std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees)});
@@ -205,6 +209,7 @@ private:
                 lower();
                 walker_.step(state_.place, symbol);
                 points_.push_back(walker_.point(state_.place));
+                if (places_) note_place();
                 if (points_.size() == points_in_block) flush();
             } else {
                 lift();
@@ -304,7 +309,12 @@ private:
             down_ = true;
             pen_ = state_.pen;
             start_ = state_.place;
+            if (places_) {
+                note_place();
+                places_->places(coordinates_);
+            }
             sink_->begin_stroke(walker_.point(state_.place), pen_);
+            coordinates_.clear();
         } else if (pen_ != state_.pen) {
             flush();
             pen_ = state_.pen;
@@ -321,13 +331,22 @@ private:
 
     void flush() {
         if (points_.empty()) return;
+        if (places_) places_->places(coordinates_);
         sink_->lines(points_);
         points_.clear();
+        coordinates_.clear();
+    }
+
+    void note_place() {
+        if constexpr (requires { state_.place.at.begin(); }) {
+            coordinates_.insert(coordinates_.end(), state_.place.at.begin(), state_.place.at.end());
+        }
     }
 
     std::unique_ptr<Lattice> lattice_;
     Walker walker_;
     PathSink* sink_;
+    PlaceSink* places_;
     bool moves_draw_;
     std::vector<Instruction> commands_;
     State state_;
@@ -338,16 +357,17 @@ private:
     Pen pen_;
     Place start_;
     std::vector<glm::dvec2> points_;
+    std::vector<std::int64_t> coordinates_;  // of points_
     Survey survey_;
 };
 
 template <bool Surveying>
-std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, bool moves_draw) {
+std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, PlaceSink* places, bool moves_draw) {
     auto lattice = std::make_unique<Lattice>(make_lattice(grammar));
     const Lattice& fixed = *lattice;
     const auto make = [&]<class Walker>(Walker walker) -> std::unique_ptr<Turtle> {
         return std::make_unique<WalkingTurtle<Walker, Surveying>>(std::move(lattice), std::move(walker), grammar,
-                                                                  sink, moves_draw);
+                                                                  sink, places, moves_draw);
     };
     switch (fixed.rank) {
         case 2:
@@ -366,10 +386,13 @@ std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, bool
 }  // namespace
 
 std::unique_ptr<Turtle> Turtle::drawing(const Grammar& grammar, PathSink& sink, bool moves_draw) {
-    return make_turtle<false>(grammar, &sink, moves_draw);
+    return make_turtle<false>(grammar, &sink, nullptr, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places, bool moves_draw) {
+    return make_turtle<false>(grammar, &sink, &places, moves_draw);
 }
 std::unique_ptr<Turtle> Turtle::surveying(const Grammar& grammar) {
-    return make_turtle<true>(grammar, nullptr, false);
+    return make_turtle<true>(grammar, nullptr, nullptr, false);
 }
 
 }  // namespace sikku

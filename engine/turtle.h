@@ -4,8 +4,10 @@
 #include "engine/derivation.h"
 #include "engine/path.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace sikku {
 
@@ -28,6 +30,15 @@ struct Survey {
     std::int64_t depth = 0;  ///< deepest nesting of brackets
 };
 
+/// Receives where a turtle draws, in whole coordinates of its grammar's lattice.
+class PlaceSink {
+public:
+    virtual ~PlaceSink() = default;
+    /// Lattice::rank coordinates for each point that the PathSink is told next, by begin_stroke or by lines; empty
+    /// if that is 0. The span lives until the PathSink was told.
+    virtual void places(std::span<const std::int64_t> coordinates) = 0;
+};
+
 /// A turtle in the plane. Symbols of the third dimension are passed over.
 /// Unbalanced brackets or braces in the word, steps that are not finite, and nesting over 2^20 are a WordError that
 /// names the symbol's position.
@@ -37,6 +48,9 @@ public:
     /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a
     /// control point of a spline. Then brackets lift the pen, and only they.
     static std::unique_ptr<Turtle> drawing(const Grammar& grammar, PathSink& sink, bool moves_draw);
+    /// The same, and tells `places` each point in exact coordinates, too.
+    static std::unique_ptr<Turtle> tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places,
+                                           bool moves_draw);
     /// Draws nothing and looks at everything.
     static std::unique_ptr<Turtle> surveying(const Grammar& grammar);
 

@@ -1,0 +1,76 @@
+// art/ornaments.h: what is drawn around and beside a pattern's own lines: the dots of a kolam, a border.
+#pragma once
+
+#include "art/print.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Hands a drawing on in colours of a palette that has grown: indices are brought below its old size first.
+class OldColours : public PathSink {
+public:
+    OldColours(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, old(pen)); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(old(pen)); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
+
+private:
+    Pen old(Pen pen) const {
+        pen.colour = style_.index(pen);
+        return pen;
+    }
+    PathSink& sink_;
+    Style style_;
+};
+
+/// Draws each stroke that is seen in the next of some colours, which are indices of the palette.
+class StrokeColours : public PathSink {
+public:
+    StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours)
+        : sink_(sink), style_(style), colours_(std::move(colours)) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        if (style_.draws(pen)) ++stroke_;
+        sink_.begin_stroke(start, coloured(pen));
+    }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(coloured(pen)); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+
+private:
+    Pen coloured(Pen pen) const {
+        pen.colour = style_.draws(pen) ? colours_[stroke_ % colours_.size()] : style_.index(pen);
+        return pen;
+    }
+    PathSink& sink_;
+    const Style& style_;
+    std::vector<int> colours_;
+    std::size_t stroke_ = SIZE_MAX;
+};
+
+/// The shortest way between two of them; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
+double least_distance(std::span<const glm::dvec2> dots);
+
+/// How far the border reaches inwards from the margin, in millimetres: a 24th of the page's shorter side.
+double border_width(const Page& page);
+/// The colours of draw_border(): rice flour and red earth (*kaavi*).
+std::vector<Colour> border_colours();
+/// A frame within the page's margins, border_width() wide: a line of red earth between thin ones of rice flour,
+/// closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
+/// the palette of `print`, which is placed.
+void draw_border(const Print& print, int colour, PathSink& sink);
+
+}  // namespace sikku

@@ -1,0 +1,224 @@
+// cli/kolam_grid.cpp: `sikku kolam --grid`.
+#include "cli/kolam_grid.h"
+
+#include "art/dot_grid_enumeration.h"
+#include "art/dot_grid_pattern.h"
+#include "art/output_file.h"
+#include "engine/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+/// What goes wrong with the value of an option is the caller's mistake.
+template <typename Work>
+auto of_option(const char* option, Work&& work) {
+    try {
+        return work();
+    } catch (const UsageError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw UsageError(fmt::format("{}: {}", option, error.what()));
+    }
+}
+
+void write(const std::string& output, const std::string& text) {
+    if (output.empty()) {
+        fmt::print("{}", text);
+        return;
+    }
+    OutputFile file(output);
+    file.write(text);
+    file.commit();
+}
+
+void stop_if_interrupted() {
+    if (interrupted()) throw Interrupted();
+}
+
+/// A kolam and how it came about.
+struct MadeKolam {
+    Crossings crossings;
+    std::size_t changed = 0;
+    int attempt = 1;
+};
+
+MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid, const RandomKolam& random) {
+    if (options.crossings) {
+        MadeKolam made;
+        made.crossings = of_option("--crossings", [&] {
+            const std::string& text = *options.crossings;
+            return parse_crossings(grid, text.starts_with('@') ? read_pattern_text(text.substr(1)).text : text);
+        });
+        if (options.single_line) made.changed = make_single_line(grid, made.crossings, options.seed);
+        return made;
+    }
+    if (!options.single_line) return {random_crossings(grid, random)};
+    if (const auto obstacle = single_line_obstacle(grid, random.symmetry)) throw std::runtime_error(*obstacle);
+    auto found = find_single_line(grid, random, options.attempts, stop_if_interrupted);
+    if (!found) {
+        throw std::runtime_error(fmt::format(
+            "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
+            "--attempts; on a small grid --enumerate tells whether there is one",
+            grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
+    }
+    return {std::move(found->crossings), found->changed, found->attempt};
+}
+
+/// The second count, where it takes seconds at most.
+std::optional<std::size_t> second_count(const DotGrid& grid, const Crossings& crossings) {
+    const std::size_t longest = *std::max_element(grid.rows().begin(), grid.rows().end());
+    const double width = static_cast<double>(std::min(grid.rows().size(), longest));
+    if (static_cast<double>(grid.dots().size()) * width * width > 1e12) return std::nullopt;
+    return laplacian_nullity(grid, crossings);
+}
+
+void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry,
+                  const Telling& telling) {
+    if (options.as_json && options.output.empty()) {
+        throw UsageError("--json: standard output is the pattern's; give its file with -o");
+    }
+    const RandomKolam random{options.seed, options.density.value_or(RandomKolam().density), symmetry};
+    const MadeKolam made = make_kolam(options, grid, random);
+    const std::string name = printable(grid.text(), 80);
+    const auto crossed = std::count(made.crossings.begin(), made.crossings.end(), 1);
+    const std::size_t lines = count_lines(grid, made.crossings);
+    const auto nullity = second_count(grid, made.crossings);
+    if (nullity && *nullity != lines) {
+        throw std::logic_error(fmt::format("{} by following them, but {} by the Laplacian", lines, *nullity));
+    }
+
+    KolamPatternOptions pattern;
+    pattern.title = fmt::format("Kolam on {} dots", name);
+    pattern.description = fmt::format("{}, {} of {} gaps crossed, {}", counted(grid.dots().size(), "dot"), crossed,
+                                      grid.gaps().size(), counted(lines, "line"));
+    if (!options.crossings) {
+        pattern.description += fmt::format("; seed {}, density {}", random.seed, random.density);
+        if (symmetry != GridSymmetry::none) {
+            pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(symmetry));
+        }
+    }
+    pattern.coloured = options.colours;
+    pattern.dot_symbols = options.dots;
+    write(options.output, kolam_pattern(grid, made.crossings, pattern).text);
+
+    if (options.as_json) {
+        fmt::print(
+            "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"lines\": {}, \"laplacian_nullity\": {}, "
+            "\"changed\": {}, \"attempt\": {}, \"crossings\": {}}}\n",
+            json_string(grid.text()), grid.dots().size(), grid.gaps().size(), crossed, lines,
+            nullity ? fmt::format("{}", *nullity) : "null", made.changed, made.attempt,
+            json_string(crossings_text(grid, made.crossings)));
+    } else {
+        std::string note;
+        if (options.single_line) note += fmt::format("; {} changed for it", counted(made.changed, "gap"));
+        if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
+        telling.say("sikku: {}: {}{}\n", name, pattern.description, note);
+    }
+}
+
+void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry) {
+    EnumerationOptions enumeration;
+    enumeration.symmetry = symmetry;
+    enumeration.keep = options.limit;
+    enumeration.threads = options.threads;
+    enumeration.watch = stop_if_interrupted;
+    const Enumeration found = of_option("--enumerate", [&] { return enumerate_single_lines(grid, enumeration); });
+    std::string text;
+    if (options.as_json) {
+        std::string kolams;
+        for (const Crossings& kolam : found.kolams) {
+            kolams += (kolams.empty() ? "" : ", ") + json_string(crossings_text(grid, kolam));
+        }
+        text = fmt::format(
+            "{{\"grid\": {}, \"symmetry\": {}, \"dots\": {}, \"gaps\": {}, \"choices\": {}, \"states\": {}, "
+            "\"single_line\": {}, \"distinct\": {}, \"kolams\": [{}]}}\n",
+            json_string(grid.text()), json_string(grid_symmetry_name(symmetry)), grid.dots().size(),
+            grid.gaps().size(), found.choices, found.states, found.single_line, found.distinct, kolams);
+    } else {
+        text = fmt::format("{}{}: {} states, {} of a single line, {} of them distinct\n", printable(grid.text(), 80),
+                           symmetry == GridSymmetry::none
+                               ? std::string()
+                               : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry)),
+                           found.states, found.single_line, found.distinct);
+        for (const Crossings& kolam : found.kolams) text += crossings_text(grid, kolam) + '\n';
+        if (found.kolams.size() < found.distinct && options.limit > 0) {
+            text += fmt::format("and {} more (--limit)\n", found.distinct - found.kolams.size());
+        }
+    }
+    write(options.output, text);
+}
+
+}  // namespace
+
+void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
+    auto* grid = command.add_option(
+        "--grid", options.grid, "Make a kolam on dots: ROWSxCOLUMNS, as 7x7, or the dots of each row, as 1-3-5-3-1");
+    command.add_option("--seed", options.seed, "Another kolam for each number")->needs(grid)->capture_default_str();
+    auto* symmetry = command
+                         .add_option("--symmetry", options.symmetry,
+                                     "none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), mirror-y "
+                                     "(top and bottom), mirrors (both) or D4 (all)")
+                         ->needs(grid)
+                         ->capture_default_str();
+    auto* density =
+        command
+            .add_option("--density", options.density, "Of the gaps between dots that lines cross in (default 0.7)")
+            ->needs(grid);
+    auto* crossings = command
+                          .add_option("--crossings", options.crossings,
+                                      "all, none, or 0 or 1 for each gap: for each row from the top those within it, "
+                                      "then those to the next row; @FILE reads them")
+                          ->needs(grid)
+                          ->excludes(symmetry)
+                          ->excludes(density);
+    auto* single = command
+                       .add_flag("--single-line", options.single_line,
+                                 "One line; without a symmetry, changing the fewest gaps that can do it")
+                       ->needs(grid);
+    command.add_option("--attempts", options.attempts, "At a single line with a symmetry")
+        ->needs(single)
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    auto* colours = command.add_flag("--colours", options.colours, "Each line in a colour of its own")->needs(grid);
+    auto* dots = command.add_flag("--dots", options.dots, "The pattern draws the dots, too")->needs(grid);
+    auto* enumerate = command
+                          .add_flag("--enumerate", options.enumerate,
+                                    "Count all kolams of one line, with --symmetry those that have it, and list them")
+                          ->needs(grid)
+                          ->excludes(crossings)
+                          ->excludes(density)
+                          ->excludes(single)
+                          ->excludes(colours)
+                          ->excludes(dots);
+    command.add_option("--limit", options.limit, "Most kolams that --enumerate lists")
+        ->needs(enumerate)
+        ->check(CLI::Range(0, 10'000'000))
+        ->capture_default_str();
+}
+
+void kolam_grid(const KolamGridOptions& options, const Telling& telling) {
+    const DotGrid grid = of_option("--grid", [&] { return parse_dot_grid(options.grid); });
+    const GridSymmetry symmetry = of_option("--symmetry", [&] {
+        const GridSymmetry wanted = parse_grid_symmetry(options.symmetry);
+        require_symmetry(grid, wanted);
+        return wanted;
+    });
+    if (options.crossings && symmetry != GridSymmetry::none) {
+        throw UsageError("--crossings: they are what they are; --symmetry is for those made by chance");
+    }
+    if (options.density && !(*options.density >= 0 && *options.density <= 1)) {
+        throw UsageError("--density: expected a number from 0 to 1");
+    }
+    if (options.enumerate) {
+        enumerate(options, grid, symmetry);
+    } else {
+        make_pattern(options, grid, symmetry, telling);
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,38 @@
+// cli/kolam_grid.h: `sikku kolam --grid`: kolams made on a grid of dots, and all single lines of a small one.
+#pragma once
+
+#include "art/dot_grid.h"
+#include "cli/command.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sikku {
+
+/// Every option, as it was given.
+struct KolamGridOptions {
+    std::string grid;
+    std::uint64_t seed = 0;
+    std::string symmetry = "none";
+    std::optional<double> density;         ///< of gaps that are crossings; absent: 0.7
+    std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
+    bool single_line = false;
+    int attempts = 1000;  ///< at a single line with a symmetry
+    bool colours = false;
+    bool dots = false;
+    bool enumerate = false;
+    std::size_t limit = 100;  ///< most kolams that an enumeration lists
+    int threads = 0;          ///< of an enumeration
+    bool as_json = false;     ///< what is told of it, on standard output
+    std::string output;       ///< empty: standard output
+};
+
+/// `--grid` and all that belongs to it alone; `-o`, `--json` and `-j` are for the command to add.
+void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options);
+
+/// Writes the pattern of a kolam, or lists the kolams of an enumeration.
+/// @throws UsageError, and std::runtime_error if no single line was found or the file cannot be written
+void kolam_grid(const KolamGridOptions& options, const Telling& telling);
+
+}  // namespace sikku

@@ -1,0 +1,526 @@
+#include "art/dot_grid.h"
+
+#include "art/dot_grid_enumeration.h"
+#include "art/dot_grid_pattern.h"
+#include "art/style.h"
+#include "engine/spline.h"
+#include "tests/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+Crossings state_of(const DotGrid& grid, std::uint64_t bits) {
+    Crossings crossings(grid.gaps().size());
+    for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = (bits >> i & 1U) != 0;
+    return crossings;
+}
+
+template <typename Work>
+std::string error_of(Work&& work) {
+    try {
+        work();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+// --- grids --------------------------------------------------------------------------------------------------------
+
+TEST(DotGrid, ReadsRectanglesAndRows) {
+    const DotGrid rectangle = parse_dot_grid("3x4");
+    EXPECT_EQ(rectangle.dots().size(), 12u);
+    EXPECT_EQ(rectangle.gaps().size(), 17u);
+    EXPECT_EQ(rectangle.dots()[0], (GridDot{-3, 2}));
+    EXPECT_EQ(rectangle.text(), "3x4");
+    const DotGrid diamond = parse_dot_grid("1-3-5-7-5-3-1");
+    EXPECT_EQ(diamond.dots().size(), 25u);
+    EXPECT_EQ(diamond.gaps().size(), 36u);
+    EXPECT_EQ(diamond.text(), "1-3-5-7-5-3-1");
+    EXPECT_EQ(parse_dot_grid("1-3-5").dots().size(), 9u);  // not symmetric from top to bottom
+    EXPECT_FALSE(has_symmetry(parse_dot_grid("1-3-5"), GridSymmetry::mirror_y));
+    EXPECT_TRUE(has_symmetry(parse_dot_grid("1-3-5"), GridSymmetry::mirror_x));
+    for (const DotGrid* grid : {&rectangle, &diamond}) {
+        for (std::uint32_t i = 0; i < grid->dots().size(); ++i) EXPECT_EQ(grid->dot_at(grid->dots()[i]), i);
+        for (const GridGap& gap : grid->gaps()) {
+            const GridDot from = grid->dots()[gap.from];
+            const GridDot to = grid->dots()[gap.to];
+            EXPECT_EQ(std::abs(from.x - to.x) + std::abs(from.y - to.y), 2);
+        }
+    }
+}
+
+TEST(DotGrid, RefusesWhatIsNoGrid) {
+    for (const char* text :
+         {"0x5", "7x", "x7", "1--3", "-1-3", "7x7x7", "", " 7x7", "7 x 7", "3-", "three", "7x-7"}) {
+        EXPECT_NE(error_of([&] { parse_dot_grid(text); }).find("expected ROWSxCOLUMNS"), std::string::npos) << text;
+    }
+    for (const char* text : {"99999999x99999999", "4294967295x4294967295", "99999999999999999999x1", "2001x2000",
+                             "4000001", "3999999-3"}) {
+        EXPECT_NE(error_of([&] { parse_dot_grid(text); }).find("more than 4000000 dots"), std::string::npos) << text;
+    }
+    EXPECT_NE(error_of([] { parse_dot_grid("1-2-3"); }).find("row 2 of the grid has 2 dots"), std::string::npos);
+    EXPECT_NE(error_of([] { DotGrid({}); }), "");
+    EXPECT_NE(error_of([] { DotGrid({3, 0}); }), "");
+}
+
+TEST(DotGrid, CrossingsAreReadBack) {
+    const DotGrid grid = parse_dot_grid("1-3-5-3-1");
+    const Crossings crossings = random_crossings(grid, {.seed = 3});
+    const std::string text = crossings_text(grid, crossings);
+    EXPECT_EQ(std::count(text.begin(), text.end(), ' '), 6);  // no gap within the rows of one dot
+    EXPECT_EQ(parse_crossings(grid, text), crossings);
+    EXPECT_EQ(parse_crossings(grid, "all"), Crossings(16, 1));
+    EXPECT_EQ(parse_crossings(grid, "None"), Crossings(16, 0));
+    EXPECT_EQ(parse_crossings(grid, "11111111/0,0000\n000"), parse_crossings(grid, "1111111100000000"));
+    EXPECT_NE(error_of([&] { parse_crossings(grid, "0101"); }).find("4 digits"), std::string::npos);
+    EXPECT_NE(error_of([&] { parse_crossings(grid, "0102"); }), "");
+}
+
+// --- lines --------------------------------------------------------------------------------------------------------
+
+TEST(DotGrid, AllCrossingsMakeAsManyLinesAsTheGreatestCommonDivisor) {
+    for (std::uint32_t a = 1; a <= 12; ++a) {
+        for (std::uint32_t b = 1; b <= 12; ++b) {
+            const DotGrid grid(std::vector<std::uint32_t>(a, b));
+            const Crossings all(grid.gaps().size(), 1);
+            EXPECT_EQ(count_lines(grid, all), std::gcd(a, b)) << a << 'x' << b;
+            EXPECT_EQ(laplacian_nullity(grid, all), std::gcd(a, b)) << a << 'x' << b;
+            EXPECT_EQ(count_lines(grid, Crossings(all.size(), 0)), a * b);
+        }
+    }
+}
+
+TEST(DotGrid, FollowedLinesAreTheNullity) {
+    for (const char* text : {"2x3", "3x3"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t bits = 0; bits < std::uint64_t{1} << grid.gaps().size(); ++bits) {
+            const Crossings crossings = state_of(grid, bits);
+            ASSERT_EQ(count_lines(grid, crossings), laplacian_nullity(grid, crossings)) << text << ' ' << bits;
+        }
+    }
+    for (const char* text :
+         {"10x10", "7x130", "130x7", "1-3-5-7-9-7-5-3-1", "2-4-6-8-8-2-2", "1-9-1-5-1", "1x200", "50x50"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            const Crossings crossings =
+                random_crossings(grid, {.seed = seed, .density = static_cast<double>(seed) / 19});
+            ASSERT_EQ(count_lines(grid, crossings), laplacian_nullity(grid, crossings)) << text << ' ' << seed;
+        }
+    }
+}
+
+TEST(DotGrid, MendingChangesOneGapLessThanThereAreLines) {
+    for (const char* text : {"1x1", "2x2", "7x7", "10x3", "1-3-5-7-5-3-1", "50x50"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t seed = 0; seed < 10; ++seed) {
+            const Crossings before =
+                random_crossings(grid, {.seed = seed, .density = 0.1 * static_cast<double>(seed)});
+            Crossings after = before;
+            const std::size_t lines = count_lines(grid, before);
+            EXPECT_EQ(make_single_line(grid, after, seed), lines - 1);
+            std::size_t different = 0;
+            for (std::size_t i = 0; i < before.size(); ++i) different += before[i] != after[i];
+            EXPECT_EQ(different, lines - 1);
+            EXPECT_EQ(count_lines(grid, after), 1u);
+            EXPECT_EQ(laplacian_nullity(grid, after), 1u);
+        }
+    }
+}
+
+// --- symmetry -----------------------------------------------------------------------------------------------------
+
+TEST(DotGrid, SymmetriesHaveNames) {
+    for (const char* name : {"none", "C2", "C4", "mirror-x", "mirror-y", "mirrors", "D4"}) {
+        EXPECT_EQ(grid_symmetry_name(parse_grid_symmetry(name)), name);
+    }
+    EXPECT_EQ(parse_grid_symmetry("c4"), GridSymmetry::c4);
+    EXPECT_EQ(parse_grid_symmetry("Mirror X"), GridSymmetry::mirror_x);
+    EXPECT_NE(error_of([] { parse_grid_symmetry("C3"); }).find("expected none, C2"), std::string::npos);
+}
+
+/// A crossing seen through a map of the plane, by the places of its dots.
+TEST(DotGrid, SymmetricSetsAreSymmetric) {
+    const auto quarter = [](GridDot dot) { return GridDot{-dot.y, dot.x}; };
+    const auto half = [](GridDot dot) { return GridDot{-dot.x, -dot.y}; };
+    const auto left = [](GridDot dot) { return GridDot{-dot.x, dot.y}; };
+    const auto top = [](GridDot dot) { return GridDot{dot.x, -dot.y}; };
+    for (const char* text : {"7x7", "6x6", "1-3-5-7-5-3-1", "2-4-4-2"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (const GridSymmetry symmetry : {GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x,
+                                            GridSymmetry::mirror_y, GridSymmetry::mirrors, GridSymmetry::d4}) {
+            const Crossings crossings = random_crossings(grid, {.seed = 5, .density = 0.5, .symmetry = symmetry});
+            const auto holds = [&](const auto& map) {
+                std::map<std::pair<std::uint32_t, std::uint32_t>, char> set;
+                for (std::size_t i = 0; i < crossings.size(); ++i) {
+                    set[std::minmax(grid.gaps()[i].from, grid.gaps()[i].to)] = crossings[i];
+                }
+                for (std::size_t i = 0; i < crossings.size(); ++i) {
+                    const auto from = *grid.dot_at(map(grid.dots()[grid.gaps()[i].from]));
+                    const auto to = *grid.dot_at(map(grid.dots()[grid.gaps()[i].to]));
+                    if (set.at(std::minmax(from, to)) != crossings[i]) return false;
+                }
+                return true;
+            };
+            const bool is_d4 = symmetry == GridSymmetry::d4;
+            const bool is_mirrors = symmetry == GridSymmetry::mirrors || is_d4;
+            EXPECT_EQ(holds(quarter), symmetry == GridSymmetry::c4 || is_d4) << text;
+            EXPECT_EQ(holds(half), symmetry == GridSymmetry::c2 || symmetry == GridSymmetry::c4 || is_mirrors)
+                << text;
+            EXPECT_EQ(holds(left), symmetry == GridSymmetry::mirror_x || is_mirrors) << text;
+            EXPECT_EQ(holds(top), symmetry == GridSymmetry::mirror_y || is_mirrors) << text;
+            EXPECT_TRUE(is_symmetric(grid, crossings, symmetry));
+            EXPECT_EQ(is_symmetric(grid, crossings, GridSymmetry::d4), is_d4);
+        }
+    }
+    EXPECT_EQ(grid_symmetries(parse_dot_grid("5x5")).size(), 8u);
+    EXPECT_EQ(grid_symmetries(parse_dot_grid("5x4")).size(), 4u);
+    EXPECT_EQ(grid_symmetries(parse_dot_grid("1-3-5")).size(), 2u);
+    EXPECT_NE(error_of([] {
+                  random_crossings(parse_dot_grid("3x4"), {.symmetry = GridSymmetry::c4});
+              }).find("3x4 itself does not have the symmetry C4"),
+              std::string::npos);
+    EXPECT_NE(error_of([] { random_crossings(parse_dot_grid("3x4"), {.density = std::nan("")}); }), "");
+}
+
+TEST(DotGrid, ChanceIsTheSameEverywhere) {
+    // SplitMix64 of 0 begins E220A839…, 6E789E6A…, 06C45D18…, F88BB8A8…: of 1 about 0.88, 0.43, 0.03, 0.97.
+    EXPECT_EQ(crossings_text(parse_dot_grid("2x2"), random_crossings(parse_dot_grid("2x2"), {})), "0 11 0");
+    const DotGrid grid = parse_dot_grid("100x100");
+    const Crossings crossings = random_crossings(grid, {.seed = 1, .density = 0.3});
+    EXPECT_NEAR(static_cast<double>(std::count(crossings.begin(), crossings.end(), 1)) / 19800, 0.3, 0.015);
+    EXPECT_NE(crossings, random_crossings(grid, {.seed = 2, .density = 0.3}));
+}
+
+TEST(DotGrid, SingleLinesWithASymmetryAreFound) {
+    for (const auto& [text, symmetry] :
+         {std::pair{"7x7", GridSymmetry::c4}, std::pair{"21x21", GridSymmetry::c4},
+          std::pair{"1-3-5-7-9-7-5-3-1", GridSymmetry::c4}, std::pair{"20x21", GridSymmetry::mirrors},
+          std::pair{"20x20", GridSymmetry::mirror_x}, std::pair{"9x9", GridSymmetry::c2},
+          std::pair{"1-3-1", GridSymmetry::d4}, std::pair{"12x5", GridSymmetry::none}}) {
+        const DotGrid grid = parse_dot_grid(text);
+        const RandomKolam random{.seed = 11, .symmetry = symmetry};
+        ASSERT_EQ(single_line_obstacle(grid, symmetry), std::nullopt) << text;
+        const auto found = find_single_line(grid, random);
+        ASSERT_TRUE(found) << text;
+        EXPECT_EQ(count_lines(grid, found->crossings), 1u) << text;
+        EXPECT_TRUE(is_symmetric(grid, found->crossings, symmetry)) << text;
+        EXPECT_EQ(find_single_line(grid, random)->crossings, found->crossings) << text;
+    }
+    EXPECT_EQ(find_single_line(parse_dot_grid("4x4"), {.symmetry = GridSymmetry::c4}, 50), std::nullopt);
+}
+
+// --- enumeration --------------------------------------------------------------------------------------------------
+
+struct Row {
+    const char* grid;
+    GridSymmetry symmetry;
+    std::uint64_t states, single_line, distinct;
+};
+void expect_rows(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+        const Enumeration found = enumerate_single_lines(parse_dot_grid(row.grid), {.symmetry = row.symmetry});
+        const std::string what = row.grid + (" " + std::string(grid_symmetry_name(row.symmetry)));
+        EXPECT_EQ(found.states, row.states) << what;
+        EXPECT_EQ(found.single_line, row.single_line) << what;
+        if (row.distinct > 0) {
+            EXPECT_EQ(found.distinct, row.distinct) << what;
+        }
+    }
+}
+constexpr auto none = GridSymmetry::none;
+constexpr auto c4 = GridSymmetry::c4;
+constexpr auto mirrors = GridSymmetry::mirrors;
+constexpr auto d4 = GridSymmetry::d4;
+
+TEST(DotGridEnumeration, CountsSingleLines) {
+    expect_rows({{"1x1", none, 1, 1, 1},
+                 {"1x9", none, 256, 1, 1},
+                 {"2x2", none, 16, 4, 1},
+                 {"2x3", none, 128, 16, 7},
+                 {"2x3", mirrors, 8, 2, 2},
+                 {"3x3", none, 4096, 240, 35},
+                 {"3x3", c4, 8, 2, 1},
+                 {"3x3", mirrors, 16, 2, 1},
+                 {"3x3", d4, 4, 0, 0},
+                 {"1-3-1", none, 16, 1, 1},
+                 {"1-3-1", d4, 2, 1, 1},
+                 {"1-3-5-3-1", none, 65536, 240, 35},
+                 {"1-3-5-3-1", c4, 16, 2, 1},
+                 {"3x4", none, 131072, 3584, 936},
+                 {"4x3", none, 131072, 3584, 936},
+                 {"3x4", mirrors, 64, 8, 8},
+                 {"3x5", none, 4194304, 53504, 13496},
+                 {"3x5", mirrors, 128, 8, 8},
+                 {"4x4", none, 16777216, 196608, 24704},
+                 {"4x4", c4, 64, 0, 0},
+                 {"4x4", d4, 16, 0, 0},
+                 {"5x5", c4, 1024, 80, 0},
+                 {"5x5", mirrors, 4096, 80, 0},
+                 {"5x5", d4, 64, 0, 0},
+                 {"6x6", c4, 32768, 0, 0},
+                 {"6x6", mirrors, 262144, 0, 0},
+                 {"7x7", c4, 2097152, 46592, 0},
+                 {"7x7", d4, 4096, 0, 0},
+                 {"1-3-5-7-5-3-1", c4, 512, 24, 0},
+                 {"1-3-5-7-5-3-1", mirrors, 4096, 24, 0},
+                 {"1-3-5-7-9-7-5-3-1", c4, 65536, 1088, 0},
+                 {"1-3-5-7-9-7-5-3-1", mirrors, 1048576, 768, 0},
+                 {"1-3-5-7-9-7-5-3-1", d4, 1024, 0, 0}});
+}
+
+TEST(DotGridEnumeration, CountsLargerOnesInTheFullCheck) {
+    if (!std::getenv("SIKKU_FULL")) GTEST_SKIP() << "many seconds; SIKKU_FULL=1 runs it";
+    expect_rows({{"4x5", none, std::uint64_t{1} << 31U, 10747904, 2689280},
+                 {"5x4", none, std::uint64_t{1} << 31U, 10747904, 2689280}});
+}
+
+/// The same numbers by looking at every state: lines by the Laplacian, classes by the orbits of their members.
+TEST(DotGridEnumeration, AgreesWithLookingAtEveryState) {
+    for (const char* text : {"2x2", "2x4", "3x3", "1-3-5", "1-3-1-3", "2-4-2"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        const auto symmetries = grid_symmetries(grid);
+        for (const GridSymmetry symmetry :
+             {GridSymmetry::none, GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x, GridSymmetry::mirror_y,
+              GridSymmetry::mirrors, GridSymmetry::d4}) {
+            if (!has_symmetry(grid, symmetry)) continue;
+            std::vector<Crossings> single;
+            std::vector<Crossings> distinct;
+            for (std::uint64_t bits = 0; bits < std::uint64_t{1} << grid.gaps().size(); ++bits) {
+                const Crossings crossings = state_of(grid, bits);
+                if (!is_symmetric(grid, crossings, symmetry) || laplacian_nullity(grid, crossings) != 1) continue;
+                single.push_back(crossings);
+            }
+            for (const Crossings& crossings : single) {
+                Crossings least = crossings;
+                for (const auto& images : symmetries) {
+                    Crossings image(crossings.size());
+                    for (std::size_t i = 0; i < images.size(); ++i) image[images[i]] = crossings[i];
+                    if (is_symmetric(grid, image, symmetry)) least = std::min(least, image);
+                }
+                if (std::find(distinct.begin(), distinct.end(), least) == distinct.end()) distinct.push_back(least);
+            }
+            std::sort(distinct.begin(), distinct.end());
+            for (const int threads : {1, 3}) {
+                const Enumeration found =
+                    enumerate_single_lines(grid, {.symmetry = symmetry, .keep = 100000, .threads = threads});
+                const std::string what = text + (" " + std::string(grid_symmetry_name(symmetry)));
+                EXPECT_EQ(found.single_line, single.size()) << what;
+                EXPECT_EQ(found.distinct, distinct.size()) << what;
+                EXPECT_EQ(found.kolams, distinct) << what;
+            }
+        }
+    }
+}
+
+TEST(DotGridEnumeration, ObstaclesAreReal) {
+    for (const char* text : {"1x1", "1x4", "1x5", "2x2", "2x3", "3x3", "2x4", "4x4", "3x4", "5x5", "6x6", "4x6",
+                             "1-3-1", "1-3-5-3-1", "1-1-5-1-1", "2-4-4-2", "1-3-5", "3-1-3", "1-5-5-5-1"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (const GridSymmetry symmetry : {GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x,
+                                            GridSymmetry::mirror_y, GridSymmetry::mirrors, GridSymmetry::d4}) {
+            if (!has_symmetry(grid, symmetry)) continue;
+            const auto orbits = gap_orbits(grid, symmetry);
+            if (!orbits.empty() && *std::max_element(orbits.begin(), orbits.end()) >= 24) continue;
+            EXPECT_EQ(single_line_obstacle(grid, symmetry).has_value(),
+                      enumerate_single_lines(grid, {.symmetry = symmetry}).single_line == 0)
+                << text << ' ' << grid_symmetry_name(symmetry);
+        }
+    }
+}
+
+TEST(DotGridEnumeration, RefusesWhatTakesTooLong) {
+    EXPECT_NE(error_of([] { enumerate_single_lines(parse_dot_grid("10x10")); }).find("180 free gaps make 2^180"),
+              std::string::npos);
+    EXPECT_NE(error_of([] { enumerate_single_lines(parse_dot_grid("300x300")); }), "");
+    EXPECT_NE(error_of([] { enumerate_single_lines(parse_dot_grid("3x4"), {.symmetry = c4}); }), "");
+    EXPECT_EQ(error_of([] {
+                  enumerate_single_lines(parse_dot_grid("4x4"),
+                                         {.watch = [] { throw std::runtime_error("stopped"); }});
+              }),
+              "stopped");
+    const Enumeration few = enumerate_single_lines(parse_dot_grid("3x3"), {.keep = 4});
+    EXPECT_EQ(few.kolams.size(), 4u);
+    EXPECT_EQ(few.distinct, 35u);
+}
+
+// --- patterns -----------------------------------------------------------------------------------------------------
+
+struct Drawn {
+    std::vector<reference::Line> controls;  // of strokes that are seen, before the spline
+    std::vector<reference::Line> strokes;   // after it
+    Style style;
+};
+Drawn drawn(const std::string& text) {
+    Diagnostics diagnostics;
+    const Pattern pattern = parse_pattern("kolam.lsys", text, diagnostics);
+    Drawn result;
+    result.style = read_style(pattern, 300, diagnostics);
+    check_keys(pattern, style_keys(), diagnostics);
+    const Grammar grammar = compile_grammar(pattern, diagnostics);
+    EXPECT_TRUE(diagnostics.list().empty()) << text;
+    EXPECT_EQ(grammar.steps(), 0);
+    EXPECT_EQ(result.style.line, Line::spline);
+    const auto walk = [&](PathSink& sink) {
+        const auto turtle = Turtle::drawing(grammar, sink, true);
+        derive(grammar, *turtle);
+    };
+    StrokeCensus census;
+    walk(census);
+    reference::Recorder controls;
+    walk(controls);
+    reference::Recorder curves;
+    SplineSink spline(curves, census.closed);
+    walk(spline);
+    const auto seen = [&](const std::vector<reference::Line>& all) {
+        std::vector<reference::Line> kept;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
+                     [&](const reference::Line& line) { return result.style.draws(line.pens.at(0)); });
+        return kept;
+    };
+    result.controls = seen(controls.strokes);
+    result.strokes = seen(curves.strokes);
+    return result;
+}
+
+std::pair<long, long> rounded(glm::dvec2 point) {
+    return {std::lround(point.x * 1e6), std::lround(point.y * 1e6)};
+}
+/// The middles of the sides of all dots, in the turtle's plane; gaps, and the sides without one.
+struct Middles {
+    std::map<std::pair<long, long>, std::size_t> gaps;
+    std::map<std::pair<long, long>, std::uint32_t> border;  // and the dot
+};
+Middles middles(const DotGrid& grid, const std::vector<glm::dvec2>& dots) {
+    Middles found;
+    const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), {0, 1}, {-1, 0}, {0, -1}};
+    for (std::uint32_t dot = 0; dot < dots.size(); ++dot) {
+        for (std::uint32_t side = 0; side < 4; ++side) {
+            const auto middle = rounded(dots[dot] + std::sqrt(0.5) * ways[side]);
+            const std::int32_t gap = grid.gap(dot, side);
+            if (gap < 0) {
+                found.border[middle] = dot;
+            } else {
+                found.gaps[middle] = static_cast<std::size_t>(gap);
+            }
+        }
+    }
+    return found;
+}
+
+TEST(DotGridPattern, StrokesAreTheLines) {
+    for (const auto& [text, density] :
+         {std::pair{"1x1", 0.7}, std::pair{"3x3", 0.0}, std::pair{"3x3", 1.0}, std::pair{"7x7", 0.7},
+          std::pair{"5x8", 0.4}, std::pair{"1-3-5-7-5-3-1", 0.7}, std::pair{"2-8-4", 0.9}, std::pair{"30x30", 0.6}}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (const bool single : {false, true}) {
+            Crossings crossings = random_crossings(grid, {.seed = 9, .density = density});
+            if (single) make_single_line(grid, crossings, 1);
+            const KolamPattern pattern = kolam_pattern(grid, crossings, {.title = "A kolam", .description = "one"});
+            EXPECT_EQ(pattern.lines, count_lines(grid, crossings));
+            const Drawn found = drawn(pattern.text);
+            ASSERT_EQ(found.controls.size(), pattern.lines);
+            const Middles known = middles(grid, pattern.dots);
+            std::vector<int> visits(crossings.size());
+            std::map<std::pair<long, long>, int> border;
+            std::vector<glm::dvec2> last_tangent(crossings.size());
+            for (std::size_t k = 0; k < found.strokes.size(); ++k) {
+                const std::vector<glm::dvec2>& controls = found.controls[k].points;
+                const std::vector<glm::dvec2>& curve = found.strokes[k].points;
+                const std::size_t count = controls.size() - 1;
+                EXPECT_TRUE(found.controls[k].closed);
+                EXPECT_TRUE(found.strokes[k].closed);
+                ASSERT_EQ(curve.size(), 3 * count + 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const glm::dvec2 control = controls[(i + 1) % count];
+                    const auto place = rounded(control);
+                    const auto gap = known.gaps.find(place);
+                    if (gap == known.gaps.end()) {
+                        ASSERT_TRUE(known.border.contains(place));
+                        ++border[place];
+                        continue;
+                    }
+                    ++visits[gap->second];
+                    if (!crossings[gap->second]) continue;
+                    // The curve runs through the crossing, straight, and at right angles to itself.
+                    const glm::dvec2 ahead = curve[3 * i + 1] - curve[3 * i];
+                    EXPECT_NEAR(curve[3 * i].x, control.x, 1e-12);
+                    EXPECT_NEAR(curve[3 * i].y, control.y, 1e-12);
+                    EXPECT_NEAR(std::fabs(ahead.x), std::fabs(ahead.y), 1e-12);
+                    glm::dvec2& before = last_tangent[gap->second];
+                    EXPECT_NEAR(ahead.x * before.x + ahead.y * before.y, 0, 1e-12);
+                    before = ahead;
+                }
+            }
+            EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](int count) { return count == 2; }));
+            EXPECT_EQ(border.size(), known.border.size());
+            for (const auto& [place, count] : border) EXPECT_EQ(count, 1);
+        }
+    }
+}
+
+TEST(DotGridPattern, CurvesKeepTheirDistanceFromDots) {
+    const DotGrid grid = parse_dot_grid("7x7");
+    const KolamPattern pattern = kolam_pattern(grid, random_crossings(grid, {.seed = 2}));
+    double least = 1e9;
+    for (const reference::Line& stroke : drawn(pattern.text).strokes) {
+        for (std::size_t i = 0; i + 3 < stroke.points.size(); i += 3) {
+            for (int step = 0; step < 16; ++step) {
+                const double t = step / 16.0;
+                const double s = 1 - t;
+                const glm::dvec2 at = s * s * s * stroke.points[i] + 3 * s * s * t * stroke.points[i + 1] +
+                                      3 * s * t * t * stroke.points[i + 2] + t * t * t * stroke.points[i + 3];
+                for (const glm::dvec2 dot : pattern.dots)
+                    least = std::min(least, std::hypot(at.x - dot.x, at.y - dot.y));
+            }
+        }
+    }
+    EXPECT_GT(least, 0.44);  // a third of the spacing of dots
+}
+
+TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
+    const DotGrid grid = parse_dot_grid("1-3-5-3-1");
+    for (const bool single : {false, true}) {
+        Crossings crossings(grid.gaps().size());
+        if (single) make_single_line(grid, crossings, 7);
+        for (const bool coloured : {false, true}) {
+            const KolamPattern pattern = kolam_pattern(grid, crossings, {.coloured = coloured, .dot_symbols = true});
+            const Drawn found = drawn(pattern.text);
+            ASSERT_EQ(found.controls.size(), single ? 1u : 13u);
+            for (std::size_t i = 0; i < found.controls.size(); ++i) {
+                EXPECT_EQ(found.controls[i].pens.at(0).colour, coloured ? static_cast<int>(i % 8) : 0);
+            }
+            const Grammar grammar = reference::grammar_of(pattern.text);
+            reference::Recorder recorder;
+            derive(grammar, *Turtle::drawing(grammar, recorder, true));
+            ASSERT_EQ(recorder.discs.size(), pattern.dots.size());
+            for (std::size_t i = 0; i < recorder.discs.size(); ++i) {
+                EXPECT_NEAR(recorder.discs[i].centre.x, pattern.dots[i].x, 1e-12);
+                EXPECT_NEAR(recorder.discs[i].centre.y, pattern.dots[i].y, 1e-12);
+                EXPECT_TRUE(found.style.draws(recorder.discs[i].pen));
+            }
+        }
+    }
+}
+
+TEST(DotGridPattern, TellsItsCrossings) {
+    const DotGrid grid = parse_dot_grid("4x4");
+    const Crossings crossings = random_crossings(grid, {.seed = 12});
+    const std::string text = kolam_pattern(grid, crossings).text;
+    const std::size_t begin = text.find("// crossings: ") + 14;
+    EXPECT_EQ(parse_crossings(grid, std::string_view(text).substr(begin, text.find('\n', begin) - begin)), crossings);
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,206 @@
+#include "art/gcode.h"
+
+#include "tests/plot_tools.h"
+
+#include <charconv>
+#include <map>
+
+namespace sikku {
+namespace {
+
+constexpr double spacing = 0.004;
+
+/// What a machine would draw. Moves with the pen up that would draw, moves with the pen down that would not, and arcs
+/// whose ends are not equally far from their centre are errors.
+struct Plot {
+    std::vector<std::vector<glm::dvec2>> strokes;  ///< points `spacing` apart, in millimetres
+    std::map<int, std::size_t> moves;              ///< of each kind: 0 to 3
+    std::vector<double> feeds;                     ///< of each move that draws
+    int stops = 0;
+};
+Plot read_gcode(const std::string& text, const Page& page, bool by_z) {
+    Plot plot;
+    std::istringstream lines(text);
+    std::string line;
+    bool down = false;
+    bool ended = false;
+    double feed = 0;
+    glm::dvec2 at(0.0);
+    Samples samples(spacing);
+    samples.start(at);
+    while (std::getline(lines, line)) {
+        EXPECT_FALSE(ended) << line;
+        EXPECT_LE(line.size(), 79u) << "grbl takes no longer ones";
+        if (line.starts_with('(')) continue;
+        std::map<char, double> words;
+        int motion = -1;
+        for (std::size_t i = 0; i < line.size();) {
+            const char letter = line[i];
+            double value = 0;
+            const auto [stop, error] = std::from_chars(line.data() + i + 1, line.data() + line.size(), value);
+            EXPECT_EQ(error, std::errc()) << line;
+            i = static_cast<std::size_t>(stop - line.data());
+            EXPECT_TRUE(i == line.size() || line[i] == ' ') << line;
+            while (i < line.size() && line[i] == ' ') ++i;
+            if (letter == 'G' && value <= 3) motion = static_cast<int>(value);
+            words[letter] = value;
+        }
+        const bool lowers = by_z ? words.contains('Z') && words['Z'] <= 0 : words.contains('M') && words['M'] == 3;
+        const bool lifts = by_z ? words.contains('Z') && words['Z'] > 0 : words.contains('M') && words['M'] == 5;
+        if (words.contains('F')) feed = words['F'];
+        if (lowers) {
+            EXPECT_FALSE(down);
+            down = true;
+            samples.start(at);
+        }
+        if (lifts) {
+            if (down) plot.strokes.push_back(samples.points);
+            down = false;
+        }
+        if (words.contains('M') && words['M'] == 0) ++plot.stops;
+        EXPECT_FALSE(down && words.contains('M') && words['M'] <= 2);
+        ended = words.contains('M') && words['M'] == 2;
+        if (!words.contains('X')) continue;
+        ++plot.moves[motion];
+        EXPECT_EQ(down, motion != 0) << line;
+        if (motion != 0) plot.feeds.push_back(feed);
+        const glm::dvec2 end(words.at('X'), words.at('Y'));
+        EXPECT_TRUE(end.x >= 0 && end.y >= 0 && end.x <= page.width && end.y <= page.height) << line;
+        if (motion == 1) samples.line(end);
+        if (motion >= 2) {
+            const glm::dvec2 centre = at + glm::dvec2(words.at('I'), words.at('J'));
+            EXPECT_NEAR(glm::distance(at, centre), glm::distance(end, centre), 0.004) << line;
+            EXPECT_NE(end, at) << line;
+            samples.arc(centre, end, motion == 3);
+        }
+        at = end;
+    }
+    EXPECT_TRUE(ended);
+    return plot;
+}
+
+class Gcode : public ::testing::Test {
+protected:
+    std::string text(const PlotPlan& plan, const Print& print) {
+        write_print(
+            folder_ / "plot.nc", print,
+            [&](const Print& is, OutputFile& file) { return write_gcode(is, options_, file); },
+            [&](PathSink& sink) { plan.draw(sink); });
+        return contents(folder_ / "plot.nc");
+    }
+    Plot expect_faithful(const Print& print, const PlotPlan& plan) {
+        Plot plot = read_gcode(text(plan, print), print.page, options_.lifts_by_z);
+        const auto lines = true_lines(plan, print, spacing);
+        EXPECT_EQ(plot.strokes.size(), lines.size());
+        for (std::size_t i = 0; i < std::min(lines.size(), plot.strokes.size()); ++i) {
+            EXPECT_LE(hausdorff(plot.strokes[i], lines[i]), 0.01) << i;
+        }
+        for (const double feed : plot.feeds) EXPECT_EQ(feed, 2400);
+        return plot;
+    }
+    ScratchFolder folder_;
+    GcodeOptions options_;
+};
+
+TEST_F(Gcode, IsWhatAMachineTakes) {
+    Print print = plain_print();
+    print.title = "Naïve (left) kolam\n";
+    const auto plan = arranged(print, [](PathSink& sink) {
+        sink.begin_stroke({10, 10}, Pen{});
+        sink.lines(std::vector<glm::dvec2>{{90, 10}, {90, 50.0126}});
+        sink.end_stroke(false);
+        sink.begin_stroke({20, 20}, Pen{.colour = 2});
+        sink.lines(std::vector<glm::dvec2>{{20, 30}});
+        sink.end_stroke(true);
+    });
+    EXPECT_EQ(text(*plan, print),
+              "(Na?ve left kolam?)\nG21 G90 G17\nM5\nG4 P0.2\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\nG1 X90 Y10 F2400\n"
+              "G1 X90 Y50.013\nM5\nG4 P0.2\nT3\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 F2400\nM5\n"
+              "G4 P0.2\nG0 X0 Y0\nM2\n");
+    options_ = gcode_profile("z").value();
+    options_.start = "$H";
+    options_.end = "M30\n";
+    print.title.clear();
+    EXPECT_EQ(text(*arranged(print,
+                             [](PathSink& sink) {
+                                 sink.begin_stroke({10, 10}, Pen{});
+                                 sink.lines(std::vector<glm::dvec2>{{20, 10}});
+                                 sink.end_stroke(false);
+                             }),
+                   print),
+              "G21 G90 G17\n$H\nG0 Z5\nG0 X10 Y10 F4800\nG1 Z0 F600\nG1 X20 Y10 F2400\nG0 Z5\nM30\n");
+    EXPECT_FALSE(gcode_profile("marlin"));
+}
+
+TEST_F(Gcode, CurvesAreWithinAHundredthOfAMillimetre) {
+    const Print print = plain_print();
+    EXPECT_EQ(expect_faithful(print, *arranged(print, draw_curves)).stops, 2);
+    options_ = gcode_profile("z").value();
+    expect_faithful(print, *arranged(print, draw_sampler));
+}
+
+TEST_F(Gcode, ACircleIsTwoArcs) {
+    const Print print = plain_print();
+    for (const double radius : {1.0, 10.0, 29.0}) {
+        const auto plan = arranged(print, [&](PathSink& sink) { sink.disc({50, 30}, radius, Pen{}); });
+        const Plot plot = expect_faithful(print, *plan);
+        EXPECT_EQ(plot.moves.at(3) + (plot.moves.contains(2) ? plot.moves.at(2) : 0), 2u) << radius;
+        EXPECT_FALSE(plot.moves.contains(1));
+    }
+}
+
+TEST_F(Gcode, AKolamTakesFewerArcsThanChords) {
+    const PlacedPattern kolam("kolams/snake-kolam", 3, {105, 148, 10});
+    const auto plan = arranged(kolam.print, [&](PathSink& sink) { kolam.read(sink); });
+    Plot plot = expect_faithful(kolam.print, *plan);
+    EXPECT_EQ(plot.strokes.size(), 1u);
+    RecordProperty("lines", static_cast<int>(plot.moves[1]));
+    RecordProperty("arcs", static_cast<int>(plot.moves[2] + plot.moves[3]));
+    EXPECT_LT(plot.moves[1] + plot.moves[2] + plot.moves[3], 340u * 4);
+    EXPECT_GT(plot.moves[2] + plot.moves[3], plot.moves[1]);
+}
+
+TEST_F(Gcode, AVeryLongCurveIsFollowedInPieces) {
+    Print print = plain_print();
+    print.page = {2000, 2000, 10};
+    print.placement.to_page[2].y = 2000;
+    std::vector<glm::dvec2> controls;
+    for (int i = 0; i < 3000; ++i) {
+        const double angle = 0.02 * i;
+        controls.push_back(glm::dvec2(1000, 1000) + 15 * angle * glm::dvec2(std::cos(angle), std::sin(angle)));
+    }
+    const auto plan = arranged(print, [&](PathSink& sink) {
+        sink.begin_stroke({1000, 1000}, Pen{});
+        sink.curves(controls);
+        sink.end_stroke(false);
+    });
+    const std::string written = text(*plan, print);
+    const Plot plot = read_gcode(written, print.page, false);
+    EXPECT_EQ(plot.strokes.size(), 1u);
+    EXPECT_LT(written.size(), 100'000u);
+}
+
+TEST_F(Gcode, OptionsAreChecked) {
+    const Print print = plain_print();
+    const auto plan = arranged(print, draw_curves);
+    const auto refused = [&](auto member, double value) {
+        options_ = {};
+        options_.*member = value;
+        EXPECT_THROW(text(*plan, print), std::runtime_error) << value;
+    };
+    for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        refused(&GcodeOptions::drawing_feed, bad);
+        refused(&GcodeOptions::travel_feed, bad);
+        refused(&GcodeOptions::z_feed, bad);
+    }
+    refused(&GcodeOptions::power, -1);
+    refused(&GcodeOptions::pause, std::nan(""));
+    refused(&GcodeOptions::z_up, std::nan(""));
+    options_ = {};
+    const auto outside = arranged(print, [](PathSink& sink) { sink.disc({50, 30}, 31, Pen{}); });
+    EXPECT_THROW(text(*outside, print), std::runtime_error);
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{});
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,256 @@
+// tests/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <pugixml.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace sikku {
+namespace {
+
+class PrintOptions : public ::testing::Test {
+protected:
+    Outcome draw(std::vector<std::string> arguments, const std::string& file) {
+        arguments.insert(arguments.begin(), "draw");
+        arguments.insert(arguments.end(), {"-o", (folder_ / file).string()});
+        return run(arguments, {});
+    }
+    pugi::xml_document svg(const std::vector<std::string>& arguments) {
+        const Outcome outcome = draw(arguments, "print.svg");
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        pugi::xml_document document;
+        EXPECT_TRUE(document.load_file((folder_ / "print.svg").c_str()));
+        return document;
+    }
+    static std::vector<std::string> layers(const pugi::xml_document& document) {
+        std::vector<std::string> labels;
+        for (const auto& found : document.select_nodes("//g[@inkscape:label]")) {
+            labels.emplace_back(found.node().attribute("inkscape:label").value());
+        }
+        return labels;
+    }
+    static std::size_t count(const pugi::xml_document& document, const char* path) {
+        return document.select_nodes(path).size();
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(PrintOptions, DotsStandWhereTheExaminationSetsThem) {
+    const auto document = svg({"snake-kolam", "-n", "3", "--dots", "1.5mm gold", "--step", "3mm"});
+    std::vector<std::pair<double, double>> centres;
+    for (const auto& found : document.select_nodes("//circle")) {
+        const pugi::xml_node circle = found.node();
+        EXPECT_NEAR(circle.attribute("r").as_double(), 750, 0.1);
+        centres.emplace_back(circle.attribute("cx").as_double(), circle.attribute("cy").as_double());
+    }
+    EXPECT_EQ(centres.size(), 85u);
+    EXPECT_TRUE(has(contents(folder_ / "print.svg"), "discs gold"));
+    // The same by the pattern's own key.
+    const std::string first = contents(folder_ / "print.svg");
+    std::regex made("<sikku:made>.*</sikku:made>");
+    svg({"snake-kolam", "-n", "3", "--set", "dots=1.5mm gold", "--step", "3mm"});
+    EXPECT_EQ(std::regex_replace(first, made, ""), std::regex_replace(contents(folder_ / "print.svg"), made, ""));
+
+    const auto only = svg({"snake-kolam", "-n", "3", "--dots=only", "--dot-spacing", "15mm"});
+    EXPECT_EQ(count(only, "//path"), 0u);
+    ASSERT_EQ(count(only, "//circle"), 85u);
+    std::vector<std::pair<double, double>> spaced;
+    for (const auto& found : only.select_nodes("//circle")) {
+        spaced.emplace_back(found.node().attribute("cx").as_double(), found.node().attribute("cy").as_double());
+    }
+    double least = 1e300;
+    for (const auto& a : spaced) {
+        for (const auto& b : spaced) {
+            if (a != b) least = std::min(least, std::hypot(a.first - b.first, a.second - b.second));
+        }
+    }
+    EXPECT_NEAR(least, 15'000, 2);
+}
+
+TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
+    const auto plain = svg({"snake-kolam", "-n", "2"});
+    const auto framed = svg({"snake-kolam", "-n", "2", "--border", "kaavi"});
+    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 2);
+    EXPECT_EQ(count(framed, "//circle"), 4u);
+    const auto strokes = framed.select_nodes("//g[@stroke='#b3452c']/path");
+    ASSERT_EQ(strokes.size(), 1u);
+    EXPECT_TRUE(std::string_view(strokes.first().node().attribute("d").value()).ends_with("z"));
+    for (const char* format : {"png", "pdf", "hpgl"}) {
+        EXPECT_EQ(draw({"snake-kolam", "-n", "2", "--border", "kaavi", "--dots", "--dpi", "40"},
+                       std::string("framed.") + format)
+                      .status,
+                  0);
+    }
+}
+
+TEST_F(PrintOptions, StrandsAreToldApart) {
+    const Outcome made = run({"kolam", "--grid", "5x5", "--seed", "4", "-o", (folder_ / "five.lsys").string()});
+    ASSERT_EQ(made.status, 0) << made.errors;
+    EXPECT_TRUE(has(made.errors, "5 lines"));
+    const auto document = svg({(folder_ / "five.lsys").string(), "--colour-by", "strand"});
+    std::set<std::string> colours;
+    for (const auto& found : document.select_nodes("//g[@stroke]")) {
+        colours.insert(found.node().attribute("stroke").value());
+    }
+    EXPECT_EQ(colours.size(), 5u);
+    EXPECT_EQ(count(document, "//path"), 5u);
+}
+
+TEST_F(PrintOptions, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {
+    const auto document = svg({"tree-in-voices", "-n", "3", "--animate", "12"});
+    double at = 0;
+    const auto number = [](const std::string& style, const std::string& name) {
+        double value = -1;
+        const std::size_t begin = style.find(name) + name.size();
+        std::from_chars(style.data() + begin, style.data() + style.size(), value);
+        return value;
+    };
+    for (const auto& found : document.select_nodes("//path[@pathLength]")) {
+        const std::string style = found.node().attribute("style").value();
+        EXPECT_NEAR(number(style, "--b:"), at, 0.01);  // one stroke after the other
+        at += number(style, "--l:");
+    }
+    EXPECT_GT(at, 100);
+    const std::string rules = document.select_node("//style").node().child_value();
+    EXPECT_NEAR(number(rules, "--pace: ") * at, 12, 0.01);
+    EXPECT_EQ(count(document, "//path[@pathLength]"), count(document, "//path"));
+    EXPECT_TRUE(has(rules, "prefers-reduced-motion"));
+    // Not only drawings of one stroke, and readers that know no animation show them.
+    if (!has_program("rsvg-convert")) GTEST_SKIP() << "rsvg-convert is not installed";
+    const std::string file = (folder_ / "print.svg").string();
+    EXPECT_TRUE(run("rsvg-convert " + file + " -o " + file + ".png").ok);
+    ASSERT_EQ(draw({"tree-in-voices", "-n", "3"}, "still.svg").status, 0);
+    const std::string still = (folder_ / "still.svg").string();
+    EXPECT_TRUE(run("rsvg-convert " + still + " -o " + still + ".png").ok);
+    EXPECT_EQ(contents(file + ".png"), contents(still + ".png"));
+}
+
+TEST_F(PrintOptions, GenerationsStandSideBySide) {
+    const auto document = svg({"snake-kolam", "--generations", "0:3", "--landscape", "--animate"});
+    const std::string text = contents(folder_ / "print.svg");
+    for (const char* caption : {"n = 0", "n = 3"}) EXPECT_TRUE(has(text, caption));
+    EXPECT_GT(count(document, "//path[@pathLength]"), 4u);
+}
+
+TEST_F(PrintOptions, TilesMakeUpTheWholePrint) {
+    const Outcome outcome =
+        draw({"snake-kolam", "-n", "4", "--dots", "--dot-spacing", "15mm", "--tile", "A4"}, "big.svg");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    // 341 dots in 31 rows, 10.6 mm apart: 330 mm and the pen's width, with 190 and 180 mm on each sheet.
+    EXPECT_TRUE(has(outcome.errors, "4 sheets"));
+    EXPECT_EQ(folder_.names().size(), 4u);
+    // The dots of all sheets, laid out as the sheets are, are those of the whole.
+    std::set<std::pair<long, long>> dots;
+    for (const auto& [name, left, top] : {std::tuple("big-1-1.svg", 0, 0),
+                                          {"big-1-2.svg", 180, 0},
+                                          {"big-2-1.svg", 0, 267},
+                                          {"big-2-2.svg", 180, 267}}) {
+        pugi::xml_document sheet;
+        ASSERT_TRUE(sheet.load_file((folder_ / name).c_str()));
+        EXPECT_STREQ(sheet.document_element().attribute("width").value(), "210mm");
+        for (const auto& found : sheet.select_nodes("//circle")) {
+            dots.emplace(std::lround(found.node().attribute("cx").as_double() / 10 + left * 100),
+                         std::lround(found.node().attribute("cy").as_double() / 10 + top * 100));
+        }
+    }
+    EXPECT_EQ(dots.size(), 341u);
+    // Nothing is left of sheets that were not finished.
+    EXPECT_EQ(draw({"snake-kolam", "--tile", "20x20mm"}, "none.svg").status, 2);
+    EXPECT_EQ(folder_.names().size(), 4u);
+}
+
+TEST_F(PrintOptions, PlotsDrawNothingTwice) {
+    const Outcome outcome = draw({"spiral-tiling", "--plotter", "--travel", "--split", "500mm"}, "plot.svg");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "384 segments drawn twice"));
+    EXPECT_TRUE(has(outcome.errors, "before: "));
+    EXPECT_TRUE(has(outcome.errors, "plot: "));
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_file((folder_ / "plot.svg").c_str()));
+    const auto labels = layers(document);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), "% ground"), 1);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), "% travel"), 1);
+    for (const std::string& label : labels) {
+        EXPECT_TRUE(label.starts_with('%') || std::isdigit(static_cast<unsigned char>(label.front()))) << label;
+    }
+    const auto gcode = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"hilbert", "-n", "4"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(draw(arguments, "plot.gcode").status, 0);
+        return contents(folder_ / "plot.gcode");
+    };
+    EXPECT_TRUE(has(gcode({}), "M3"));
+    const std::string z =
+        gcode({"--profile", "z", "--pen-speed", "25", "--gcode-start", "G28", "--gcode-end", "M84"});
+    EXPECT_TRUE(has(z, "F1500"));
+    EXPECT_TRUE(has(z, "G28\n"));
+    EXPECT_TRUE(z.ends_with("M84\n"));
+    EXPECT_EQ(z.find("M3"), std::string::npos);
+}
+
+TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--pen-speed", "0", "--plotter"}, "speeds are finite and above 0"},
+        {{"--pen-speed", "nan", "--plotter"}, "speeds are finite and above 0"},
+        {{"--split", "0mm", "--plotter"}, "a length above 0"},
+        {{"--split", "1m"}, "--split"},
+        {{"--travel"}, "goes with --plotter"},
+        {{"--profile", "marlin", "--plotter"}, "expected grbl or z"},
+        {{"--dots", "gold gold"}, "is too much: 'dots:'"},
+        {{"--dots", "0mm"}, "a dot of width 0"},
+        {{"--dot-spacing", "-3mm"}, "above 0"},
+        {{"--dot-spacing", "3mm", "--step", "1mm"}, "--step does, too"},
+        {{"--border", "lotus"}, "expected kaavi"},
+        {{"--colour-by", "mood"}, "expected strand"},
+        {{"--animate", "0"}, "above 0"},
+        {{"--animate", "fast"}, "above 0"},
+        {{"--generations", "4:2"}, "the lower one first"},
+        {{"--generations", "x"}, "such as 0:4"},
+        {{"--tile", "A9"}, "--tile A9"},
+        {{"--tile", "A4", "--overlap", "200mm"}, "no room for an overlap"},
+        {{"--tile", "A4", "--plotter"}, "not cut into sheets"},
+        {{"--dots", "--window", "0,0,5,5"}, "need the whole drawing"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        std::vector<std::string> all = {"snake-kolam"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = draw(all, "bad.svg");
+        EXPECT_NE(outcome.status, 0) << arguments.front() << " " << arguments.back();
+        EXPECT_TRUE(has(outcome.errors, message));
+        EXPECT_TRUE(folder_.names().empty());
+    }
+    EXPECT_EQ(draw({"snake-kolam", "--animate"}, "bad.png").status, 2);
+    EXPECT_EQ(draw({"snake-kolam", "--plotter"}, "bad.png").status, 2);
+    // Off the page a plotter would run against its stops.
+    EXPECT_EQ(draw({"snake-kolam", "--step", "50mm"}, "bad.hpgl").status, 1);
+    EXPECT_TRUE(folder_.names().empty());
+    EXPECT_EQ(draw({"hilbert", "--dots=only"}, "bad.svg").status, 1);
+}
+
+TEST_F(PrintOptions, KolamsAreMadeAndExamined) {
+    const std::string file = (folder_ / "mine.lsys").string();
+    ASSERT_EQ(run({"kolam", "--grid", "7x7", "--symmetry", "C4", "--single-line", "--seed", "3", "-o", file}).status,
+              0);
+    const Outcome examined = run({"kolam", file, "--json"});
+    EXPECT_EQ(examined.status, 0);
+    EXPECT_TRUE(has(examined.output, "\"kolam\": true"));
+    EXPECT_TRUE(has(examined.output, "\"lines\": 1, \"open_lines\": 0"));
+    EXPECT_TRUE(has(examined.output, "\"symmetry\": \"C4\""));
+    // Several lines, between which the turtle moves with a pen that is not seen.
+    ASSERT_EQ(run({"kolam", "--grid", "4x6", "--crossings", "all", "-o", file}).status, 0);
+    EXPECT_TRUE(has(run({"kolam", file}).output, "2 closed lines, 24 dots, all encircled"));
+    EXPECT_EQ(run(std::vector<std::string>{"kolam"}).status, 2);
+    EXPECT_EQ(run({"kolam", "snake-kolam", "--grid", "3x3"}).status, 2);
+    EXPECT_EQ(run({"kolam", "--grid", "3x4", "--symmetry", "C4"}).status, 2);
+}
+
+}  // namespace
+}  // namespace sikku
