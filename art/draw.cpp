@@ -256,8 +256,10 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 /// Draws into whatever a format takes.
 using Content = std::function<void(PathSink& sink)>;
 
-void write(const Content& content, const Print& print, const DrawOptions& options, OutputFile& output,
+void write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
            const std::filesystem::path& file) {
+    // Only PDF knows the sheet from its bleed.
+    const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
     if (is_vector(options.format)) {
         const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
         content(*writer);
@@ -475,11 +477,13 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
             report = drawing.place(print);
         }
         composition.add_colours(print);
+        check_spots(print.press, print.style);
         draw_tiles(drawing, composition, print, options, file, report);
         return report;
     }
     OutputFile output(file);
     composition.add_colours(print);
+    check_spots(print.press, print.style);
     if (is_plot) {
         draw_plot(drawing, composition, print, options, output, report);
     } else {

@@ -24,6 +24,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -169,7 +170,7 @@ public:
 
     ViewReport draw_lines(PrintWriter& writer) const {
         Sight sight;
-        sight.box = seen_box(print_, 0, print_.page.height, width_);
+        sight.box = seen_box(print_, 0, print_.page.height, width_ + print_.press.bleed);
         sight.chord = width_ / 4 / print_.placement.step;
         sight.least = width_ / 256 / print_.placement.step;
         LinesOnly lines(writer);
@@ -328,6 +329,8 @@ std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const D
     if (options.begin) options.begin(1);
     OutputFile output(file);
     DrawReport report = drawer.place();
+    check_spots(print.press, print.style);
+    if (options.format != PrintFormat::pdf) print = as_picture(std::move(print));
     ViewReport seen;
     if (is_vector) {
         const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);

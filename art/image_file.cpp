@@ -51,6 +51,10 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
     return image_module().open(path, spec);
 }
 
+void check_cmyk_profile(const std::filesystem::path& file) {
+    image_module().check_cmyk_profile(file);
+}
+
 std::optional<ImageText> read_image_text(const std::filesystem::path& path) {
     return image_module().read_text(path);
 }

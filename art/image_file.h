@@ -17,10 +17,13 @@ struct ImageSpec {
     int channels = 3;  ///< 1, 3 or 4
     double dpi = 300.0;
     int threads = 1;
-    std::string title;        ///< Title where the format has one
-    std::string description;  ///< ImageDescription
-    std::string software;     ///< Software
-    int compression = 6;      ///< of PNG: 1, quick and large, to 9
+    std::string title;             ///< Title where the format has one
+    std::string description;       ///< ImageDescription
+    std::string software;          ///< Software
+    int compression = 6;           ///< of PNG: 1, quick and large, to 9
+    bool icc = true;               ///< PNG, TIFF and JPEG hold the profile of their colours
+    std::filesystem::path cmyk{};  ///< ICC profile of inks, which the pixels are turned into; empty: none; TIFF alone
+    int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
 };
 
 /// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF OpenImageIO reads as much. Half a pattern is none.
@@ -33,8 +36,9 @@ inline bool keeps_text(std::string_view format, std::string_view text) {
 /// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures are
 /// std::runtime_error; a full disk is one at the latest when the file is closed. The same rows make the same bytes.
 ///
-/// PNG and TIFF keep the pixels; JPEG (quality 95) has no alpha and lies on white; EXR is 16-bit linear light with
-/// associated alpha. JPEG and TIFF leave out texts that they would not keep: see keeps_text().
+/// PNG and TIFF keep the pixels; JPEG (quality 95), CMYK and one bit have no alpha and lie on white; EXR is 16-bit
+/// linear light with associated alpha. CMYK is relative colorimetric with black point compensation; of one bit white
+/// is what has at least half the luminance. JPEG and TIFF leave out texts that they would not keep: see keeps_text().
 class ImageWriter {
 public:
     virtual ~ImageWriter() = default;
@@ -45,7 +49,12 @@ public:
 };
 
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
+/// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);
+
+/// @throws std::runtime_error, which names the file, if it is no ICC profile that turns colours into CMYK. Loads the
+/// module, too.
+void check_cmyk_profile(const std::filesystem::path& file);
 
 /// Description and software text of a raster file, or nullopt if it cannot be read as an image.
 struct ImageText {

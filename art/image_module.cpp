@@ -1,5 +1,8 @@
-// art/image_module.cpp: the only file that sees OpenImageIO. It is a module of its own, loaded by image_file.cpp.
+// art/image_module.cpp: the only file that sees OpenImageIO. With icc.cpp it is a module of its own, loaded by
+// image_file.cpp.
 #include "art/image_module.h"
+
+#include "art/icc.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -164,13 +167,16 @@ public:
 
 private:
     [[noreturn]] void fail();
+    /// 3 channels, or 1 if there was 1; what is transparent lies on white paper.
+    std::span<const std::uint8_t> on_paper(std::span<const std::uint8_t> pixels);
     void write(int first_row, int rows, OIIO::TypeDesc type, const void* pixels);
 
     ImageSpec spec_;
     CheckedFile file_;
     std::optional<CheckedStream> stream_;
     std::unique_ptr<OIIO::ImageOutput> output_;
-    std::vector<std::uint8_t> flattened_;
+    std::optional<InkTransform> inks_;
+    std::vector<std::uint8_t> flattened_, converted_;
     std::vector<float> linear_;
 };
 
@@ -192,6 +198,14 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     if (jpeg && std::max(spec.width, spec.height) > most_jpeg_pixels) {
         throw std::runtime_error("a JPEG has at most " + std::to_string(most_jpeg_pixels) + " pixels a side");
     }
+    if (!tiff && (!spec.cmyk.empty() || spec.bits != 8)) {
+        throw std::runtime_error("only TIFF has CMYK or one bit a pixel");
+    }
+    if (spec.bits != 8 && (spec.bits != 1 || !spec.cmyk.empty())) {
+        throw std::runtime_error("a picture has 8 bits a channel, or 1 and no inks");
+    }
+    const bool bitmap = spec.bits == 1;
+    if (!spec.cmyk.empty()) inks_.emplace(spec.cmyk);
     // Debian's OpenImageIO would tell the terminal what it thinks of attributes.
     OIIO::attribute("debug", 0);
     set_threads(spec.threads);
@@ -202,11 +216,25 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         throw std::runtime_error("this OpenImageIO cannot write " + spec.format + " through a proxy");
     }
 
-    const int channels = jpeg && spec.channels == 4 ? 3 : spec.channels;
+    const int channels = bitmap ? 1 : inks_ ? 4 : jpeg && spec.channels == 4 ? 3 : spec.channels;
     OIIO::ImageSpec image(spec.width, spec.height, channels, exr ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8);
-    // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's.
-    if (!tiff) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
-    if (channels == 4 && !exr) image.attribute("oiio:UnassociatedAlpha", 1);
+    if (bitmap) image.attribute("oiio:BitsPerSample", 1);
+    if (inks_) {
+        image.channelnames = {"C", "M", "Y", "K"};
+        image.alpha_channel = -1;
+        image.attribute("tiff:ColorSpace", "CMYK");
+    }
+    if (!exr && !bitmap && spec.icc) {
+        const std::vector<std::uint8_t> profile = inks_          ? inks_->profile()
+                                                  : channels < 3 ? grey_profile()
+                                                                 : srgb_profile();
+        image.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
+                        profile.data());
+    }
+    // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's, and
+    // not in a PNG with a profile, which says the same.
+    if (!tiff && !(png && spec.icc)) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+    if (channels == 4 && !exr && !inks_) image.attribute("oiio:UnassociatedAlpha", 1);
     image.attribute("XResolution", static_cast<float>(spec.dpi));
     image.attribute("YResolution", static_cast<float>(spec.dpi));
     image.attribute("ResolutionUnit", "in");
@@ -269,20 +297,49 @@ void FileWriter::rows(int first_row, int rows, std::span<const std::uint8_t> pix
         write(first_row, rows, OIIO::TypeDesc::FLOAT, linear_.data());
         return;
     }
-    if (spec_.format == "jpg" && channels == 4) {
-        // No alpha in JPEG: on white paper.
-        flattened_.clear();
-        for (std::size_t i = 0; i < pixels.size(); i += 4) {
-            const unsigned alpha = pixels[i + 3];
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                flattened_.push_back(
-                    static_cast<std::uint8_t>((pixels[i + channel] * alpha + 255 * (255 - alpha) + 127) / 255));
+    if (spec_.bits == 1) {
+        const auto on_white = on_paper(pixels);
+        converted_.resize(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(rows));
+        if (channels == 1) {
+            std::transform(on_white.begin(), on_white.end(), converted_.begin(),
+                           [](std::uint8_t grey) { return static_cast<std::uint8_t>(grey < 128 ? 0 : 255); });
+        } else {
+            // Rec. 709 weights on the values as they are, in which coverage is mixed.
+            for (std::size_t i = 0; i < converted_.size(); ++i) {
+                const std::uint8_t* colour = &on_white[3 * i];
+                const int luminance = 2126 * colour[0] + 7152 * colour[1] + 722 * colour[2];
+                converted_[i] = luminance < 128 * 10000 ? 0 : 255;
             }
         }
-        write(first_row, rows, OIIO::TypeDesc::UINT8, flattened_.data());
+        write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
         return;
     }
-    write(first_row, rows, OIIO::TypeDesc::UINT8, pixels.data());
+    if (inks_) {
+        auto on_white = on_paper(pixels);
+        if (channels == 1) {
+            flattened_.resize(3 * on_white.size());
+            for (std::size_t i = 0; i < on_white.size(); ++i) std::fill_n(&flattened_[3 * i], 3, on_white[i]);
+            on_white = flattened_;
+        }
+        converted_.resize(on_white.size() / 3 * 4);
+        inks_->convert(on_white, converted_);
+        write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
+        return;
+    }
+    write(first_row, rows, OIIO::TypeDesc::UINT8, (spec_.format == "jpg" ? on_paper(pixels) : pixels).data());
+}
+
+std::span<const std::uint8_t> FileWriter::on_paper(std::span<const std::uint8_t> pixels) {
+    if (spec_.channels != 4) return pixels;
+    flattened_.clear();
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        const unsigned alpha = pixels[i + 3];
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            flattened_.push_back(
+                static_cast<std::uint8_t>((pixels[i + channel] * alpha + 255 * (255 - alpha) + 127) / 255));
+        }
+    }
+    return flattened_;
 }
 
 void FileWriter::close() {
@@ -309,7 +366,11 @@ std::optional<ImageText> read_text(const std::filesystem::path& path) {
     return ImageText{spec.get_string_attribute("ImageDescription"), spec.get_string_attribute("Software")};
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, read_text};
+void check_cmyk_profile(const std::filesystem::path& file) {
+    const InkTransform transform(file);
+}
+
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, read_text, check_cmyk_profile};
 
 }  // namespace
 }  // namespace sikku

@@ -12,6 +12,7 @@ struct ImageModule {
     std::uint64_t version;
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
     std::optional<ImageText> (*read_text)(const std::filesystem::path& path);
+    void (*check_cmyk_profile)(const std::filesystem::path& file);
 };
 /// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).
 constexpr std::uint64_t image_module_version(std::string_view program) {

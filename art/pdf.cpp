@@ -21,6 +21,7 @@ namespace sikku {
 namespace {
 
 constexpr double points_of_micrometre = 72.0 / 25400.0;
+constexpr double mark_width = 0.25;     // points
 constexpr double most_units = 14400.0;  // of a page's side, in its units: ISO 32000-1, annex C
 
 constexpr std::size_t pack_bytes = std::size_t{1} << 18;
@@ -104,6 +105,20 @@ std::string channels(Colour colour) {
                        decimal(colour.blue / 255.0, 4));
 }
 
+/// Bytes that end or escape a name are written as #xx.
+std::string name_object(std::string_view name) {
+    std::string result = "/";
+    for (const char byte : name) {
+        const auto code = static_cast<unsigned char>(byte);
+        if (code > 0x20 && code < 0x7F && std::string_view("()<>[]{}/%#").find(byte) == std::string_view::npos) {
+            result += byte;
+        } else {
+            fmt::format_to(std::back_inserter(result), "#{:02X}", code);
+        }
+    }
+    return result;
+}
+
 inline char* put_point(char* out, Micrometres point) {
     out = put_number(out, point.x);
     *out++ = ' ';
@@ -137,8 +152,9 @@ struct Layer : VectorLayer {
 
 class Writer final : public VectorWriter<Layer> {
 public:
-    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file) {
-        const double longest = std::max(print.page.width, print.page.height) * 1000.0 * points_of_micrometre;
+    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file), edge_(press_edge(print.press)) {
+        const double longest =
+            (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
         write("%PDF-1.6\n%\xE2\xE3\xCF\xD3\n");
         catalog_ = new_object();
@@ -154,6 +170,7 @@ public:
 
     void finish() override {
         end_part();
+        write_marks();
         write_structure();
     }
 
@@ -175,18 +192,16 @@ private:
             write(fmt::format("{}\nendobj\n", layer.packed_bytes));
         }
         std::string groups;
-        const auto paint = [&](int stream) { fmt::format_to(std::back_inserter(contents_), " {} 0 R", stream); };
-        const std::string box =
-            fmt::format("{} {} {} {} re", user(window_.left), user(print_.page.height - window_.top - window_.height),
-                        user(window_.width), user(window_.height));
-        if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", box)));
+        if (part_ == &print_) begin_art();
+        const std::string area = rectangle(window_, part_ == &print_ ? print_.press.bleed : 0.0);
+        if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", area)));
         if (const auto& ground = part_->style.ground; ground && ground->alpha > 0) {
             const int group = new_object();
             write_group(group, "ground");
             fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
-            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} rg {} {} f Q EMC\n", group, channels(*ground),
-                                                 set_alpha(ground->alpha), box)));
+            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group, ink(*ground, false),
+                                                 set_alpha(ground->alpha), area)));
         }
         for (auto& [order, layer] : layers_) {
             if (!layer.to_file) {
@@ -219,6 +234,30 @@ private:
         layers_.clear();
     }
 
+    /// What leaves the bleed would run into the marks.
+    void begin_art() {
+        if (!print_.press.marks) return;
+        const Window sheet{0.0, 0.0, print_.page.width, print_.page.height, true};
+        paint(write_plain_stream(fmt::format("q {} W n\n", rectangle(sheet, print_.press.bleed))));
+    }
+
+    /// In all inks, so that every plate shows them.
+    void write_marks() {
+        if (!print_.press.marks) return;
+        std::string text = fmt::format("{} w", decimal(mark_width / unit_, 4));
+        for (const CropMark& mark : crop_marks(print_.page, print_.press)) {
+            fmt::format_to(std::back_inserter(text), " {} {} m {} {} l", user_x(mark.from.x), user_y(mark.from.y),
+                           user_x(mark.to.x), user_y(mark.to.y));
+        }
+        const int group = new_object();
+        write_group(group, "marks");
+        fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
+        fmt::format_to(std::back_inserter(groups_), " {} 0 R", group);
+        fmt::format_to(std::back_inserter(order_), " {} 0 R", group);
+        paint(write_plain_stream(fmt::format("Q /OC /G{} BDC q /Registration CS 1 SCN {} S Q EMC\n", group, text)));
+    }
+
+    void paint(int stream) { fmt::format_to(std::back_inserter(contents_), " {} 0 R", stream); }
     void write(std::string_view text) { file_.write(text); }
 
     int new_object() {
@@ -234,6 +273,50 @@ private:
     std::string user(double millimetres) const {
         return decimal(millimetres * 1000.0 * points_of_micrometre / unit_, 4);
     }
+    /// Of a point in millimetres from the top left corner of the trimmed sheet, y down.
+    std::string user_x(double x) const { return user(edge_ + x); }
+    std::string user_y(double y) const { return user(edge_ + print_.page.height - y); }
+
+    std::string rectangle(const Window& window, double around) const {
+        return fmt::format("{} {} {} {} re", user_x(window.left - around),
+                           user_y(window.top + window.height + around), user(window.width + 2 * around),
+                           user(window.height + 2 * around));
+    }
+    /// The lower left and the upper right corner.
+    std::string box(double around) const {
+        return fmt::format("[{} {} {} {}]", user_x(-around), user_y(print_.page.height + around),
+                           user_x(print_.page.width + around), user_y(-around));
+    }
+
+    /// The operators that set the colour of lines or of areas; a spot colour that is named is remembered.
+    std::string ink(Colour colour, bool of_lines) {
+        const std::vector<Spot>& spots = print_.press.spots;
+        for (std::size_t i = 0; i < spots.size(); ++i) {
+            const Colour& spot = spots[i].colour;
+            if (spot.red != colour.red || spot.green != colour.green || spot.blue != colour.blue) continue;
+            spots_.insert(i);
+            return fmt::format("/S{} {}", i, of_lines ? "CS 1 SCN" : "cs 1 scn");
+        }
+        return channels(colour) + (of_lines ? " RG" : " rg");
+    }
+
+    /// A tint of none is white; who has no such ink mixes it from red, green and blue.
+    void write_colour_spaces() {
+        if (spots_.empty() && !print_.press.marks) return;
+        const auto separation = [](const std::string& name, std::string_view space, const std::string& none,
+                                   const std::string& full) {
+            return fmt::format("[/Separation {} /{} << /FunctionType 2 /Domain [0 1] /C0 [{}] /C1 [{}] /N 1 >>]\n",
+                               name, space, none, full);
+        };
+        write("/ColorSpace <<\n");
+        for (const std::size_t i : spots_) {
+            const Spot& spot = print_.press.spots[i];
+            write(fmt::format("/S{} {}", i,
+                              separation(name_object(spot.name), "DeviceRGB", "1 1 1", channels(spot.colour))));
+        }
+        if (print_.press.marks) write("/Registration " + separation("/All", "DeviceGray", "1", "0"));
+        write(">>\n");
+    }
 
     /// The operator that sets the opacity of fills and groups; the state it names is remembered.
     std::string set_alpha(std::uint8_t alpha) {
@@ -245,15 +328,16 @@ private:
     /// Micrometres with y down become units of the page with y up.
     std::string matrix() const {
         const std::string scale = decimal(points_of_micrometre / unit_, 14);
-        return fmt::format("{} 0 0 -{} 0 {} cm", scale, scale, user(print_.page.height));
+        return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + print_.page.height));
     }
 
     std::string stream_head(const Layer& layer, const std::string& length) const {
-        const std::string form = layer.translucent ? fmt::format(
-                                                         "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
-                                                         "/Group << /S /Transparency /CS /DeviceRGB >> ",
-                                                         user(print_.page.width), user(print_.page.height))
-                                                   : "";
+        const std::string form = layer.translucent
+                                     ? fmt::format(
+                                           "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
+                                           "/Group << /S /Transparency /CS /DeviceRGB >> ",
+                                           user(2 * edge_ + print_.page.width), user(2 * edge_ + print_.page.height))
+                                     : "";
         return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
     }
 
@@ -286,7 +370,7 @@ private:
         // Polygons keep their order whatever their colours, as they may cover each other.
         Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
         if (layer.run != colour) {
-            layer.text.append(fmt::format("{} rg {}\n", channels(colour), set_alpha(colour.alpha)));
+            layer.text.append(fmt::format("{} {}\n", ink(colour, false), set_alpha(colour.alpha)));
             layer.run = colour;
         }
         const MicrometrePlacement place = place_;
@@ -308,7 +392,7 @@ private:
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
         Layer& layer = open_layer({LayerKind::discs, slot}, colour,
                                   [&] { return fmt::format("discs {}", colour_name(colour)); });
-        if (!layer.run) layer.text.append(fmt::format("{} rg\n", channels(colour)));
+        if (!layer.run) layer.text.append(ink(colour, false) + "\n");
         layer.run = colour;
         const auto at = [&](double x, double y) {
             return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
@@ -336,7 +420,7 @@ private:
     void write_start() override {
         if (layer_->width != width_) {
             end_path(*layer_);
-            if (layer_->width.empty()) layer_->text.append(fmt::format("{} RG\n", channels(colour_)));
+            if (layer_->width.empty()) layer_->text.append(ink(colour_, true) + "\n");
             layer_->text.append(fmt::format("{} w\n", width_));
             layer_->width = width_;
         }
@@ -443,6 +527,7 @@ private:
         begin_object(resources_);
         write("<<\n");
         if (!properties_.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties_));
+        write_colour_spaces();
         if (!forms_.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms_));
         if (!alphas_.empty()) {
             write("/ExtGState <<\n");
@@ -454,13 +539,15 @@ private:
         }
         write(">>\nendobj\n");
 
+        // Plates are mixed as inks, each for itself, which a page mixed in RGB would not have.
+        const bool has_group = !alphas_.empty() && spots_.empty() && !print_.press.marks;
         begin_object(page_);
-        const std::string box = fmt::format("[0 0 {} {}]", user(print_.page.width), user(print_.page.height));
-        write(fmt::format(
-            "<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
-            "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
-            pages_, box, box, box, box, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
-            alphas_.empty() ? "" : "/Group << /S /Transparency /CS /DeviceRGB >>\n", resources_, contents_));
+        write(
+            fmt::format("<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
+                        "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
+                        pages_, box(edge_), box(edge_), box(print_.press.bleed), box(0.0),
+                        unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+                        has_group ? "/Group << /S /Transparency /CS /DeviceRGB >>\n" : "", resources_, contents_));
         begin_object(pages_);
         write(fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>\nendobj\n", page_));
         begin_object(catalog_);
@@ -488,11 +575,13 @@ private:
     Deflater deflater_;
     std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
     std::set<int> alphas_;
-    std::string contents_;    ///< streams in the order in which they are painted
-    std::string groups_;      ///< optional content groups
-    std::string order_;       ///< the same as a reader lists them: those of a part together
-    std::string properties_;  ///< and as resources
+    std::set<std::size_t> spots_;  ///< that were used
+    std::string contents_;         ///< streams in the order in which they are painted
+    std::string groups_;           ///< optional content groups
+    std::string order_;            ///< the same as a reader lists them: those of a part together
+    std::string properties_;       ///< and as resources
     std::string forms_;
+    const double edge_;  ///< millimetres from the edge of the medium to the trimmed sheet
     double unit_ = 1.0;  ///< points of one unit of the page
     int catalog_ = 0;
     int pages_ = 0;

@@ -32,6 +32,9 @@ Picture::Picture(const Print& print, const DrawOptions& options, int channels, O
     spec.dpi = print.dpi;
     spec.threads = options.threads;
     spec.compression = options.compression;
+    spec.icc = print.press.icc;
+    spec.cmyk = print.press.cmyk;
+    spec.bits = print.press.bits;
     spec.title = print.title;
     spec.description = print.pattern;
     spec.software = print.made;

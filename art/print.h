@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/page.h"
+#include "art/press.h"
 #include "art/style.h"
 #include "engine/path.h"
 
@@ -24,6 +25,7 @@ struct Print {
     std::optional<int> travel_colour;  ///< index of the colour in which ways of the lifted pen are shown
     bool is_plot = false;              ///< layers that no pen draws are marked as such
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
+    Press press;                       ///< how it goes to press
 };
 
 /// A part of a sheet, in millimetres from its top left corner.

@@ -1,6 +1,7 @@
 // cli/draw.cpp: `sikku draw`: a print.
 #include "cli/draw.h"
 
+#include "art/image_file.h"
 #include "art/sheet.h"
 #include "engine/forecast.h"
 
@@ -203,6 +204,25 @@ PlannedPrint plan_print(const DrawSettings& options) {
                             *options.window));
         }
     }
+    Press& press = print.press;
+    press.bleed = length("--bleed", options.bleed, options.dpi);
+    press.marks = options.marks;
+    press.cmyk = options.cmyk;
+    press.bits = options.bits;
+    press.icc = options.icc;
+    as_usage([&] {
+        press.spots = parse_spots(options.spots);
+        check_press(press, *format);
+    });
+    const bool is_trimmed = press.bleed > 0 || press.marks;
+    if (is_trimmed && (options.plotter || options.tile)) {
+        throw UsageError("--bleed and --marks are for a print that is trimmed: not for a plot, and not for tiles");
+    }
+    if (!options.generations.empty() &&
+        (is_trimmed || !press.spots.empty() || !press.cmyk.empty() || press.bits != 8)) {
+        throw UsageError(
+            "--generations: a sheet of drawings is made without --bleed, --marks, --spot, --cmyk and --bits");
+    }
     drawing.threads = options.threads;
     drawing.budget = options.budget;
     drawing.compression = options.compression;
@@ -260,6 +280,8 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
     if (!options.generations.empty()) return draw_generations(options, print, drawing, loaded, telling);
+    // Before the drawing, which may take long.
+    if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
     std::optional<Progress> progress;
     if (telling.watch) {
@@ -295,6 +317,7 @@ void add_draw(CLI::App& app, bool& quiet) {
     auto options = std::make_shared<DrawSettings>();
     constexpr const char* kolams = "Kolams";
     constexpr const char* plotters = "Plotters";
+    constexpr const char* press = "Press";
     add_pattern_options(*command, options->pattern);
     command->add_option("-o,--output", options->output, "The file; its extension says which kind")->required();
     command
@@ -360,6 +383,25 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->group(plotters);
     command->add_option("--gcode-start", options->gcode_start, "Lines before the first stroke")->group(plotters);
     command->add_option("--gcode-end", options->gcode_end, "Lines after the last")->group(plotters);
+    command->add_option("--bleed", options->bleed, "How far the ground goes on beyond the page, up to 100mm")
+        ->capture_default_str()
+        ->group(press);
+    command->add_flag("--marks", options->marks, "Crop marks around the bleed; PDF")->group(press);
+    command
+        ->add_option("--spot", options->spots,
+                     "An ink of its own for a colour of the drawing, such as Kaavi=#b3452c; PDF; may be repeated")
+        ->type_name("NAME=COLOUR")
+        ->allow_extra_args(false)
+        ->group(press);
+    command->add_option("--cmyk", options->cmyk, "Inks by this ICC profile instead of RGB; TIFF")
+        ->type_name("FILE.icc")
+        ->group(press);
+    command->add_option("--bits", options->bits, "A channel: 8, or 1 for line art, best at 600 dpi and more; TIFF")
+        ->check(CLI::IsMember({1, 8}))
+        ->capture_default_str()
+        ->group(press);
+    command->add_flag("--icc,!--no-icc", options->icc, "Pictures hold the ICC profile of their colours (default)")
+        ->group(press);
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
         ->capture_default_str();
     command->add_option("--compression", options->compression, "Of PNG: 1, quick and large, to 9")

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -40,6 +41,12 @@ struct DrawSettings {
     std::string profile = "grbl";
     std::optional<std::string> gcode_start;
     std::optional<std::string> gcode_end;
+    std::string bleed = "0mm";       ///< what the ground goes on beyond the page
+    bool marks = false;              ///< crop marks
+    std::vector<std::string> spots;  ///< NAME=COLOUR each
+    std::string cmyk;                ///< ICC profile of the inks
+    int bits = 8;                    ///< a channel
+    bool icc = true;                 ///< pictures hold the profile of their colours
 };
 
 /// What of a print is known before its pattern is read.

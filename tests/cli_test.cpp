@@ -736,7 +736,7 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
-    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--set", "--size", "--step", "--steps"}));
+    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--set", "--size", "--split", "--spot", "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));
@@ -766,9 +766,13 @@ TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     const Outcome bad = drawn({"--window", "1,2,3"}, "bad.svg");
     EXPECT_EQ(bad.status, 2);
     EXPECT_NE(bad.errors.find("X0,Y0,X1,Y1"), std::string::npos) << bad.errors;
-    const Outcome spline = run({"draw", "snake-kolam", "--window", "0,0,9,9", "-o", folder.file("no.svg")});
-    EXPECT_EQ(spline.status, 1);
-    EXPECT_NE(spline.errors.find("straight lines"), std::string::npos) << spline.errors;
+    const Outcome spline =
+        run({"draw", "snake-kolam", "-n", "30", "--window", "0,0,9,9", "-o", folder.file("spline.svg")});
+    EXPECT_EQ(spline.status, 0) << spline.errors;
+    EXPECT_LT(contents(folder.file("spline.svg")).size(), 30'000u);
+    const Outcome colours = run({"draw", "spiral-tiling", "--window", "0,0,9,9", "-o", folder.file("no.svg")});
+    EXPECT_EQ(colours.status, 1);
+    EXPECT_NE(colours.errors.find("one pen"), std::string::npos) << colours.errors;
     EXPECT_FALSE(std::filesystem::exists(folder.file("no.svg")));
 }
 
