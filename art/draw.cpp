@@ -128,14 +128,20 @@ public:
     /// Examines the drawing for its dots, if any are to be drawn; makes room for the border, and the step what the
     /// distance of the dots asks for.
     Composition(const Grammar& grammar, Print& print, DrawOptions& options) : options_(options) {
-        if (options.border) print.page.margin += border_width(print.page);
-        if (!print.style.dots) return;
+        if (options.border) {
+            border_width_ = border_width(print.page);
+            print.page.margin += border_room(border_width_);
+        }
+        if (!print.style.dots && !options.colours_strokes) return;
         KolamOptions examined;
         examined.spline = print.style.line == Line::spline;
         examined.budget = options.budget;
         examined.watch = options.watch;
         examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
-        dots_ = dot_places(examine_kolam(grammar, examined));
+        const KolamExamination examination = examine_kolam(grammar, examined);
+        line_of_stroke_ = examination.line_of_stroke;
+        if (!print.style.dots) return;
+        dots_ = dot_places(examination);
         distance_ = least_distance(dots_);
         if (options.dot_spacing) {
             if (!(distance_ > 0)) throw std::runtime_error("--dot-spacing: there are no two dots");
@@ -153,27 +159,32 @@ public:
         if (options_.colours_strokes) add_stroke_colours(style);
         if (print.style.dots) {
             dot_pen_.colour = static_cast<int>(style.palette.size());
-            style.palette.push_back(style.dots->colour.value_or(style.line_colour({})));
+            style.palette.push_back(style.dots->colour.value_or(
+                options_.only_dots ? style.ground.value_or(style.line_colour({})) : style.line_colour({})));
+            // To practise on, on white paper.
+            if (options_.only_dots) style.ground = Colour{255, 255, 255, 255};
         }
         if (options_.border) {
             border_colour_ = static_cast<int>(style.palette.size());
             for (const Colour colour : border_colours()) style.palette.push_back(colour);
             // The border is no part of what the drawing may fill.
-            print.page.margin -= border_width(print.page);
+            print.page.margin -= border_room(border_width_);
         }
     }
+
+    std::size_t dots() const { return dots_.size(); }
 
     void draw(const Drawing& drawing, const Print& print, PathSink& sink) const {
         OldColours lines(sink, drawn_);
         if (options_.colours_strokes) {
-            StrokeColours coloured(sink, drawn_, stroke_colours_);
+            StrokeColours coloured(sink, drawn_, stroke_colours_, line_of_stroke_);
             drawing.read(coloured);
         } else if (!options_.only_dots) {
             drawing.read(lines);
         }
         const double radius = dot_radius(print);
         for (const glm::dvec2 dot : dots_) sink.disc(dot, radius, dot_pen_);
-        if (options_.border) draw_border(print, border_colour_, sink);
+        if (options_.border) draw_border(print, border_width_, border_colour_, sink);
     }
 
 private:
@@ -207,6 +218,8 @@ private:
     Style drawn_;          ///< with the palette of the drawing alone
     Pen dot_pen_;
     int border_colour_ = 0;
+    double border_width_ = 0;  ///< millimetres
+    std::vector<std::uint32_t> line_of_stroke_;
     std::vector<int> stroke_colours_;
 };
 
@@ -228,14 +241,17 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
 
 void draw_plot(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
                OutputFile& output, DrawReport& report) {
-    PlotPlan plan(print, options.plot.value_or(PlotOptions{}));
+    // Where lines are drawn they are what a pen draws, and not the edges of fills beside them.
+    print.is_plot = true;
+    PlotOptions arranged = options.plot.value_or(PlotOptions{});
+    arranged.outlines = !print.style.stroked;
+    PlotPlan plan(print, arranged);
     composition.draw(drawing, print, plan);
     plan.arrange();
     report.plot = plan.report();
     // Outlines are drawn even where lines are not.
     Print plotted = print;
     plotted.style.stroked = true;
-    plotted.is_plot = true;
     if (is_for_plotters(options.format)) {
         const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, output)
                                                                 : write_gcode(plotted, options.gcode, output);
@@ -277,13 +293,13 @@ void write(const Content& content, const Print& given, const DrawOptions& option
 }
 
 /// Each sheet is drawn from the whole word again, and keeps what is seen on it.
-void draw_tiles(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
-                const std::filesystem::path& file, DrawReport& report) {
+void draw_tiles(const Drawing& drawing, const Composition& composition, Print print, double widest,
+                const DrawOptions& options, const std::filesystem::path& file, DrawReport& report) {
     const int mark_colour = static_cast<int>(print.style.palette.size());
     const bool is_dark = print.style.ground && print.style.ground->red + print.style.ground->green < 256;
     const std::uint8_t grey = is_dark ? 0xc0 : 0x70;
     print.style.palette.push_back({grey, grey, grey, 255});
-    const double around = print.style.line_width({}, print.placement.step) / print.placement.step;
+    const double around = widest / (print.style.stroke.in_steps ? 1.0 : print.placement.step);
     std::vector<std::unique_ptr<OutputFile>> outputs;
     for (const Tile& tile : tiles_of(print.page, *options.tiles)) {
         const Print sheet = tile_print(print, tile, *options.tiles);
@@ -328,8 +344,10 @@ std::string image_format(PrintFormat format) {
             return "jpg";
         case PrintFormat::exr:
             return "exr";
-        default:
+        case PrintFormat::png:
             return "png";
+        default:
+            throw std::logic_error("not a picture");
     }
 }
 
@@ -406,8 +424,8 @@ DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth&
     DrawReport report;
     report.step = step;
     report.size = (seen.box.high - seen.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
-    report.overflows = report.size.x > print.page.width - 2 * print.page.margin + 1e-6 ||
-                       report.size.y > print.page.height - 2 * print.page.margin + 1e-6;
+    report.room = glm::dvec2(print.page.width, print.page.height) - 2 * print.page.margin;
+    report.overflows = report.size.x > report.room.x + 1e-6 || report.size.y > report.room.y + 1e-6;
     return report;
 }
 
@@ -478,10 +496,11 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
         }
         composition.add_colours(print);
         check_spots(print.press, print.style);
-        draw_tiles(drawing, composition, print, options, file, report);
+        draw_tiles(drawing, composition, print, drawing.extent().widest, options, file, report);
         return report;
     }
     OutputFile output(file);
+    report.dots = composition.dots();
     composition.add_colours(print);
     check_spots(print.press, print.style);
     if (is_plot) {

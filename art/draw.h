@@ -58,6 +58,8 @@ struct DrawOptions {
 struct DrawReport {
     double step = 0.0;                ///< millimetres of one turtle step
     glm::dvec2 size{0.0};             ///< of the drawing with its pen, in millimetres
+    glm::dvec2 room{0.0};             ///< for it on the page, within margins and border
+    std::size_t dots = 0;             ///< of a kolam that were drawn
     bool overflows = false;           ///< it is larger than the page within its margins (a step was given)
     int sheets = 0;                   ///< of a print that is cut into tiles
     std::optional<PlotReport> plot;   ///< of an arranged drawing

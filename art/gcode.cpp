@@ -129,8 +129,11 @@ public:
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
-        if (pen_ != 0 && number(pen) != pen_) file_.write(fmt::format("T{}\nM0\n", number(pen)));
-        pen_ = number(pen);
+        if (const int next = number(pen); next != pen_) {
+            file_.write(fmt::format("(pen {}: {})\n", next, colour_name(print_.style.line_colour(pen))));
+            if (pen_ != 0) file_.write(fmt::format("T{}\nM0\n", next));
+            pen_ = next;
+        }
         started_ = false;
     }
     void lines(std::span<const glm::dvec2> ends) override {

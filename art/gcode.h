@@ -31,8 +31,8 @@ std::optional<GcodeOptions> gcode_profile(std::string_view name);
 /// Begins the file. Absolute millimetres (G21 G90 G17) with 3 decimals, from the bottom left corner of the page, y
 /// up. Straight lines are G1; curves are followed within 0.01 mm by as few arcs (G2 and G3 with I J, below 270
 /// degrees, radius up to 1 m) and lines as a greedy search finds. Between two pens the machine stops (T n, M0). The
-/// title is the only comment. `print` and `file` are kept by reference. After finish() the file is complete, but not
-/// committed.
+/// title and the pens' colours are the only comments. `print` and `file` are kept by reference. After finish() the
+/// file is complete, but not committed.
 /// @throws std::runtime_error for feeds that are not finite and above 0, heights that are not finite, power and pause
 /// that are not finite and at least 0; from here and from every call of the writer if the file cannot be written; and
 /// for what lies off the page

@@ -588,6 +588,12 @@ private:
             if (link[end] == none) is_open[lines.find(end / 2)] = 1;
         }
         for (const std::uint32_t use : first_uses) is_of_open_line_.push_back(is_open[lines.find(use)] != 0);
+        std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+        for (const std::uint32_t use : first_uses) {
+            const auto [found, is_new] =
+                numbers.try_emplace(lines.find(use), static_cast<std::uint32_t>(numbers.size()));
+            result_.line_of_stroke.push_back(found->second);
+        }
         times_.assign(edges_.size(), 0);
         closed_times_.assign(edges_.size(), 0);
         for (std::uint32_t use = 0; use < uses.size(); ++use) {

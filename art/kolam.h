@@ -43,8 +43,9 @@ struct KolamExamination {
     std::uint64_t segments = 0;  ///< steps that draw (or guide a spline), as often as they are drawn
     std::uint64_t strokes = 0;
 
-    std::uint64_t lines = 0;           ///< as drawn; strokes that meet end to end are one line
-    std::uint64_t open_lines = 0;      ///< of them
+    std::uint64_t lines = 0;                    ///< as drawn; strokes that meet end to end are one line
+    std::uint64_t open_lines = 0;               ///< of them
+    std::vector<std::uint32_t> line_of_stroke;  ///< for each stroke the number of its line, by their first strokes
     std::uint64_t straight_lines = 0;  ///< lines if one goes straight on wherever edges meet, as the eye does
 
     std::uint64_t vertices = 0;

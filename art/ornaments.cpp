@@ -37,15 +37,20 @@ double border_width(const Page& page) {
     return std::min(page.width, page.height) / 24;
 }
 
-std::vector<Colour> border_colours() {
-    return {{0xff, 0xfa, 0xf0, 255}, {0xb3, 0x45, 0x2c, 255}};
+double border_room(double width) {
+    return 1.6 * width;
 }
 
-void draw_border(const Print& print, int colour, PathSink& sink) {
+std::vector<Colour> border_colours() {
+    // A white of its own, so that it has a layer of its own.
+    return {{0xff, 0xfb, 0xf1, 255}, {0xb3, 0x45, 0x2c, 255}};
+}
+
+void draw_border(const Print& print, double width, int colour, PathSink& sink) {
     const Page& page = print.page;
     const Placement& placement = print.placement;
-    const double radius = border_width(page) * loop_share;
-    const double line = border_width(page) * line_share;
+    const double radius = width * loop_share;
+    const double line = width * line_share;
     // Page units, y down, clockwise from the top left corner; the sides lie one loop within the margin.
     const double inset = page.margin + 2 * radius + line / 2;
     const std::array<glm::dvec2, 4> corners = {glm::dvec2(inset, inset), glm::dvec2(page.width - inset, inset),
@@ -66,6 +71,8 @@ void draw_border(const Print& print, int colour, PathSink& sink) {
     };
     const Pen earth = pen_of(line * earth_share, colour + 1);
     for (const Pen& pen : {pen_of(line, colour), earth}) {
+        // A pen plotter does not paint over.
+        if (print.is_plot && pen != earth) continue;
         sink.begin_stroke(drawn(corners[0] + radius * ways[0]), pen);
         for (std::size_t side = 0; side < 4; ++side) {
             const glm::dvec2 along = ways[side];

@@ -33,11 +33,12 @@ private:
     Style style_;
 };
 
-/// Draws each stroke that is seen in the next of some colours, which are indices of the palette.
+/// Draws the strokes of each line in the next of some colours, which are indices of the palette.
 class StrokeColours : public PathSink {
 public:
-    StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours)
-        : sink_(sink), style_(style), colours_(std::move(colours)) {}
+    StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
+                  const std::vector<std::uint32_t>& line_of_stroke)
+        : sink_(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         if (style_.draws(pen)) ++stroke_;
@@ -52,13 +53,16 @@ public:
 
 private:
     Pen coloured(Pen pen) const {
-        pen.colour = style_.draws(pen) ? colours_[stroke_ % colours_.size()] : style_.index(pen);
+        pen.colour = style_.draws(pen) ? colours_[line() % colours_.size()] : style_.index(pen);
         return pen;
     }
     PathSink& sink_;
+    std::size_t line() const { return stroke_ < lines_.size() ? lines_[stroke_] : 0; }
+
     const Style& style_;
     std::vector<int> colours_;
-    std::size_t stroke_ = SIZE_MAX;
+    const std::vector<std::uint32_t>& lines_;
+    std::size_t stroke_ = SIZE_MAX;  ///< of those that are seen
 };
 
 /// The shortest way between two of them; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
@@ -66,11 +70,13 @@ double least_distance(std::span<const glm::dvec2> dots);
 
 /// How far the border reaches inwards from the margin, in millimetres: a 24th of the page's shorter side.
 double border_width(const Page& page);
+/// With the room that a drawing leaves to it.
+double border_room(double width);
 /// The colours of draw_border(): rice flour and red earth (*kaavi*).
 std::vector<Colour> border_colours();
-/// A frame within the page's margins, border_width() wide: a line of red earth between thin ones of rice flour,
+/// A frame within the page's margins, of that width: a line of red earth between thin ones of rice flour,
 /// closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
 /// the palette of `print`, which is placed.
-void draw_border(const Print& print, int colour, PathSink& sink);
+void draw_border(const Print& print, double width, int colour, PathSink& sink);
 
 }  // namespace sikku

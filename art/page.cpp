@@ -47,6 +47,8 @@ std::optional<double> in_millimetres(const Measure& measure, double dpi) {
     double result = measure.number;
     if (measure.unit == "cm") {
         result *= 10.0;
+    } else if (measure.unit == "m") {
+        result *= 1000.0;
     } else if (measure.unit == "in") {
         result *= millimetres_of_inch;
     } else if (measure.unit == "pt") {

@@ -15,7 +15,7 @@ struct Page {
     double margin = 10.0;  ///< on all four sides
 };
 
-/// A length such as `15mm`, `1.5cm`, `2in`, `12pt`, `300px` in millimetres; px by `dpi`; a bare number is mm.
+/// A length such as `15mm`, `1.5cm`, `2m`, `2in`, `12pt`, `300px` in millimetres; px by `dpi`; a bare number is mm.
 std::optional<double> parse_length(std::string_view text, double dpi);
 
 /// `A0` … `A6`, `letter`, `legal`, `tabloid` (any case, upright), or `WIDTHxHEIGHT` with units (`300x300mm`,

@@ -204,12 +204,12 @@ void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, Plo
 
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds) {
     for (const double speed : {speeds.drawing, speeds.travelling}) {
-        if (!(std::isfinite(speed) && speed > 0)) {
-            throw std::runtime_error("a plotter's speeds are finite and above 0 mm/s");
+        if (!(speed >= 1e-3 && speed <= 1e6)) {
+            throw std::runtime_error("a plotter's speeds are between 0.001 and 1000000 mm/s");
         }
     }
-    if (!(std::isfinite(speeds.lift) && speeds.lift >= 0)) {
-        throw std::runtime_error("the time for lifting the pen is finite and at least 0 s");
+    if (!(speeds.lift >= 0 && speeds.lift <= 3600)) {
+        throw std::runtime_error("the time for lifting the pen is between 0 and 3600 s");
     }
     return tally.drawn / speeds.drawing + tally.travelled / speeds.travelling +
            static_cast<double>(tally.lifts) * speeds.lift;
@@ -279,8 +279,10 @@ void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
 void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     const double step = print_.placement.step;
     // Around a dot of twice its width the pen goes in the middle.
-    const double r = radius > 0.0 ? radius : 0.5 * print_.style.disc_radius(radius, pen, step) / step;
-    if (!options_.outlines || print_.style.fill_colour(pen).alpha == 0 || !(r > 0.0)) return;
+    const double pen_radius = 0.5 * print_.style.line_width(pen, step) / step;
+    const double r = radius > 0.0 ? std::max(radius - pen_radius, 0.25 * radius)
+                                  : 0.5 * print_.style.disc_radius(radius, pen, step) / step;
+    if (print_.style.fill_colour(pen).alpha == 0 || !(r > 0.0)) return;
     down_ = false;
     // Eighths of a circle, to 0.0004 percent of its radius.
     constexpr std::size_t eighths = 8;
@@ -409,6 +411,11 @@ void PlotWriter::change_pen(const Pen& pen) {
     // The stroke ends and goes on as another one.
     end_stroke(false);
     begin_stroke(here_, pen);
+}
+
+int PlotWriter::number(const Pen& pen) {
+    const int next = static_cast<int>(numbers_.size()) + 1;
+    return numbers_.try_emplace(print_.style.index(pen), next).first->second;
 }
 
 glm::dvec2 PlotWriter::on_page(glm::dvec2 point) const {

@@ -16,7 +16,7 @@ struct PlotOptions {
     /// Millimetres: a longer stroke is cut into several, each beginning where the last one ended; only where lines
     /// and curves meet, so that one that is longer by itself stays whole. 0: never.
     double split = 0.0;
-    bool outlines = true;  ///< of polygons and discs; false: lines alone are drawn
+    bool outlines = true;  ///< of polygons
 };
 
 /// How fast a plotter is. Without acceleration: a real one is slower where strokes are short.
@@ -34,7 +34,7 @@ struct PlotTally {
     bool operator==(const PlotTally&) const = default;
 };
 
-/// @throws std::runtime_error unless both speeds are finite and above 0, and the lift is finite and at least 0
+/// @throws std::runtime_error unless both speeds are between 0.001 and 10^6 mm/s, and the lift is at most an hour
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds);
 
 struct PlotReport {
@@ -51,9 +51,9 @@ struct PlotTravel {
 
 /// Gathers a drawing and arranges it for a plotter. What the style leaves invisible is passed over.
 ///
-/// A plotter knows lines only. Polygons and discs become their outlines, drawn by the pen of their colour index; a
-/// dot becomes a circle as wide as the pen, which the pen fills. Each colour of the style's lines is a pen; it is as
-/// wide as it was when it first drew.
+/// A plotter knows lines only. Polygons and discs become their outlines, drawn by the pen of their colour index,
+/// those of discs half a pen inside; a dot becomes a circle as wide as the pen, which the pen fills. Each colour of
+/// the style's lines is a pen; it is as wide as it was when it first drew.
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal
 /// to the bit; those of splines and of turtles that add up doubles are not.) Of lines and curves with the same
@@ -136,8 +136,8 @@ protected:
     using Bezier = std::array<glm::dvec2, 4>;
     /// Millimetres from the bottom left corner of the page, y up.
     glm::dvec2 on_page(glm::dvec2 point) const;
-    /// The number of a pen: its colour's index in the style, from 1.
-    int number(const Pen& pen) const { return print_.style.index(pen) + 1; }
+    /// Pens are counted from 1, in the order in which they come: plotters hold six or eight.
+    int number(const Pen& pen);
     /// Into how many equal steps of its parameter a curve is cut so that chords stay within `tolerance`.
     /// Source: Wang, Proc. SPIE, 1984: by the second differences.
     static int chords(const Bezier& bezier, double tolerance);
@@ -147,6 +147,9 @@ protected:
 
     const Print& print_;
     glm::dvec2 here_{0.0};  ///< where the stroke is, in pattern units
+
+private:
+    std::map<int, int> numbers_;  ///< of pens, by colour index
 };
 
 }  // namespace sikku

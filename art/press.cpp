@@ -3,6 +3,7 @@
 #include "art/draw.h"
 #include "art/print.h"
 #include "engine/diagnostic.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +82,9 @@ Spot parse_spot(std::string_view text) {
     };
     if (name.empty()) refuse("its name is missing");
     if (name.size() > longest_name) refuse(fmt::format("its name is longer than {} bytes", longest_name));
-    if (name == "All" || name == "None") refuse(fmt::format("PDF reserves the name {}", name));
+    for (const char* reserved : {"All", "None", "Cyan", "Magenta", "Yellow", "Black"}) {
+        if (lower_case(name) == lower_case(reserved)) refuse(fmt::format("the name {} is taken", reserved));
+    }
     if (!is_printable(name)) refuse("its name holds control characters or is no UTF-8");
     if (colour_text.empty()) refuse("its colour is missing");
     const auto colour = parse_colour(colour_text);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double mark = 4.0;    // millimetres, half of a cross
 constexpr double letter = 2.5;  // millimetres
-constexpr int most_sheets = 1000;
+constexpr int most_sheets = 400;
 
 }  // namespace
 

@@ -20,7 +20,7 @@ struct Tile {
     Window shown;             ///< of the print, in millimetres; what lies within the sheet's margins
 };
 
-/// Row by row. @throws std::runtime_error if the overlap leaves no room on a sheet, and for over 1000 sheets
+/// Row by row. @throws std::runtime_error if the overlap leaves no room on a sheet, and for over 400 sheets
 std::vector<Tile> tiles_of(const Page& page, const TileOptions& options);
 
 /// `kolam.pdf` becomes `kolam-2-3.pdf`.

@@ -67,12 +67,18 @@ void as_usage(const Check& check) {
     }
 }
 
+/// `only`, or `only` and how the dots look.
+bool is_only(std::string_view dots) {
+    return dots == "only" || dots.starts_with("only ");
+}
+
 /// As `dots:` of the pattern would be.
 void apply_dots(DrawSettings& options) {
     if (!options.dots && !options.dot_spacing) return;
-    const std::string text = options.dots.value_or("");
+    std::string text = options.dots.value_or("");
+    if (is_only(text)) text.erase(0, std::min<std::size_t>(text.size(), 5));
     // A dot in the colour of the lines, and as large as it seems fit, has no words in the language.
-    if (!text.empty() && text != "only") options.pattern.more.push_back({"--dots", "dots", text});
+    if (!text.empty()) options.pattern.more.push_back({"--dots", "dots", text});
 }
 
 void plan_plot(const DrawSettings& options, PrintFormat format, DrawOptions& drawing) {
@@ -83,8 +89,8 @@ void plan_plot(const DrawSettings& options, PrintFormat format, DrawOptions& dra
         throw UsageError("--travel: goes with --plotter, and .svg or .pdf");
     }
     if (!options.split.empty() && !is_plot) throw UsageError("--split: goes with --plotter");
-    if (!is_plot) return;
     as_usage([&] { plot_seconds({}, options.speeds); });
+    if (!is_plot) return;
     drawing.plot.emplace();
     if (!options.split.empty()) {
         drawing.plot->split = length("--split", options.split, options.dpi);
@@ -101,6 +107,7 @@ void plan_plot(const DrawSettings& options, PrintFormat format, DrawOptions& dra
 }
 
 std::string time_text(double seconds) {
+    if (!(seconds < 1e12)) return "for ever";
     const auto whole = static_cast<long long>(std::llround(seconds));
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
@@ -120,6 +127,12 @@ void tell_plot(const PlotReport& plot, const PlotSpeeds& speeds, const Telling& 
 /// Derivation lengths side by side, as the books show them.
 void draw_generations(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
                       const LoadedPattern& loaded, const Telling& telling) {
+    if (drawing.plot || drawing.tiles || drawing.window || drawing.border || drawing.colours_strokes ||
+        print.style.dots || options.step || !options.pattern.steps.empty()) {
+        throw UsageError(
+            "--generations: a sheet of drawings, .svg, .pdf or a picture, goes without -n, --step, --window, --dots, "
+            "--border, --colour-by, --tile and what is for plotters");
+    }
     const std::size_t colon = options.generations.find(':');
     const auto whole = [&](std::string_view text) -> std::int64_t {
         std::int64_t value = -1;
@@ -226,7 +239,7 @@ PlannedPrint plan_print(const DrawSettings& options) {
     drawing.threads = options.threads;
     drawing.budget = options.budget;
     drawing.compression = options.compression;
-    drawing.only_dots = options.dots == "only";
+    drawing.only_dots = is_only(options.dots.value_or(""));
     if (options.dot_spacing) {
         drawing.dot_spacing = length("--dot-spacing", *options.dot_spacing, options.dpi);
         if (!(*drawing.dot_spacing > 0 && *drawing.dot_spacing <= 10'000)) {
@@ -293,7 +306,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
         };
         drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
     }
-    const Page page = print.page;
+    const bool wants_dots = print.style.dots.has_value();
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
     progress.reset();
     if (report.leaves_pattern_out) {
@@ -302,13 +315,16 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
             "show` cannot give it back\n",
             options.output);
     }
+    if (wants_dots && report.dots == 0 && report.sheets == 0) {
+        telling.say("sikku: warning: there are no dots: the lines enclose none\n");
+    }
     if (report.plot) tell_plot(*report.plot, options.speeds, telling);
     if (report.sheets > 1) telling.say("{}\n", counted(report.sheets, "sheet"));
     if (report.overflows && report.sheets == 0) {
         telling.say(
             "sikku: warning: the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: what lies "
             "outside is cut off\n",
-            report.size.x, report.size.y, page.width - 2 * page.margin, page.height - 2 * page.margin);
+            report.size.x, report.size.y, report.room.x, report.room.y);
     }
 }
 

@@ -92,7 +92,7 @@ std::string prose(const std::string& title, std::int64_t n, const KolamExaminati
     line("dots", fmt::format("{}", k.dots.size()));
     line("symmetry",
          fmt::format("{}: {}, {}, about {} {}", k.symmetry.name(),
-                     plural(k.symmetry.rotations, "rotation", "rotations"),
+                     k.symmetry.rotations == 1 ? "no rotation" : fmt::format("{} rotations", k.symmetry.rotations),
                      k.symmetry.mirrors == 0 ? "no mirror" : plural(k.symmetry.mirrors, "mirror", "mirrors"),
                      number(k.centre.x), number(k.centre.y)));
     line("exact", k.is_exact ? "yes"
@@ -114,6 +114,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
     command->get_option("PATTERN")->required(false);
     add_kolam_grid_options(*command, *grid);
     command->add_option("-o,--output", grid->output, "Of --grid: the pattern file; absent: standard output")
+        ->needs("--grid")
         ->group("On a grid of dots");
     command->add_option("-j,--jobs", grid->threads, "Threads of --enumerate; 0: one for each core")
         ->check(CLI::Range(0, 1024))
@@ -138,7 +139,10 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "  sikku kolam anklets-of-krishna -n 4 --json");
     command->callback([options, grid, as_json, budget, &quiet] {
         if (!grid->grid.empty()) {
-            if (!options->pattern.empty()) throw UsageError("--grid makes a kolam; it goes without PATTERN");
+            if (!options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
+                !options->variant.empty()) {
+                throw UsageError("--grid makes a kolam; it goes without PATTERN, -n, --set and --variant");
+            }
             grid->as_json = *as_json;
             return kolam_grid(*grid, {.quiet = quiet, .listener = {}, .watch = {}});
         }

@@ -114,8 +114,10 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
         sink.end_stroke(true);
     });
     EXPECT_EQ(text(*plan, print),
-              "(Na?ve left kolam?)\nG21 G90 G17\nM5\nG4 P0.2\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\nG1 X90 Y10 F2400\n"
-              "G1 X90 Y50.013\nM5\nG4 P0.2\nT3\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 F2400\nM5\n"
+              "(Na?ve left kolam?)\nG21 G90 G17\nM5\nG4 P0.2\n(pen 1: black)\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\n"
+              "G1 X90 Y10 F2400\n"
+              "G1 X90 Y50.013\nM5\nG4 P0.2\n(pen 2: blue)\nT2\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 "
+              "F2400\nM5\n"
               "G4 P0.2\nG0 X0 Y0\nM2\n");
     options_ = gcode_profile("z").value();
     options_.start = "$H";
@@ -128,7 +130,7 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
                                  sink.end_stroke(false);
                              }),
                    print),
-              "G21 G90 G17\n$H\nG0 Z5\nG0 X10 Y10 F4800\nG1 Z0 F600\nG1 X20 Y10 F2400\nG0 Z5\nM30\n");
+              "G21 G90 G17\n$H\nG0 Z5\n(pen 1: black)\nG0 X10 Y10 F4800\nG1 Z0 F600\nG1 X20 Y10 F2400\nG0 Z5\nM30\n");
     EXPECT_FALSE(gcode_profile("marlin"));
 }
 
@@ -197,7 +199,7 @@ TEST_F(Gcode, OptionsAreChecked) {
     refused(&GcodeOptions::pause, std::nan(""));
     refused(&GcodeOptions::z_up, std::nan(""));
     options_ = {};
-    const auto outside = arranged(print, [](PathSink& sink) { sink.disc({50, 30}, 31, Pen{}); });
+    const auto outside = arranged(print, [](PathSink& sink) { sink.disc({50, 30}, 33, Pen{}); });
     EXPECT_THROW(text(*outside, print), std::runtime_error);
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
 }

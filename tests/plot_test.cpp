@@ -420,7 +420,7 @@ TEST(Plot, ADotIsACircleThatThePenFills) {
     const auto lines = drawn(*plan);
     ASSERT_EQ(lines.size(), 2u);
     for (const auto& [line, centre, radius] :
-         {std::tuple{lines[0], glm::dvec2(30, 30), 1.0}, {lines[1], glm::dvec2(60, 30), 7.0}}) {
+         {std::tuple{lines[0], glm::dvec2(30, 30), 1.0}, {lines[1], glm::dvec2(60, 30), 6.0}}) {
         EXPECT_TRUE(line.closed);
         Samples samples(0.01);
         samples.start(line.points[0]);
@@ -431,7 +431,7 @@ TEST(Plot, ADotIsACircleThatThePenFills) {
             ASSERT_NEAR(glm::distance(point, centre), radius, 1e-5 * radius);
         }
     }
-    EXPECT_NEAR(plan->report().after.drawn, 2 * std::numbers::pi * 8, 1e-3);
+    EXPECT_NEAR(plan->report().after.drawn, 2 * std::numbers::pi * 7, 1e-3);
 }
 
 TEST(Plot, StrokesOfManyKindsAreSoundAndTheSameEachTime) {

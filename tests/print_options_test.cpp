@@ -78,7 +78,7 @@ TEST_F(PrintOptions, DotsStandWhereTheExaminationSetsThem) {
 TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
     const auto plain = svg({"snake-kolam", "-n", "2"});
     const auto framed = svg({"snake-kolam", "-n", "2", "--border", "kaavi"});
-    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 2);
+    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 3);
     EXPECT_EQ(count(framed, "//circle"), 4u);
     const auto strokes = framed.select_nodes("//g[@stroke='#b3452c']/path");
     ASSERT_EQ(strokes.size(), 1u);
@@ -198,8 +198,8 @@ TEST_F(PrintOptions, PlotsDrawNothingTwice) {
 
 TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"--pen-speed", "0", "--plotter"}, "speeds are finite and above 0"},
-        {{"--pen-speed", "nan", "--plotter"}, "speeds are finite and above 0"},
+        {{"--pen-speed", "0", "--plotter"}, "speeds are between 0.001 and"},
+        {{"--pen-speed", "nan", "--plotter"}, "speeds are between 0.001 and"},
         {{"--split", "0mm", "--plotter"}, "a length above 0"},
         {{"--split", "1m"}, "--split"},
         {{"--travel"}, "goes with --plotter"},
