@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -223,12 +224,6 @@ private:
     std::vector<int> stroke_colours_;
 };
 
-/// True if more is to be drawn than a View shows.
-bool is_composed(const Style& style, const DrawOptions& options) {
-    return style.dots || options.border || options.colours_strokes || options.plot || options.tiles ||
-           is_for_plotters(options.format);
-}
-
 void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     const double width = 0.1 / (print.style.stroke.in_steps ? print.placement.step : 1.0) / print.style.stroke.unit;
     const Pen pen{width, true, *print.travel_colour};
@@ -285,8 +280,14 @@ void write(const Content& content, const Print& given, const DrawOptions& option
     const auto raster = make_raster(print);
     content(*raster);
     Picture picture(print, options, raster->channels(), output, file);
-    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+    std::mutex mutex;
+    const auto watch = [&] {
+        const std::scoped_lock lock(mutex);
         if (options.watch) options.watch(0);
+    };
+    raster->watch(watch);
+    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+        watch();
         picture.rows(first_row, rows, pixels);
     });
     picture.close();
@@ -476,12 +477,7 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
     DrawOptions options = given_options;
     // Once for both roads.
     const Grammar grammar = resolved(given, options);
-    if (!is_composed(print.style, options)) {
-        if (auto report = draw_view(grammar, print, options, file)) return *report;
-    } else if (options.window) {
-        throw std::runtime_error(
-            "--window: dots, borders, colours by strand, tiles and plots need the whole drawing");
-    }
+    if (auto report = draw_view(grammar, print, options, file)) return *report;
     Composition composition(grammar, print, options);
     Drawing drawing(grammar, print.style, options);
     DrawReport report = drawing.place(print);

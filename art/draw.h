@@ -64,6 +64,7 @@ struct DrawReport {
     int sheets = 0;                   ///< of a print that is cut into tiles
     std::optional<PlotReport> plot;   ///< of an arranged drawing
     std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
+    bool is_empty = false;            ///< nothing of the drawing lies in the window
     bool leaves_pattern_out = false;  ///< its text is too long for the format
 };
 

@@ -117,11 +117,13 @@ public:
 
     bool empty() const { return first_ == nullptr; }
 
-    /// Plays the stream to a reader with pen(), polygon(), move() and line().
+    /// Plays the stream to a reader with pen(), polygon(), move() and line(); calls `watch`, if there is one, every
+    /// few thousand lines.
     template <class Reader>
-    void read(Reader&& reader) const {
+    void read(Reader&& reader, const std::function<void()>& watch) const {
         SubPoint at;
         for (const Chunk* chunk = first_; chunk; chunk = chunk->next) {
+            if (watch) watch();
             const std::uint32_t* end = chunk == last_ ? cursor_ : chunk->end;
             for (const std::uint32_t* word = chunk->begin; word != end;) {
                 const std::uint32_t head = *word++;
@@ -329,6 +331,7 @@ public:
     void blot(std::size_t prepared, glm::dvec2 centre) override;
 
     void expect(const Pen& pen) override { line_nib(pen); }
+    void watch(std::function<void()> watch) override { watch_ = std::move(watch); }
     int channels() const override;
     void render(int threads, const RowSink& rows) override;
     void render_rows(int first, int end, int channels, const RowSink& rows) const override;
@@ -397,6 +400,7 @@ private:
     Layer polygons_;
     std::vector<bool> polygon_colours_;  ///< which were used
     Arena arena_;
+    std::function<void()> watch_;
 
     Nib nib_;
     glm::dvec2 at_{0.0};
@@ -757,14 +761,14 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
     workplace.canvas.clear(ground_, std::min(band_rows_, size_.height - top));
     const std::size_t at = static_cast<std::size_t>(band);
     if (!polygons_.empty() && !polygons_[at].empty()) {
-        polygons_[at].read(PolygonReader(workplace, top, fill_colours_));
+        polygons_[at].read(PolygonReader(workplace, top, fill_colours_), watch_);
     }
     const auto paint = [&](const std::vector<Layer>& layers, const std::vector<Colour>& colours) {
         for (std::size_t slot = 0; slot < layers.size(); ++slot) {
             const bool has_blots = &layers == &strokes_ && !blots_[slot].empty();
             if (layers[slot].empty() || (layers[slot][at].empty() && !has_blots)) continue;
             StrokeReader reader(workplace, top);
-            layers[slot][at].read(reader);
+            layers[slot][at].read(reader, watch_);
             reader.finish();
             if (has_blots) add_blots(workplace.mask, top, blots_[slot]);
             workplace.canvas.blend(workplace.mask, colours[slot]);

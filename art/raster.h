@@ -40,6 +40,8 @@ public:
     /// 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly so): the fewest
     /// channels that can show the ground and the colours used so far. To be asked when the drawing is complete.
     virtual int channels() const = 0;
+    /// Called now and then while rows are rendered, also from several threads at a time; may throw to stop.
+    virtual void watch(std::function<void()> watch) = 0;
     /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number, nor on the
     /// processor. May be called again. What `rows` throws ends the rendering and is thrown from here.
     virtual void render(int threads, const RowSink& rows) = 0;

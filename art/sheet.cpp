@@ -1,5 +1,6 @@
 #include "art/sheet.h"
 
+#include "art/draw_view.h"
 #include "art/lettering.h"
 #include "art/output_file.h"
 #include "art/pdf.h"
@@ -8,12 +9,10 @@
 #include "art/svg.h"
 #include "art/threads.h"
 #include "engine/derivation.h"
+#include "engine/forecast.h"
 
 #include <fmt/format.h>
-
-#include <oneapi/tbb/concurrent_queue.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -34,7 +33,6 @@ constexpr double line_pitch = 1.75;     // of lines of text, as part of the heig
 constexpr double small_letters = 0.78;  // of a caption's later lines, as part of those of its first
 constexpr double stem = 0.085;          // of letters, as part of their height
 constexpr double title_stem = 0.055;
-constexpr int block_rows = 128;  // of pixels: what Raster renders at once
 
 Pen text_pen(double width, bool pale) {
     return {.width = width, .width_set = true, .colour = pale ? 1 : 0};
@@ -50,7 +48,11 @@ struct TextLine {
 
 /// What of each cell is known before it has a place.
 struct Subject {
+    std::shared_ptr<const Grammar> grammar;
+    std::unique_ptr<SeenDrawing> seen;  ///< or
     std::unique_ptr<Drawing> drawing;
+    double memory = 0;  ///< bytes, of a picture
+    const DrawnExtent& extent() const { return seen ? seen->extent() : drawing->extent(); }
     glm::dvec2 size{0.0};  ///< in steps, without the pen
     std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
 };
@@ -139,6 +141,7 @@ private:
     double pen_factor(const SheetCell& cell, double width, double height) const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
+    int readers_at_a_time() const;
 
     const std::vector<SheetCell>& cells_;
     const SheetOptions& options_;
@@ -161,12 +164,29 @@ void Sheet::measure() {
         const SheetCell& cell = cells_[i];
         named(cell, [&] {
             DrawOptions drawing;
+            drawing.format = options_.format;
             drawing.placement = cell.placement;
             drawing.placement.scale = 1.0;
-            drawing.budget = options_.budget;
+            drawing.window = cell.window;
+            drawing.budget = cell.budget;
             if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
-            subjects_[i].drawing = std::make_unique<Drawing>(*cell.grammar, cell.style, drawing);
-            const Box& box = subjects_[i].drawing->extent().box;
+            Subject& subject = subjects_[i];
+            subject.grammar = std::make_shared<const Grammar>(shorten(*cell.grammar));
+            auto parts = seen_parts(*subject.grammar, cell.style, drawing);
+            // About as large as the cell will be.
+            Print print;
+            print.style = cell.style;
+            print.dpi = options_.dpi;
+            const double side = std::sqrt(static_cast<double>(cells_.size()));
+            print.page = {std::max(options_.page.width / side, 1.0), std::max(options_.page.height / side, 1.0), 0.0};
+            subject.memory = drawing_cost(*subject.grammar, parts ? &*parts : nullptr, print, drawing).memory;
+            if (parts) {
+                subject.seen =
+                    std::make_unique<SeenDrawing>(*subject.grammar, std::move(*parts), cell.style, drawing);
+            } else {
+                subject.drawing = std::make_unique<Drawing>(*subject.grammar, cell.style, drawing);
+            }
+            const Box& box = subject.extent().box;
             subjects_[i].size = box.high - box.low;
         });
     });
@@ -194,8 +214,6 @@ std::vector<Grid> Sheet::grids() const {
     int from = 1, to = std::min(longest, 1000);
     if (options_.columns > 0) {
         from = to = std::min(options_.columns, longest);
-    } else if (headed) {
-        from = to;
     }
     std::vector<Grid> result;
     for (int columns = from; columns <= to; ++columns) {
@@ -279,13 +297,13 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
 /// Millimetres of a step of what is fitted into a cell.
 double Sheet::drawn_step(const Subject& subject, double width, double height, double factor) const {
     const Style& style = cells_[static_cast<std::size_t>(&subject - subjects_.data())].style;
-    const double widest = subject.drawing->extent().widest;
+    const double widest = subject.extent().widest;
     Page page{width, height, options_.inset * std::min(width, height)};
     const double ink_steps = style.stroke.in_steps ? widest / 2 : 0;
     const double ink_millimetres = style.stroke.in_steps ? 0 : widest / 2 * factor;
     PlacementOptions fitted;
-    fitted.scale = std::min(1.0, subject.drawing->scale());
-    return place(subject.drawing->extent().box, page, fitted, ink_steps, ink_millimetres).step;
+    fitted.scale = std::min(1.0, subject.grammar->scale_percent() / 100);
+    return place(subject.extent().box, page, fitted, ink_steps, ink_millimetres).step;
 }
 
 /// By how much pens are thinner, or thicker, than on a page of their own.
@@ -401,10 +419,10 @@ const Plan& Sheet::arrange() {
         print.page = {m.width, m.height, 0.0};
         PlacementOptions placement = cells_[i].placement;
         placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
-        print.placement = place(subjects_[i].drawing->extent().box, print.page, placement, 0.0, 0.0);
+        print.placement = place(subjects_[i].extent().box, print.page, placement, 0.0, 0.0);
         print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
         print.page = options_.page;
-        const double widest = subjects_[i].drawing->extent().widest;
+        const double widest = subjects_[i].extent().widest;
         double pen = widest * (print.style.stroke.in_steps ? *placement.step : factor);
         double thinner = print.style.stroke.in_steps ? 1.0 : factor;
         const double widest_pen = widest_line * std::min(m.width, m.height);
@@ -415,7 +433,7 @@ const Plan& Sheet::arrange() {
         print.style.stroke.value *= thinner;
         print.style.stroke.unit *= thinner;
         const glm::dvec2 size = subjects_[i].size * *placement.step + pen;
-        cell.window.clips = size.x > m.width || size.y > m.height;
+        cell.window.clips = cells_[i].window || size.x > m.width || size.y > m.height;
     }
     return plan_;
 }
@@ -432,7 +450,15 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     write_texts(0.0, options_.page.height, writer);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
-        named(cells_[i], [&] { subjects_[i].drawing->read(writer); });
+        named(cells_[i], [&] {
+            if (!subjects_[i].seen) return subjects_[i].drawing->read(writer);
+            // Of the sheet, its cell is seen.
+            const Window& window = plan_.cells[i].window;
+            Print print = plan_.cells[i].print;
+            print.page = {window.width, window.height, 0.0};
+            print.placement.to_page[2] -= glm::dvec2(window.left, window.top);
+            subjects_[i].seen->draw_lines(print, writer);
+        });
     }
     writer.finish();
 }
@@ -448,52 +474,19 @@ Colour over(Colour upper, Colour lower) {
             static_cast<std::uint8_t>(std::lround((a + b) * 255))};
 }
 
-/// A cell as pixels. Its picture begins where that of its strip does, so that their bands lie side by side.
+/// A cell as pixels of the sheet.
 struct CellPicture {
     std::size_t cell = 0;
     Print print;
     int left = 0, right = 0;
-    int top = 0, bottom = 0;  ///< of the window, from the strip's top
-    std::unique_ptr<Raster> raster;
+    int top = 0, bottom = 0;
 };
 
 /// Rows of the sheet with whole cells.
 struct Strip {
     int top = 0, bottom = 0;
-    Print print;
-    std::unique_ptr<Raster> texts;
     std::vector<CellPicture> cells;
 };
-
-/// Some rows of a strip, complete.
-struct Block {
-    int top = 0, rows = 0;
-    std::vector<std::uint8_t> pixels;
-};
-
-void render_block(const Strip& strip, int width, int channels, Block& block) {
-    const std::size_t stride = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
-    block.pixels.resize(stride * static_cast<std::size_t>(block.rows));
-    const int first = block.top - strip.top, end = first + block.rows;
-    const auto row_at = [&](int row) { return block.pixels.data() + static_cast<std::size_t>(row - first) * stride; };
-    strip.texts->render_rows(first, end, channels, [&](int row, int, std::span<const std::uint8_t> pixels) {
-        std::memcpy(row_at(row), pixels.data(), pixels.size());
-    });
-    for (const CellPicture& cell : strip.cells) {
-        if (cell.bottom <= first || cell.top >= end) continue;
-        const std::size_t bytes =
-            static_cast<std::size_t>(cell.right - cell.left) * static_cast<std::size_t>(channels);
-        const std::size_t offset = static_cast<std::size_t>(cell.left) * static_cast<std::size_t>(channels);
-        cell.raster->render_rows(first, std::min(end, cell.bottom), channels,
-                                 [&](int row, int rows, std::span<const std::uint8_t> pixels) {
-                                     for (int i = 0; i < rows; ++i) {
-                                         if (row + i < cell.top) continue;
-                                         std::memcpy(row_at(row + i) + offset,
-                                                     pixels.data() + static_cast<std::size_t>(i) * bytes, bytes);
-                                     }
-                                 });
-    }
-}
 
 void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) const {
     const PixelSize size = pixel_size(options_.page, options_.dpi);
@@ -525,69 +518,74 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
     }
     strips.back().bottom = size.height;
     const auto pixel_page = [&](int width, int height) { return Page{width / millimetre, height / millimetre, 0.0}; };
-    for (Strip& strip : strips) {
-        strip.print = print_;
-        strip.print.style.ground = ground;
-        strip.print.page = pixel_page(size.width, strip.bottom - strip.top);
-        strip.print.placement.to_page[2].y -= strip.top / millimetre;
-        for (CellPicture& cell : strip.cells) {
-            cell.top -= strip.top;
-            cell.bottom -= strip.top;
-            cell.print.page = pixel_page(cell.right - cell.left, cell.bottom);
-            cell.print.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, strip.top / millimetre);
-        }
-    }
 
     DrawOptions drawing;
     drawing.format = options_.format;
     drawing.threads = options_.threads;
     drawing.compression = options_.compression;
     const int channels = ground.alpha < 255 ? 4 : 3;
+    const std::size_t stride = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
     Picture picture(print_, drawing, channels, output, file);
-    const int threads = oneapi::tbb::this_task_arena::max_concurrency();
-    for (Strip& strip : strips) {
+    oneapi::tbb::task_arena readers(readers_at_a_time());
+    for (const Strip& strip : strips) {
         if (strip.bottom == strip.top) continue;
-        strip.texts = make_raster(strip.print);
-        write_texts(strip.top / millimetre, strip.bottom / millimetre, *strip.texts);
-        oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
-            CellPicture& cell = strip.cells[i];
-            cell.raster = make_raster(cell.print);
-            named(cells_[cell.cell], [&] { subjects_[cell.cell].drawing->read(*cell.raster); });
-        });
-
-        // As many blocks as are under way: one for each thread, and one that waits to be written.
-        std::vector<Block> owned(static_cast<std::size_t>(threads) + 1);
-        oneapi::tbb::concurrent_queue<Block*> idle;
-        for (Block& block : owned) idle.push(&block);
-        int next = strip.top;
-        using oneapi::tbb::filter_mode;
-        const auto begin = oneapi::tbb::make_filter<void, Block*>(
-            filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Block* {
-                if (next == strip.bottom) {
-                    control.stop();
-                    return nullptr;
+        std::vector<std::uint8_t> rows_of_pixels(stride * static_cast<std::size_t>(strip.bottom - strip.top));
+        /// Renders what was drawn into its place.
+        const auto render = [&](Raster& raster, int left, int top, int end) {
+            raster.watch([&] { watch(0); });
+            raster.render_rows(0, end - top, channels, [&](int first, int rows, std::span<const std::uint8_t> part) {
+                const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
+                for (int row = 0; row < rows; ++row) {
+                    std::memcpy(rows_of_pixels.data() +
+                                    static_cast<std::size_t>(top - strip.top + first + row) * stride +
+                                    static_cast<std::size_t>(left) * static_cast<std::size_t>(channels),
+                                part.data() + static_cast<std::size_t>(row) * bytes, bytes);
                 }
-                Block* block = nullptr;
-                // Never empty: the pipeline has no more under way than there are.
-                idle.try_pop(block);
-                block->top = next;
-                block->rows = std::min(block_rows, strip.bottom - next);
-                next += block->rows;
-                return block;
             });
-        const auto render = oneapi::tbb::make_filter<Block*, Block*>(filter_mode::parallel, [&](Block* block) {
-            render_block(strip, size.width, channels, *block);
-            return block;
+        };
+        Print print = print_;
+        print.style.ground = ground;
+        print.page = pixel_page(size.width, strip.bottom - strip.top);
+        print.placement.to_page[2].y -= strip.top / millimetre;
+        const auto texts = make_raster(print);
+        write_texts(strip.top / millimetre, strip.bottom / millimetre, *texts);
+        render(*texts, 0, strip.top, strip.bottom);
+        readers.execute([&] {
+            oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
+                const CellPicture& cell = strip.cells[i];
+                const Subject& subject = subjects_[cell.cell];
+                Print part = cell.print;
+                part.page = pixel_page(cell.right - cell.left, cell.bottom - cell.top);
+                part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+                const auto raster = make_raster(part);
+                named(cells_[cell.cell], [&] {
+                    if (!subject.seen) return subject.drawing->read(*raster);
+                    raster->expect({});
+                    subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
+                                       [this](std::uint64_t symbols) { watch(symbols); });
+                });
+                render(*raster, cell.left, cell.top, cell.bottom);
+            });
         });
-        const auto write = oneapi::tbb::make_filter<Block*, void>(filter_mode::serial_in_order, [&](Block* block) {
-            watch(0);
-            picture.rows(block->top, block->rows, block->pixels);
-            idle.push(block);
-        });
-        oneapi::tbb::parallel_pipeline(owned.size(), begin & render & write);
-        strip = {};
+        picture.rows(strip.top, strip.bottom - strip.top, rows_of_pixels);
     }
     picture.close();
+}
+
+/// As many cells as there is memory for. @throws std::runtime_error if there is none for one of them
+int Sheet::readers_at_a_time() const {
+    const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+    if (!(options_.memory > 0)) return threads;
+    double most = 1;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        most = std::max(most, subjects_[i].memory);
+        if (subjects_[i].memory > options_.memory) {
+            throw std::runtime_error(
+                fmt::format("'{}': it takes about {:.0f} MB of memory, and there are {:.0f} for it", cells_[i].title,
+                            subjects_[i].memory / 1e6, options_.memory / 1e6));
+        }
+    }
+    return static_cast<int>(std::clamp(options_.memory / most, 1.0, static_cast<double>(threads)));
 }
 
 /// The angle of `+`, as the first symbol of that letter has it.

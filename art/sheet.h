@@ -24,6 +24,8 @@ struct SheetCell {
     std::string title;                 ///< of its layers
     std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
     std::string heading;               ///< if there is one, a row begins here, under it
+    std::optional<ViewWindow> window;  ///< what of the drawing fills the cell; see DrawOptions
+    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
 };
 
 struct SheetOptions {
@@ -35,7 +37,7 @@ struct SheetOptions {
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< of what is less important in them
     std::string title;                                             ///< above all cells, if there is one
     std::string subtitle;                                          ///< under it
-    int columns = 0;                ///< 0: as many as let the drawings be largest, or, with headings, the longest row
+    int columns = 0;                ///< 0: as many as let the drawings be largest; rows under a heading may break
     std::optional<double> gap;      ///< millimetres between cells; absent: a tenth of their width
     double inset = 0.08;            ///< between a cell's border and its drawing, as part of the cell
     std::optional<double> letters;  ///< height of a caption's capitals in millimetres; absent: by the cell's width
@@ -46,7 +48,7 @@ struct SheetOptions {
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
     int threads = 0;                  ///< 0: all cores
     int compression = 6;              ///< of PNG: 1, quick and large, to 9
-    double budget = 200e6;            ///< most nodes of the derivation of one cell that are visited in one pass
+    double memory = 0;                ///< bytes for the cells of a picture that are drawn at a time; 0: no limit
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
@@ -59,8 +61,9 @@ struct SheetLayout {
     double letters = 0.0;         ///< height of a caption's capitals
 };
 
-/// Draws the sheet into `file`, which appears whole or not at all; the same cells make the same bytes. Pictures are
-/// made row by row: of one row the drawings are in memory, as Raster keeps them, and of all pixels some bands.
+/// Draws the sheet into `file`, which appears whole or not at all; the same cells make the same bytes. Windows, and
+/// in pictures words of any order, are seen as draw() sees them. Pictures are made row by row: of one row the pixels
+/// are in memory, and on each thread one drawing, as Raster keeps it.
 /// @throws BudgetError, WordError and std::runtime_error, which name the cell that cannot be drawn;
 /// std::runtime_error if there is no cell, the cells have no room, or the file cannot be written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
@@ -69,7 +72,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 /// What a caption tells of a pattern: its title, the derivation length and angle, and its productions.
 std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title);
 
-/// The cells of a row that shows derivation lengths from `first` to `last`, captions `n = 2`, the first one with the
+/// The cells of rows that show derivation lengths from `first` to `last`, captions `n = 2`, the first one with the
 /// heading. `cell` is one of them. @throws std::runtime_error if the schedule is too short
 std::vector<SheetCell> generations(const SheetCell& cell, std::int64_t first, std::int64_t last);
 

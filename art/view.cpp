@@ -198,6 +198,7 @@ private:
         }
         at_.pass(part, parts_.headings());
         add(at_.point());
+        ++report.lines;
         return true;
     }
 
@@ -374,13 +375,21 @@ std::optional<ViewWindow> parse_window(std::string_view text) {
 
 std::unique_ptr<View> View::make(const Grammar& grammar, const std::optional<ViewWindow>& window, bool moves_draw) {
     auto parts = Parts<double>::make(grammar, moves_draw);
-    if (!parts) return nullptr;
-    if (!window) return make_view<double>(grammar, std::move(*parts), moves_draw, {});
+    return parts ? make(grammar, std::move(*parts), window, moves_draw) : nullptr;
+}
+
+std::unique_ptr<View> View::make(const Grammar& grammar, Parts<double> parts, const std::optional<ViewWindow>& window,
+                                 bool moves_draw) {
+    if (!window) {
+        Parts<double> places = parts;
+        return std::make_unique<NumberView<double>>(grammar, std::move(places), std::move(parts), moves_draw, 0.0,
+                                                    0.0);
+    }
     // Sums of whole numbers are exact as long as the whole drawing is within the bits of a place.
     const auto largest = [](const glm::dvec2& corner) { return std::max(std::fabs(corner.x), std::fabs(corner.y)); };
-    const double reach = std::max(largest(parts->whole().low), largest(parts->whole().high));
-    return reach < 0x1p60 ? make_view<long double>(grammar, std::move(*parts), moves_draw, *window)
-                          : make_view<Quad>(grammar, std::move(*parts), moves_draw, *window);
+    const double reach = std::max(largest(parts.whole().low), largest(parts.whole().high));
+    return reach < 0x1p60 ? make_view<long double>(grammar, std::move(parts), moves_draw, *window)
+                          : make_view<Quad>(grammar, std::move(parts), moves_draw, *window);
 }
 
 }  // namespace sikku

@@ -34,6 +34,7 @@ struct Sight {
 
 struct ViewReport {
     std::uint64_t visited = 0;  ///< nodes of the derivation
+    std::uint64_t lines = 0;    ///< that were drawn, chords included
     std::uint64_t chords = 0;   ///< parts of several steps that became chords,
     std::uint64_t blots = 0;    ///< and blots
 };
@@ -52,6 +53,10 @@ public:
     /// `grammar` must outlive it. Nullptr where Parts cannot be made.
     static std::unique_ptr<View> make(const Grammar& grammar, const std::optional<ViewWindow>& window,
                                       bool moves_draw = false);
+
+    /// The same of parts that were made with `moves_draw` from that grammar.
+    static std::unique_ptr<View> make(const Grammar& grammar, Parts<double> parts,
+                                      const std::optional<ViewWindow>& window, bool moves_draw);
 
     /// One walk. Several threads may walk at once.
     /// @param budget  most nodes to visit; more is a BudgetError

@@ -167,7 +167,7 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
     sheet.made = print.made;
     sheet.threads = drawing.threads;
     sheet.compression = drawing.compression;
-    sheet.budget = drawing.budget;
+    cell.budget = drawing.budget;
     Progress progress(0, telling.quiet);
     sheet.watch = telling.watch ? telling.watch : progress.watch();
     draw_sheet(generations(cell, first, last), sheet, options.output);
@@ -318,6 +318,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (wants_dots && report.dots == 0 && report.sheets == 0) {
         telling.say("sikku: warning: there are no dots: the lines enclose none\n");
     }
+    if (report.is_empty) telling.say("sikku: warning: nothing of the drawing lies in the window\n");
     if (report.plot) tell_plot(*report.plot, options.speeds, telling);
     if (report.sheets > 1) telling.say("{}\n", counted(report.sheets, "sheet"));
     if (report.overflows && report.sheets == 0) {

@@ -8,10 +8,9 @@
 #include "cli/gallery_summary.h"
 #include "engine/text.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <sys/wait.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,14 +55,17 @@ std::string time_text(double seconds) {
     if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
     if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
     if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
+    if (seconds < 3599.5) {
+        const auto whole = static_cast<long>(std::lround(seconds));
+        return fmt::format("{} min {} s", whole / 60, whole % 60);
+    }
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
 std::string bytes_text(double bytes) {
-    if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
-    if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
-    if (bytes < 1e9) return fmt::format("{:.1f} MB", bytes / 1e6);
+    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
+    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
+    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
     return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
@@ -86,7 +88,7 @@ double read_memory(const std::string& text) {
     return value * unit->second;
 }
 
-/// A bar on standard error, if that is a terminal, with how many jobs a second and how long still. For several
+/// A line on standard error, if that is a terminal: a bar with how many jobs a second and how long still. For several
 /// threads.
 class BatchProgress {
 public:
@@ -102,19 +104,40 @@ public:
         const std::lock_guard guard(mutex_);
         ++done_;
         done_cost_ += cost;
+        show();
+    }
+    /// To be called now and then while jobs are under way.
+    void watch() {
+        if (!shown_) return;
+        const std::unique_lock guard(mutex_, std::try_to_lock);
+        if (guard) show();
+    }
+
+private:
+    void show() {
         if (!shown_) return;
         const double time = now();
         if (time - started_ < 0.5 || time - last_ < 0.1) return;
         last_ = time;
         visible_ = true;
+        std::string line = fmt::format("{} of {}", done_, jobs_);
         const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
-        const auto filled = static_cast<std::size_t>(share * 30);
-        tell("\r[{}{}] {} of {}, {:.1f} a second, {} left\033[K", std::string(filled, '#'),
-             std::string(30 - filled, ' '), done_, jobs_, static_cast<double>(done_) / (time - started_),
-             time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
+        if (done_ > 0) {
+            line += fmt::format(", {:.1f} a second, {} left", static_cast<double>(done_) / (time - started_),
+                                time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
+        }
+        winsize size{};
+        const std::size_t columns =
+            ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+        constexpr std::size_t most = 30;
+        const std::size_t bar = std::min(most, columns - std::min(columns, line.size() + 4));
+        if (bar >= 5) {
+            const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
+            line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar - filled, ' '), line);
+        }
+        tell("\r{}\033[K", line.substr(0, columns - 1));
     }
 
-private:
     std::size_t jobs_;
     double cost_;
     bool shown_;
@@ -126,15 +149,51 @@ private:
     std::mutex mutex_;
 };
 
+/// Makes a file of the gallery and records it.
+/// @param file  its `file`, `hash` and `job` are known
+/// @param make  gets the path and where to put what there is to tell
+/// @param replaces  a file that is there already, even if it is of others: else that is a std::runtime_error
+/// @throws what `make` throws
+template <typename Make>
+FinishedJob make_file(GalleryRecord& record, const std::filesystem::path& folder, FinishedJob file, bool replaces,
+                      const Make& make) {
+    const std::filesystem::path path = folder / file.file;
+    std::error_code error;
+    if (path.parent_path() != folder) std::filesystem::create_directories(path.parent_path(), error);
+    const auto status = std::filesystem::symlink_status(path, error);
+    const bool is_link = std::filesystem::is_symlink(status);
+    if (std::filesystem::exists(status) && !replaces) {
+        throw std::runtime_error(fmt::format(
+            "'{}' is there already and was not made by this gallery; --force replaces it", path.string()));
+    }
+    // What it points to is not in the way.
+    if (is_link) std::filesystem::remove(path);
+    record.claim(file.file);
+    make(path, file.told);
+    file.bytes = std::filesystem::file_size(path);
+    file.content = content_hash(path);
+    record.add(file);
+    return file;
+}
+
 /// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
 /// the beginning.
 constexpr int most_picture_threads = 3;
+
+std::string too_much_memory(const JobForecast& forecast, double memory) {
+    if (forecast.memory <= memory) return "";
+    return fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
+                       bytes_text(forecast.memory), bytes_text(memory));
+}
 
 /// A job that is to be made in this run.
 struct Task {
     std::size_t job = 0;  ///< its number in the gallery
     JobForecast forecast;
 };
+
+/// Bytes that a job takes in the list of all.
+constexpr double job_bytes = 700;
 
 /// A job that could not be made.
 struct Failure {
@@ -237,48 +296,39 @@ private:
     FinishedJob make(const Turn& turn) {
         const GalleryJob& job = jobs_[turn.task.job];
         if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
-        if (turn.task.forecast.memory > memory_) {
-            throw std::runtime_error(fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
-                                                 bytes_text(turn.task.forecast.memory), bytes_text(memory_)));
-        }
+        const std::string too_much = too_much_memory(turn.task.forecast, memory_);
+        if (!too_much.empty()) throw std::runtime_error(too_much);
         FinishedJob result;
         result.file = job.file();
         result.hash = hashes_[turn.task.job];
         result.job = job.text();
-        const std::filesystem::path path = folder_ / result.file;
-        std::error_code error;
-        if (path.parent_path() != folder_) std::filesystem::create_directories(path.parent_path(), error);
-        const auto status = std::filesystem::symlink_status(path, error);
-        if (std::filesystem::exists(status) && !record_.is_ours(result.file) && !options_.force) {
-            throw std::runtime_error(fmt::format(
-                "'{}' is there already and was not made by this gallery; --force replaces it", path.string()));
-        }
-        record_.claim(result.file);
-        Telling telling;
-        telling.quiet = true;
-        telling.listener = [&](const std::string& text) {
-            // Not where the folder lies.
-            std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
-            const std::string prefix = path.string();
-            for (std::size_t at = 0; (at = line.find(prefix, at)) != std::string::npos; at += result.file.size()) {
-                line.replace(at, prefix.size(), result.file);
+        const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
+            Telling telling;
+            telling.quiet = true;
+            telling.listener = [&](const std::string& text) {
+                // Not where the folder lies.
+                std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
+                const std::string prefix = path.string();
+                const std::string file = job.file();
+                for (std::size_t at = 0; (at = line.find(prefix, at)) != std::string::npos; at += file.size()) {
+                    line.replace(at, prefix.size(), file);
+                }
+                told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
+            };
+            telling.watch = [this](std::uint64_t) {
+                if (interrupted()) throw Interrupted();
+                progress_->watch();
+            };
+            if (job.is_score()) {
+                play_score(score_settings(job, path), telling);
+            } else {
+                DrawSettings settings = print_settings(job, path);
+                settings.threads = turn.threads;
+                draw_print(settings, telling);
             }
-            result.told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
         };
-        telling.watch = [](std::uint64_t) {
-            if (interrupted()) throw Interrupted();
-        };
-        if (job.is_score()) {
-            play_score(score_settings(job, path), telling);
-        } else {
-            DrawSettings settings = print_settings(job, path);
-            settings.threads = turn.threads;
-            draw_print(settings, telling);
-        }
-        result.bytes = std::filesystem::file_size(path);
-        result.content = content_hash(path);
-        record_.add(result);
-        return result;
+        const bool replaces = options_.force || record_.is_ours(result.file);
+        return make_file(record_, folder_, std::move(result), replaces, make);
     }
 
     const std::vector<GalleryJob>& jobs_;
@@ -309,21 +359,26 @@ void for_each_number(std::size_t count, int threads, const Work& work) {
     });
 }
 
-std::vector<JobForecast> forecast_all(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& wanted,
-                                      const Options& options) {
-    std::vector<JobForecast> forecasts(wanted.size());
-    for_each_number(wanted.size(), options.threads,
-                    [&](std::size_t i) { forecasts[i] = forecast_job(jobs[wanted[i]], options.dry_run); });
-    return forecasts;
+/// By the numbers of the jobs.
+using Forecasts = std::vector<std::optional<JobForecast>>;
+
+void forecast_all(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& wanted, const Options& options,
+                  Forecasts& forecasts) {
+    for_each_number(wanted.size(), options.threads, [&](std::size_t i) {
+        std::optional<JobForecast>& forecast = forecasts[wanted[i]];
+        if (!forecast) forecast = forecast_job(jobs[wanted[i]], options.dry_run);
+    });
 }
 
-/// Numbers of the jobs of this shard, of those of `--only`.
-std::vector<std::size_t> select(const std::vector<GalleryJob>& jobs, const Shard& shard, const Options& options) {
+/// Numbers of the jobs of this shard, of those of `--only`. Fills in the forecasts that it takes.
+std::vector<std::size_t> select(const std::vector<GalleryJob>& jobs, const Shard& shard, const Options& options,
+                                Forecasts& forecasts) {
     std::vector<std::size_t> chosen(jobs.size());
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
     if (shard.count > 1) {
         std::vector<double> costs;
-        for (const JobForecast& forecast : forecast_all(jobs, chosen, options)) costs.push_back(forecast.cost());
+        forecast_all(jobs, chosen, options, forecasts);
+        for (const auto& forecast : forecasts) costs.push_back(forecast->cost());
         const std::vector<std::size_t> shards = balance(costs, shard.count);
         std::erase_if(chosen, [&](std::size_t job) { return shards[job] + 1 != shard.index; });
     }
@@ -360,26 +415,32 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-void tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
-                   const Options& options) {
-    const std::vector<JobForecast> forecasts = forecast_all(jobs, chosen, options);
+/// @param memory  bytes for jobs
+/// @returns false if one cannot be made
+bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
+                   const Options& options, double memory, Forecasts& forecasts) {
+    forecast_all(jobs, chosen, options, forecasts);
     JobForecast sum;
+    std::size_t impossible = 0;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const JobForecast& each = forecasts[i];
-        if (!each.problem.empty()) {
-            fmt::print("{:<40} {}\n", jobs[chosen[i]].file(),
-                       printable(each.problem.substr(0, each.problem.find('\n')), 200));
+    for (const std::size_t job : chosen) {
+        const JobForecast& each = *forecasts[job];
+        const std::string problem = each.problem.empty() ? too_much_memory(each, memory) : each.problem;
+        if (!problem.empty()) {
+            ++impossible;
+            fmt::print("{:<40} {}\n", jobs[job].file(), printable(problem.substr(0, problem.find('\n')), 200));
             continue;
         }
-        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", jobs[chosen[i]].file(), each.symbols,
-                   time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
+        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", jobs[job].file(), each.symbols, time_text(each.seconds),
+                   bytes_text(each.bytes), bytes_text(each.memory));
         sum.seconds += each.seconds;
         sum.bytes += each.bytes;
         sum.memory = std::max(sum.memory, each.memory);
     }
-    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size(), "job"), "", time_text(sum.seconds),
-               bytes_text(sum.bytes), bytes_text(sum.memory));
+    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size() - impossible, "job"), "",
+               time_text(sum.seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
+    if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
+    return impossible == 0;
 }
 
 /// The words that this program was started with, without `--slurm`.
@@ -431,6 +492,16 @@ void submit(const Options& options, std::size_t jobs) {
     if (folder.filename().empty()) folder = folder.parent_path();
     const std::string script = folder.string() + ".sbatch";
     const std::size_t tasks = std::min(options.slurm, std::max<std::size_t>(jobs, 1));
+    std::error_code error;
+    if (std::filesystem::exists(std::filesystem::symlink_status(script, error)) && !options.force) {
+        std::ifstream there(script, std::ios::binary);
+        std::string text(200, '\0');
+        there.read(text.data(), 200);
+        if (text.find("\n#SBATCH --job-name=sikku-gallery\n") == std::string::npos) {
+            throw std::runtime_error(
+                fmt::format("'{}' is there already and is no script of a gallery; --force replaces it", script));
+        }
+    }
     OutputFile output(script);
     output.write(slurm_script(own_arguments(), std::filesystem::current_path().string(), tasks, script));
     output.commit();
@@ -455,6 +526,79 @@ void submit(const Options& options, std::size_t jobs) {
                counted(tasks, "task"), end, script);
 }
 
+/// The page and the sheets: made anew where what they show has changed.
+class Summaries {
+public:
+    Summaries(const std::vector<GalleryJob>& jobs, const std::map<std::size_t, FinishedJob>& finished,
+              const std::filesystem::path& folder, GalleryRecord& record, const Options& options, bool quiet)
+        : folder_(folder), record_(record), options_(options), shown_(!quiet && isatty(STDERR_FILENO) == 1) {
+        for (const auto& [job, result] : finished) {
+            jobs_.push_back(&jobs[job]);
+            held_.add_piece(result.file);
+            held_.add_piece(result.hash);
+        }
+    }
+
+    /// @param order     gets what is there in the end
+    /// @param troubles  why others are not
+    void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order,
+              std::vector<std::string>& troubles) {
+        const auto draw = [&](const SheetRequest& sheet) {
+            if (sheet.size.empty()) return;
+            for (const std::string& file : sheet_files(sheet)) {
+                make(file, sheet.size, order, troubles,
+                     [&](const std::filesystem::path& path) { draw_gallery_sheet(jobs_, sheet, path, telling_); });
+            }
+        };
+        draw({"contact", request.contact, false, options_.threads, memory});
+        make("index.html", request.title, order, troubles,
+             [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path); });
+        draw({"poster", request.poster, true, options_.threads, memory});
+    }
+
+private:
+    template <typename Make>
+    void make(const std::string& name, const std::string& setting, std::vector<FinishedJob>& order,
+              std::vector<std::string>& troubles, const Make& make_it) {
+        FinishedJob file;
+        file.file = name;
+        TextHash hash = held_;
+        hash.add_piece(SIKKU_VERSION);
+        hash.add_piece(name);
+        hash.add_piece(setting);
+        file.hash = hash.digits();
+        file.job = fmt::format("{{\"summary\":{}}}", json_string(setting));
+        if (!options_.force) {
+            if (auto known = record_.finished(name, file.hash)) {
+                order.push_back(std::move(*known));
+                return;
+            }
+        }
+        if (shown_) tell("\r{} …\033[K", name);
+        try {
+            const bool is_ours = name == "index.html" ? is_gallery_page(folder_ / name) : record_.is_ours(name);
+            order.push_back(make_file(record_, folder_, std::move(file), options_.force || is_ours,
+                                      [&](const std::filesystem::path& path, auto&) { make_it(path); }));
+        } catch (const Interrupted&) {
+            if (shown_) tell("\r\033[K");
+            throw;
+        } catch (const std::exception& error) {
+            troubles.push_back(fmt::format("{} failed: {}", name, error.what()));
+        }
+        if (shown_) tell("\r\033[K");
+    }
+
+    std::vector<const GalleryJob*> jobs_;  ///< that are there
+    TextHash held_;
+    const std::filesystem::path& folder_;
+    GalleryRecord& record_;
+    const Options& options_;
+    bool shown_;
+    Telling telling_{.quiet = true, .listener = {}, .watch = [](std::uint64_t) {
+                         if (interrupted()) throw Interrupted();
+                     }};
+};
+
 void run(Options& options, bool quiet) {
     for (const auto& [key, text] : options.texts) {
         if (!text.empty()) options.request.keys[key] = text;
@@ -467,13 +611,24 @@ void run(Options& options, bool quiet) {
     const std::vector<GalleryJob> jobs = gallery_jobs(options.request);
     if (options.slurm > 0) return submit(options, jobs.size());
     const Shard shard = read_shard(options.shard, [](const char* name) { return std::getenv(name); });
-    const std::vector<std::size_t> chosen = select(jobs, shard, options);
+    Forecasts forecasts(jobs.size());
+    const std::vector<std::size_t> chosen = select(jobs, shard, options, forecasts);
     if (options.list) return list_jobs(jobs, chosen, options.json);
-    if (options.dry_run) return tell_forecast(jobs, chosen, options);
+    const GalleryRequest& request = options.request;
+    const bool pictures = !request.poster.empty() || !request.contact.empty() ||
+                          std::any_of(chosen.begin(), chosen.end(), [&](std::size_t job) {
+                              return !jobs[job].is_score() && jobs[job].format != "svg" && jobs[job].format != "pdf";
+                          });
+    const double base = base_memory(pictures) + static_cast<double>(jobs.size()) * job_bytes;
+    const double for_jobs = std::max(memory - base, memory / 8);
+    if (options.dry_run) {
+        if (!tell_forecast(jobs, chosen, options, for_jobs, forecasts)) throw CLI::RuntimeError(1);
+        return;
+    }
 
     const double started = now();
     const std::filesystem::path folder = options.output;
-    GalleryRecord record(folder, shard.record_name());
+    GalleryRecord record(folder, shard.record_name(), options.force);
     std::vector<std::string> hashes(jobs.size());
     for_each_number(chosen.size(), options.threads,
                     [&](std::size_t i) { hashes[chosen[i]] = jobs[chosen[i]].hash(); });
@@ -489,15 +644,11 @@ void run(Options& options, bool quiet) {
         }
     }
     const std::size_t skipped = finished.size();
-    std::vector<JobForecast> forecasts = forecast_all(jobs, pending, options);
+    forecast_all(jobs, pending, options, forecasts);
     std::vector<Task> tasks;
-    bool pictures = false;
-    for (std::size_t i = 0; i < pending.size(); ++i) {
-        tasks.push_back({pending[i], std::move(forecasts[i])});
-        pictures = pictures || tasks.back().forecast.band > 0;
-    }
+    for (const std::size_t job : pending) tasks.push_back({job, *forecasts[job]});
     Batch batch(jobs, hashes, folder, record, options, quiet);
-    if (!tasks.empty()) batch.run(std::move(tasks), std::max(memory - base_memory(pictures), memory / 8));
+    if (!tasks.empty()) batch.run(std::move(tasks), for_jobs);
     for (auto& [job, result] : batch.finished) finished.emplace(job, result);
 
     std::vector<FinishedJob> order;
@@ -506,16 +657,25 @@ void run(Options& options, bool quiet) {
         if (const auto found = finished.find(job); found != finished.end()) {
             order.push_back(found->second);
         } else if (shard.count == 1 && !is_chosen.contains(job)) {
-            if (auto known = record.last(jobs[job].file())) order.push_back(std::move(*known));
+            if (auto known = record.present(jobs[job].file())) order.push_back(std::move(*known));
         }
     }
-    std::string trouble;
+    const std::size_t made = batch.finished.size();
+    const double seconds = now() - started;
+    std::vector<std::string> troubles;
+    const bool is_whole = shard.count == 1 && options.only.empty();
+    if (is_whole && !finished.empty() && (batch.failures.empty() || options.keep_going)) {
+        try {
+            Summaries summaries(jobs, finished, folder, record, options, quiet);
+            summaries.make(request, for_jobs, order, troubles);
+        } catch (const Interrupted&) {
+        }
+    }
     try {
         record.complete(order, shard.count == 1);
     } catch (const std::exception& error) {
-        trouble = error.what();  // the lines appended so far hold all the same
+        troubles.push_back(error.what());  // the lines appended so far hold all the same
     }
-    const std::size_t made = batch.finished.size();
     if (!quiet) {
         std::size_t told = 0;
         for (const auto& [job, result] : batch.finished) {
@@ -526,7 +686,6 @@ void run(Options& options, bool quiet) {
         }
         if (told > 20)
             tell("sikku: and {} more warnings, which {} holds\n", told - 20, (folder / shard.record_name()).string());
-        const double seconds = now() - started;
         tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
              counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
         if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
@@ -546,20 +705,8 @@ void run(Options& options, bool quiet) {
         while (message.ends_with('\n')) message.pop_back();
         tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", job.file(), message);
     }
-    if (!trouble.empty()) tell("sikku: {}\n", trouble);
-    if (!batch.failures.empty() || !trouble.empty()) throw CLI::RuntimeError(1);
-    if (shard.count > 1) return;
-    if (!options.only.empty()) return;
-    Telling telling;
-    telling.quiet = quiet;
-    telling.watch = [](std::uint64_t) {
-        if (interrupted()) throw Interrupted();
-    };
-    if (!options.request.poster.empty())
-        draw_gallery_sheet(jobs, folder, {"poster", options.request.poster, true, options.force}, telling);
-    if (!options.request.contact.empty())
-        draw_gallery_sheet(jobs, folder, {"contact", options.request.contact, false, options.force}, telling);
-    write_gallery_index(jobs, folder, options.force);
+    for (const std::string& trouble : troubles) tell("sikku: {}\n", trouble);
+    if (!batch.failures.empty() || !troubles.empty()) throw CLI::RuntimeError(1);
 }
 
 }  // namespace
@@ -580,8 +727,8 @@ void add_gallery(CLI::App& app, bool& quiet) {
         ->type_name("SIZE");
     command->add_option("--contact", options->request.contact, "A contact sheet likewise, with names: contact.svg, …")
         ->type_name("SIZE");
-    command->add_flag("--list", options->list, "Show the jobs, make nothing");
-    command->add_flag("--json", options->json, "With --list: as a manifest");
+    auto* list = command->add_flag("--list", options->list, "Show the jobs, make nothing");
+    command->add_flag("--json", options->json, "With --list: as a manifest")->needs(list);
     command->add_flag("--dry-run", options->dry_run, "Forecast symbols, time, bytes and memory of each job");
     command->add_option("--only", options->only, "Make this job anew, and no other")->allow_extra_args(false);
     command->add_flag("--force", options->force, "Make all anew, and replace files of others that are in the way");
@@ -614,7 +761,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
         "alone. Files that others made are never touched.\n\n"
         "Examples:\n"
-        "  sikku gallery -o kolams -f svg,png --size 130x130mm --dpi 100 kolams\n"
+        "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"
         "  sikku gallery koch-island --generations 0:4 --set 'angle increment=80:100:5'\n"
         "  sikku gallery --file gallery.toml --shard 3/8\n"

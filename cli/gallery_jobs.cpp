@@ -1,6 +1,7 @@
 #include "cli/gallery_jobs.h"
 
 #include "cli/gallery_summary.h"
+#include "cli/json.h"
 
 #include "art/style.h"
 #include "engine/text.h"
@@ -17,7 +18,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
 
@@ -32,6 +32,8 @@ struct KeyFacts {
     Use use = Use::any;
     Kind kind = Kind::text;
     bool overrides = false;  ///< it is a key of the pattern, not an option
+    double least = -1e300;
+    double most = 1e300;
 };
 
 const std::vector<KeyFacts>& all_keys() {
@@ -39,7 +41,11 @@ const std::vector<KeyFacts>& all_keys() {
         std::vector<KeyFacts> list = {
             {{"n", "Derivation length, or a range of them: 1:6", false, true}, Use::any, Kind::whole, false},
             {{"variant", "One of the pattern's variants", false, true}, Use::any, Kind::text, false},
-            {{"budget", "Most nodes of a derivation that are visited", false, true}, Use::any, Kind::number, false},
+            {{"budget", "Most nodes of a derivation that are visited", false, true},
+             Use::any,
+             Kind::number,
+             false,
+             1},
             {{"seed", "Of chance", false, true}, Use::any, Kind::whole, false},
             {{"size", "Of a print: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT", false, true},
              Use::print,
@@ -55,7 +61,7 @@ const std::vector<KeyFacts>& all_keys() {
              Use::print,
              Kind::text,
              false},
-            {{"compression", "Of PNG: 1, quick and large, to 9", false, true}, Use::print, Kind::whole, false},
+            {{"compression", "Of PNG: 1, quick and large, to 9", false, true}, Use::print, Kind::whole, false, 1, 9},
             {{"dpi", "Pixels an inch of pictures", false, true}, Use::print, Kind::number, false},
             {{"angle", "The pattern's angle: its define of that name, or its angle increment", false, true},
              Use::any,
@@ -74,8 +80,8 @@ const std::vector<KeyFacts>& all_keys() {
             list.push_back({{std::string(key), "As of `sikku play`", false, true}, Use::score, Kind::text, false});
         }
         const std::vector<KeyFacts> of_play = {
-            {{"from-bar", "Begin at this bar", false, true}, Use::score, Kind::whole, false},
-            {{"bars", "So many bars", false, true}, Use::score, Kind::whole, false},
+            {{"from-bar", "Begin at this bar", false, true}, Use::score, Kind::whole, false, 1},
+            {{"bars", "So many bars", false, true}, Use::score, Kind::whole, false, 1},
             {{"seconds", "At most so long", false, true}, Use::score, Kind::number, false},
             {{"transpose", "Semitones", false, true}, Use::score, Kind::number, false},
             {{"humanise", "0 to 1: how far from exact a player is", false, true}, Use::score, Kind::number, false},
@@ -203,7 +209,7 @@ struct Stretch {
 };
 
 /// `A:B` or `A:B:STEP`; nullopt for what is none.
-std::optional<Stretch> read_stretch(const std::string& text, const std::string& place) {
+std::optional<Stretch> read_stretch(const std::string& key, const std::string& text, const std::string& place) {
     std::vector<double> numbers;
     for (std::size_t at = 0;;) {
         const std::size_t colon = std::min(text.find(':', at), text.size());
@@ -217,7 +223,7 @@ std::optional<Stretch> read_stretch(const std::string& text, const std::string& 
     Stretch stretch{numbers[0], numbers.size() == 3 ? numbers[2] : 1.0, 0};
     const double steps = (numbers[1] - stretch.first) / stretch.step;
     if (stretch.step == 0 || !(steps >= 0)) {
-        fail(place, fmt::format("the range {} holds nothing", printable(text)));
+        fail(place, fmt::format("{}: the range {} holds nothing", key, printable(text, 80)));
     }
     stretch.count = std::floor(steps + 1e-9) + 1;
     return stretch;
@@ -248,6 +254,9 @@ struct Item {
     std::string name_place;
     std::vector<Axis> axes;
 
+    void drop(std::string_view key) {
+        std::erase_if(axes, [&](const Axis& axis) { return axis.key == key && !axis.in_set; });
+    }
     void take(Axis axis) {
         for (Axis& old : axes) {
             if (old.key == axis.key && old.in_set == axis.in_set) {
@@ -281,9 +290,14 @@ bool is_whole(const std::string& text) {
     return error == std::errc() && stop == text.data() + text.size();
 }
 
-void check_value(const std::string& key, Kind kind, const std::string& value, const std::string& place) {
+/// @param facts  null: of a key of the pattern's own
+void check_value(const std::string& key, const KeyFacts* facts, const std::string& value, const std::string& place) {
+    if (!fits_xml(value)) fail(place, fmt::format("{}: '{}' is no UTF-8 text", key, printable(value, 80)));
+    if (!facts) return;
+    const Kind kind = facts->kind;
     double number = 0;
-    if (kind == Kind::number && !read_number(value, number)) {
+    const bool is_number = read_number(value, number);
+    if (kind == Kind::number && !is_number) {
         fail(place, fmt::format("{}: expected a number, not '{}'", key, printable(value, 80)));
     }
     if (kind == Kind::whole && !is_whole(value)) {
@@ -292,21 +306,56 @@ void check_value(const std::string& key, Kind kind, const std::string& value, co
     if (kind == Kind::flag && value != "true" && value != "false") {
         fail(place, fmt::format("{}: expected true or false, not '{}'", key, printable(value, 80)));
     }
+    if ((kind == Kind::number || kind == Kind::whole) && number < facts->least) {
+        fail(place, fmt::format("{}: expected {:g} or more, not '{}'", key, facts->least, printable(value, 80)));
+    }
+    if ((kind == Kind::number || kind == Kind::whole) && number > facts->most) {
+        fail(place, fmt::format("{}: expected {:g} at most, not '{}'", key, facts->most, printable(value, 80)));
+    }
 }
 
-Axis axis_of(const std::string& key, const Raw& raw, Kind kind, bool in_set) {
-    Axis axis{key, raw.place, {}, std::nullopt, in_set};
-    axis.values = words_of(raw, key);
-    if (axis.values.size() == 1) axis.stretch = read_stretch(axis.values[0], raw.place);
-    if (axis.stretch) {
-        const auto whole = [](double value) { return value >= 0 && value == std::floor(value) && value < 1e11; };
-        if (kind == Kind::flag || (kind == Kind::whole && !(whole(axis.stretch->first) &&
-                                                            axis.stretch->step == std::floor(axis.stretch->step)))) {
-            fail(raw.place, fmt::format("{}: expected whole numbers, 0 or more", key));
+/// @param facts  null: of a key of the pattern's own, in `set`
+Axis axis_of(const std::string& key, const Raw& raw, const KeyFacts* facts) {
+    Axis axis{key, raw.place, {}, std::nullopt, facts == nullptr};
+    const std::vector<std::string> words = words_of(raw, key);
+    // These may hold a colon.
+    const bool is_prose = !facts && (key == "title" || key == "source" || key == "description");
+    for (const std::string& word : words) {
+        const auto stretch = is_prose ? std::nullopt : read_stretch(key, word, raw.place);
+        if (!stretch) {
+            check_value(key, facts, word, raw.place);
+            axis.values.push_back(word);
+            continue;
         }
-        return axis;
+        if (facts && facts->kind == Kind::flag) check_value(key, facts, word, raw.place);
+        if (facts && facts->kind == Kind::whole) {
+            const auto is_whole_number = [](double value) {
+                return value >= 0 && value == std::floor(value) && value < 1e11;
+            };
+            const double last = stretch->first + (stretch->count - 1) * stretch->step;
+            if (!is_whole_number(stretch->first) || stretch->step != std::floor(stretch->step) ||
+                (stretch->count < most_gallery_jobs && !is_whole_number(last))) {
+                fail(raw.place, fmt::format("{}: expected whole numbers, 0 or more", key));
+            }
+        }
+        if (words.size() == 1) {
+            axis.stretch = stretch;
+            break;
+        }
+        if (!(static_cast<double>(axis.values.size()) + stretch->count <= most_gallery_jobs)) {
+            fail(raw.place, fmt::format("{}: there are too many values in {}", key, printable(word, 80)));
+        }
+        for (std::uint64_t i = 0; static_cast<double>(i) < stretch->count; ++i) {
+            axis.values.push_back(stretch->value(i));
+        }
     }
-    for (const std::string& value : axis.values) check_value(key, kind, value, raw.place);
+    if (axis.stretch && facts) {
+        check_value(key, facts, axis.stretch->value(0), raw.place);
+        if (axis.stretch->count <= most_gallery_jobs) {
+            check_value(key, facts, axis.stretch->value(static_cast<std::uint64_t>(axis.stretch->count) - 1),
+                        raw.place);
+        }
+    }
     return axis;
 }
 
@@ -361,12 +410,12 @@ void read_key(const std::string& written, const Raw& raw, Item& item) {
         item.name_place = raw.place;
     } else if (key == "set") {
         if (raw.type != Raw::Type::table) fail(raw.place, "set: expected a table such as { r = 0.5 }");
-        for (const auto& [name, value] : raw.table) item.take(axis_of(name, value, Kind::text, true));
+        for (const auto& [name, value] : raw.table) item.take(axis_of(name, value, nullptr));
     } else if (const KeyFacts* facts = find_key(key)) {
-        item.take(axis_of(key, raw, facts->kind, false));
+        item.take(axis_of(key, raw, facts));
     } else {
-        std::vector<std::string_view> known = {"pattern",     "format", "name",   "set",
-                                               "generations", "item",   "poster", "contact"};
+        std::vector<std::string_view> known = {"pattern", "format", "name",    "set",  "generations",
+                                               "item",    "poster", "contact", "title"};
         for (const KeyFacts& each : all_keys()) known.push_back(each.shown.name);
         const std::string_view near = nearest(key, known);
         fail(raw.place, fmt::format("nobody knows the key '{}'{}", printable(written, 80),
@@ -391,7 +440,21 @@ std::string read_text_file(const std::string& file) {
     return text;
 }
 
-/// The defaults go into `defaults`; sizes of sheets into `request`, unless it has them already.
+void check_sheet_size(const std::string& key, const std::string& size, const std::string& place) {
+    DrawSettings settings;
+    settings.size = size;
+    settings.output = "sheet.svg";
+    settings.margin = "0mm";
+    try {
+        plan_print(settings);
+    } catch (const UsageError& error) {
+        std::string message = error.what();
+        if (message.starts_with("--size")) message.replace(0, 6, "--" + key);
+        fail(place, message);
+    }
+}
+
+/// The defaults go into `defaults`; title and sizes of sheets into `request`, unless it has them already.
 std::vector<Item> read_gallery_file(const std::string& file, Item& defaults, GalleryRequest& request) {
     Raw root;
     try {
@@ -405,11 +468,17 @@ std::vector<Item> read_gallery_file(const std::string& file, Item& defaults, Gal
     for (const auto& [key, value] : root.table) {
         if (key == "item") {
             items = &value;
+        } else if (key == "title") {
+            if (value.type != Raw::Type::text) fail(value.place, "title: expected a text");
+            if (request.title.empty()) request.title = value.text;
         } else if (key == "poster" || key == "contact") {
             if (value.type != Raw::Type::text)
                 fail(value.place, key + ": expected the size of the sheet, such as \"A1\"");
             std::string& size = key == "poster" ? request.poster : request.contact;
-            if (size.empty()) size = value.text;
+            if (size.empty()) {
+                size = value.text;
+                check_sheet_size(key, size, value.place);
+            }
         } else {
             read_key(key, value, defaults);
         }
@@ -417,6 +486,7 @@ std::vector<Item> read_gallery_file(const std::string& file, Item& defaults, Gal
     std::vector<Item> list;
     if (!items) return list;
     if (items->type != Raw::Type::list) fail(items->place, "item: write it as [[item]], one for each");
+    if (items->list.empty()) fail(items->place, "item: this list is empty");
     for (const Raw& element : items->list) {
         if (element.type != Raw::Type::table) fail(element.place, "item: write it as [[item]], one for each");
         Item item = defaults;
@@ -441,9 +511,9 @@ std::vector<Item> read_manifest(const std::string& file, const Item& defaults) {
         const std::string line_place = fmt::format("{}:{}", file, number);
         nlohmann::ordered_json json;
         try {
-            json = nlohmann::ordered_json::parse(line);
-        } catch (const nlohmann::json::parse_error& error) {
-            fail(fmt::format("{}:{}", line_place, std::max<std::size_t>(error.byte, 1)), "this is no JSON");
+            json = read_json(line);
+        } catch (const JsonError& error) {
+            fail(fmt::format("{}:{}", line_place, error.byte), error.what());
         }
         if (!json.is_object()) fail(line_place + ":1", "expected a job: { \"pattern\": … }");
         Item item = defaults;
@@ -461,6 +531,16 @@ bool has_wildcards(std::string_view word) {
     return word.find_first_of("*?[") != std::string_view::npos;
 }
 
+/// As a glob that fits nothing else.
+std::string without_wildcards(const std::string& text) {
+    std::string form;
+    for (const char letter : text) {
+        if (has_wildcards({&letter, 1}) || letter == '\\') form += '\\';
+        form += letter;
+    }
+    return form;
+}
+
 /// Finds patterns and reads each once.
 class PatternShelf {
 public:
@@ -472,44 +552,41 @@ public:
         if (word == "-") fail(place, "a gallery reads no pattern from standard input");
         const std::filesystem::path path = folder / word;
         std::error_code error;
-        if (has_wildcards(word)) {
+        const bool is_folder = std::filesystem::is_directory(path, error);
+        if (is_folder) {
+            std::vector<std::filesystem::path> files;
+            for (std::filesystem::recursive_directory_iterator entry(path, error), end; !error && entry != end;
+                 entry.increment(error)) {
+                if (entry->path().extension() == ".lsys") files.push_back(entry->path());
+            }
+            if (error) fail(place, fmt::format("{}: {}", path.string(), error.message()));
+            std::sort(files.begin(), files.end());
+            for (const auto& file : files) found.push_back(of_file(file));
+        } else if (std::filesystem::exists(path, error)) {
+            found.push_back(of_file(path));
+        } else if (has_wildcards(word)) {
             glob_t matches{};
-            if (glob(path.c_str(), 0, nullptr, &matches) == 0) {
+            const std::string form = (std::filesystem::path(without_wildcards(folder.string())) / word).string();
+            if (glob(form.c_str(), 0, nullptr, &matches) == 0) {
                 for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
                     const std::filesystem::path match = matches.gl_pathv[i];
                     if (match.extension() == ".lsys") found.push_back(of_file(match));
                 }
             }
             globfree(&matches);
-            if (!found.empty()) return found;
-            for (const KnownPattern& pattern : known()) {
-                const std::string full = pattern.kind + "/" + pattern.name;
-                const bool is_full = word.find('/') != std::string::npos;
-                if (fnmatch(word.c_str(), (is_full ? full : pattern.name).c_str(), 0) == 0) {
-                    found.push_back(of_known(pattern));
-                }
-            }
-            if (found.empty()) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
-            return found;
         }
-        if (std::filesystem::is_directory(path, error)) {
-            std::vector<std::filesystem::path> files;
-            for (std::filesystem::recursive_directory_iterator entry(path, error), end; !error && entry != end;
-                 entry.increment(error)) {
-                if (entry->path().extension() == ".lsys") files.push_back(entry->path());
-            }
-            std::sort(files.begin(), files.end());
-            for (const auto& file : files) found.push_back(of_file(file));
-            if (found.empty()) fail(place, fmt::format("{}: there is no pattern in this folder", path.string()));
-            return found;
-        }
-        if (std::filesystem::exists(path, error)) return {of_file(path)};
+        if (!found.empty()) return found;
+        // The folder of a gallery may be called as a kind is.
         for (const KnownPattern& pattern : known()) {
-            if (pattern.name == word || pattern.kind == word || pattern.kind + "/" + pattern.name == word) {
+            const std::string full = pattern.kind + "/" + pattern.name;
+            const bool is_full = word.find('/') != std::string::npos;
+            if (pattern.kind == word || fnmatch(word.c_str(), (is_full ? full : pattern.name).c_str(), 0) == 0) {
                 found.push_back(of_known(pattern));
             }
         }
         if (!found.empty()) return found;
+        if (is_folder) fail(place, fmt::format("{}: there is no pattern in this folder", path.string()));
+        if (has_wildcards(word)) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
         std::vector<std::string_view> names;
         for (const KnownPattern& pattern : known()) names.push_back(pattern.name);
         const std::string_view near = nearest(word, names);
@@ -597,8 +674,10 @@ public:
                 }
             }
             if (sum > most_gallery_jobs) {
-                fail(items_[i].place, fmt::format("this would make {:.0f} jobs; at most {:.0f} are made at a time",
-                                                  sum, most_gallery_jobs));
+                fail(items_[i].place,
+                     fmt::format("this would make {} jobs; at most {:.0f} are made at a time",
+                                 sum < 1e15 ? fmt::format("{:.0f}", sum) : fmt::format("{:.0e}", sum),
+                                 most_gallery_jobs));
             }
         }
     }
@@ -652,15 +731,16 @@ private:
     }
 
     /// The key of the pattern that `angle` stands for.
-    static std::string override_key(const std::string& key, const GalleryPattern& pattern) {
+    std::string override_key(const std::string& key, const GalleryPattern& pattern) {
         if (key == "angle") {
-            Diagnostics ignored;
-            if (!pattern.text) return key;
-            const Pattern parsed = parse_pattern(pattern.text->name, pattern.text->text, ignored);
-            for (const Define& define : parsed.defines) {
-                if (define.name.view() == "angle") return key;
+            const auto [known, is_new] = defines_angle_.emplace(&pattern, true);
+            if (is_new && pattern.text) {
+                Diagnostics ignored;
+                const Pattern parsed = parse_pattern(pattern.text->name, pattern.text->text, ignored);
+                known->second = std::any_of(parsed.defines.begin(), parsed.defines.end(),
+                                            [](const Define& define) { return define.name.view() == "angle"; });
             }
-            return "angle increment";
+            return known->second ? key : "angle increment";
         }
         std::string name = key;
         std::replace(name.begin(), name.end(), '-', ' ');
@@ -679,27 +759,74 @@ private:
         }
         std::vector<std::uint64_t> at(axes.size(), 0);
         while (true) {
-            GalleryJob job;
-            job.format = format;
-            job.pattern = pattern;
-            job.place = item.place;
-            job.folder = item.folder;
-            for (std::size_t i = 0; i < axes.size(); ++i) {
-                const std::string value = axes[i]->value(at[i]);
-                if (!targets[i].empty()) {
-                    job.overrides[targets[i]] = value;
-                } else if (value != "false" || find_key(axes[i]->key)->kind != Kind::flag) {
-                    job.keys[axes[i]->key] = value;
-                }
-            }
+            GalleryJob job = job_at(item, pattern, format, axes, targets, at, axes.size());
             job.name = name_of(item, job, axes, at);
             check(item, job);
+            // Mistakes in values: of each axis all, the others at their first, and of ranges the ends.
+            const auto others = std::count_if(at.begin(), at.end(), [](std::uint64_t value) { return value > 0; });
+            if (others < 2 && is_sound(pattern)) {
+                std::size_t axis = 0;
+                while (axis + 1 < axes.size() && at[axis] == 0) ++axis;
+                const bool is_end = axes.empty() || !axes[axis]->stretch || at[axis] == 0 ||
+                                    static_cast<double>(at[axis] + 1) >= axes[axis]->count();
+                const std::string problem = is_end ? problem_of(job) : "";
+                for (std::size_t without = 0; !problem.empty() && without < axes.size(); ++without) {
+                    if (problem_of(job_at(item, pattern, format, axes, targets, at, without)).empty()) {
+                        fail(axes[without]->place.empty() ? job.place : axes[without]->place, problem);
+                    }
+                }
+                if (!problem.empty()) fail(job.place, problem);
+            }
             list.push_back(std::move(job));
             // The last axis runs fastest.
             std::size_t axis = axes.size();
             while (axis > 0 && static_cast<double>(++at[axis - 1]) >= axes[axis - 1]->count()) at[--axis] = 0;
             if (axis == 0) return;
         }
+    }
+
+    /// @param without  an axis that does not count
+    static GalleryJob job_at(const Item& item, const PatternShelf::Pointer& pattern, const std::string& format,
+                             const std::vector<const Axis*>& axes, const std::vector<std::string>& targets,
+                             const std::vector<std::uint64_t>& at, std::size_t without) {
+        GalleryJob job;
+        job.format = format;
+        job.pattern = pattern;
+        job.place = item.place;
+        job.folder = item.folder;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (i == without) continue;
+            const std::string value = axes[i]->value(at[i]);
+            if (!targets[i].empty()) {
+                job.overrides[targets[i]] = value;
+            } else if (value != "false" || find_key(axes[i]->key)->kind != Kind::flag) {
+                job.keys[axes[i]->key] = value;
+            }
+        }
+        return job;
+    }
+
+    /// Whether the pattern can be compiled as it is: else its jobs tell what is wrong with it.
+    bool is_sound(const PatternShelf::Pointer& pattern) {
+        const auto [known, is_new] = is_sound_.emplace(pattern.get(), false);
+        if (is_new) {
+            GalleryJob plain;
+            plain.format = "svg";
+            plain.pattern = pattern;
+            known->second = pattern->text && problem_of(plain).empty();
+        }
+        return known->second;
+    }
+
+    static std::string problem_of(const GalleryJob& job) {
+        try {
+            load(job.is_score() ? score_settings(job, "x.mid").pattern : print_settings(job, "x.svg").pattern, true);
+        } catch (const std::runtime_error& error) {
+            std::string message = error.what();
+            while (message.ends_with('\n')) message.pop_back();
+            return message.empty() ? "this does not go with the pattern" : message;
+        }
+        return "";
     }
 
     std::string name_of(const Item& item, const GalleryJob& job, const std::vector<const Axis*>& axes,
@@ -725,17 +852,15 @@ private:
                 i = end + 1;
             }
         }
-        for (const std::filesystem::path& part : std::filesystem::path(name)) {
-            const std::string text = part.string();
-            if (text.empty() || text == "/" || text.starts_with('.')) {
-                fail(item.name_place.empty() ? item.place : item.name_place,
-                     fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
-            }
-        }
         const std::string file = name + "." + job.format;
-        if (name.empty() || is_summary(file) || file.find('\0') != std::string::npos || file.size() > 1000) {
+        const bool has_controls = std::any_of(name.begin(), name.end(),
+                                              [](char letter) { return static_cast<unsigned char>(letter) < ' '; });
+        // Parts of a path that are empty, hidden, or lead elsewhere.
+        const std::string path = "/" + name + "/";
+        if (name.empty() || path.find("//") != std::string::npos || path.find("/.") != std::string::npos ||
+            is_summary(file) || has_controls || !fits_xml(name) || file.size() > 1000) {
             fail(item.name_place.empty() ? item.place : item.name_place,
-                 fmt::format("name: '{}' cannot be the name of an output", printable(file, 80)));
+                 fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
         }
         return name;
     }
@@ -777,6 +902,9 @@ private:
             if (job.is_score()) {
                 check_score(score_settings(job, job.file()));
             } else {
+                if (job.keys.contains("step") && job.keys.contains("fit")) {
+                    throw UsageError("step: a print has a step or fits its page, not both");
+                }
                 plan_print(print_settings(job, job.file()));
             }
         } catch (const UsageError& error) {
@@ -792,6 +920,8 @@ private:
 
     std::vector<Item> items_;
     PatternShelf shelf_;
+    std::map<const GalleryPattern*, bool> defines_angle_;
+    std::map<const GalleryPattern*, bool> is_sound_;
     std::vector<std::vector<PatternShelf::Pointer>> patterns_;
 };
 
@@ -823,15 +953,31 @@ PatternOptions pattern_options(const GalleryJob& job) {
     return options;
 }
 
+/// The kinds of the patterns, `Kolams, curves`, if they are few.
+std::string title_of(const std::vector<GalleryJob>& jobs) {
+    std::vector<std::string> kinds;
+    for (const GalleryJob& job : jobs) {
+        const std::string& kind = job.pattern->kind;
+        if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+        if (kinds.size() > 3) return "Sikku";
+    }
+    std::string title = fmt::format("{}", fmt::join(kinds, ", "));
+    if (title.empty()) return "Sikku";
+    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+    return title;
+}
+
 /// What was asked for on the command line goes before what a file says.
 void take_request(const GalleryRequest& request, Item& item) {
+    if (request.keys.contains("fit")) item.drop("step");
+    if (request.keys.contains("step")) item.drop("fit");
     for (const auto& [key, value] : request.keys) {
         Raw raw;
         raw.text = value;
         if (key == "format" || key == "name") {
             read_key(key, raw, item);
         } else {
-            item.take(axis_of(key, raw, find_key(key)->kind, false));
+            item.take(axis_of(key, raw, find_key(key)));
         }
     }
     for (const std::string& text : request.overrides) {
@@ -841,7 +987,7 @@ void take_request(const GalleryRequest& request, Item& item) {
         }
         Raw raw;
         raw.text = text.substr(equals + 1);
-        item.take(axis_of(text.substr(0, equals), raw, Kind::text, true));
+        item.take(axis_of(text.substr(0, equals), raw, nullptr));
     }
 }
 
@@ -947,6 +1093,8 @@ PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     Item defaults;
     std::vector<Item> items;
+    if (!request.poster.empty()) check_sheet_size("poster", request.poster, "");
+    if (!request.contact.empty()) check_sheet_size("contact", request.contact, "");
     if (!request.gallery_file.empty()) items = read_gallery_file(request.gallery_file, defaults, request);
     if (!request.manifest.empty()) {
         std::vector<Item> more = read_manifest(request.manifest, defaults);
@@ -966,7 +1114,9 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     for (Item& item : items) take_request(request, item);
     Expansion expansion(std::move(items));
     expansion.require_few();
-    return expansion.jobs();
+    std::vector<GalleryJob> jobs = expansion.jobs();
+    if (request.title.empty()) request.title = title_of(jobs);
+    return jobs;
 }
 
 void TextHash::add(std::string_view bytes) {

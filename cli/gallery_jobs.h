@@ -71,6 +71,7 @@ struct GalleryRequest {
     std::map<std::string, std::string> keys;  ///< these go before what the files say
     std::vector<std::string> overrides;       ///< KEY=VALUE
     std::string poster, contact;              ///< sizes of sheets; where empty, the gallery file's are filled in
+    std::string title;                        ///< of the page; where empty, the gallery file's, or what it shows
 };
 
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.

@@ -2,6 +2,7 @@
 
 #include "art/output_file.h"
 #include "cli/gallery_jobs.h"
+#include "cli/json.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,6 +20,15 @@
 #include <system_error>
 
 namespace sikku {
+
+/// What a record file holds, of each file the last line.
+struct RecordText {
+    std::map<std::string, FinishedJob> finished;
+    std::set<std::string> claims;  ///< without a record after them
+    bool is_ours = true;           ///< it is empty, or one line at least is a record, be it torn
+    bool is_cut = false;           ///< its last line has no end
+};
+
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
@@ -31,8 +41,62 @@ std::string contents(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-bool is_record_name(const std::string& name) {
-    return name.starts_with("gallery") && name.ends_with(".jsonl");
+/// `gallery-3-of-8.jsonl`
+bool is_shard_name(std::string_view name) {
+    const auto take_number = [&] {
+        const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+        name.remove_prefix(digits);
+        return digits > 0;
+    };
+    const auto take = [&](std::string_view piece) {
+        if (!name.starts_with(piece)) return false;
+        name.remove_prefix(piece.size());
+        return true;
+    };
+    return take("gallery-") && take_number() && take("-of-") && take_number() && name == ".jsonl";
+}
+
+/// Records of others must not lead out of the folder.
+bool is_inside(const std::filesystem::path& file) {
+    return !file.empty() && file.is_relative() && file.has_filename() &&
+           std::none_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
+}
+
+RecordText read_record(const std::filesystem::path& file) {
+    RecordText record;
+    const std::string text = contents(file);
+    record.is_ours = text.empty();
+    record.is_cut = !text.empty() && !text.ends_with('\n');
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        at = end + 1;
+        record.is_ours = record.is_ours || line.starts_with("{\"claim\":") || line.starts_with("{\"file\":");
+        try {
+            const auto json = read_json(line);
+            if (json.contains("claim")) {
+                const auto claim = json.at("claim").get<std::string>();
+                if (is_inside(claim)) record.claims.insert(claim);
+                continue;
+            }
+            FinishedJob job;
+            job.file = json.at("file").get<std::string>();
+            job.hash = json.at("hash").get<std::string>();
+            job.bytes = json.at("bytes").get<std::uint64_t>();
+            job.content = json.at("content").get<std::string>();
+            job.job = json.at("job").dump();
+            if (json.contains("told")) job.told = json.at("told").get<std::vector<std::string>>();
+            if (!is_inside(job.file)) continue;
+            record.claims.erase(job.file);
+            std::string name = job.file;
+            record.finished[std::move(name)] = std::move(job);
+        } catch (const nlohmann::json::exception&) {
+            // Of others, with keys of other kinds.
+        } catch (const JsonError&) {
+            // Torn; what comes after it stands on a line of its own.
+        }
+    }
+    return record;
 }
 
 /// What OutputFile adds to a name until the file is whole: `.NAME.abc234.tmp`, and of sound another such behind it.
@@ -69,6 +133,12 @@ void synchronise(const std::filesystem::path& file) {
     ::close(descriptor);
 }
 
+std::string claim_line(const std::string& file) {
+    nlohmann::json json;
+    json["claim"] = file;
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string FinishedJob::line() const {
@@ -77,7 +147,7 @@ std::string FinishedJob::line() const {
     json["hash"] = hash;
     json["bytes"] = bytes;
     json["content"] = content;
-    json["job"] = nlohmann::ordered_json::parse(job);
+    json["job"] = read_json(job);
     if (!told.empty()) json["told"] = told;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -94,25 +164,24 @@ std::string content_hash(const std::filesystem::path& file) {
     return stream.bad() ? "" : hash.digits();
 }
 
-GalleryRecord::GalleryRecord(std::filesystem::path folder, std::string name)
+GalleryRecord::GalleryRecord(std::filesystem::path folder, std::string name, bool replaces)
     : folder_(std::move(folder)), name_(std::move(name)) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
     if (error && !std::filesystem::is_directory(folder_)) fail(folder_, error.value());
     open();
-    std::vector<std::filesystem::path> files;
-    std::vector<std::filesystem::path> unfinished;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-        const std::string found = entry.path().filename().string();
-        if (is_record_name(found) && entry.is_regular_file()) files.push_back(entry.path());
-        if (is_unfinished(found, name_)) unfinished.push_back(entry.path());
+    const RecordText own = read_record(folder_ / name_);
+    if (!own.is_ours && !replaces) {
+        ::close(std::exchange(descriptor_, -1));
+        throw std::runtime_error(fmt::format(
+            "'{}' is there already and was not made by a gallery; --force replaces it", (folder_ / name_).string()));
     }
-    std::sort(files.begin(), files.end());
-    for (const auto& file : files) read(file, file.filename() == name_);
-    for (const auto& file : unfinished) std::filesystem::remove(file, error);
-    for (const auto& [file, known] : known_) {
-        if (known.claimed_here) remove_unfinished(file);
-    }
+    // What is appended begins on a line of its own.
+    if (own.is_cut) append("\n", false);
+    remove_unfinished(name_);
+    for (const auto& file : others()) take(read_record(file), false);
+    take(own, true);
+    for (const std::string& file : own.claims) remove_unfinished(file);
 }
 
 GalleryRecord::~GalleryRecord() {
@@ -140,47 +209,27 @@ void GalleryRecord::open() {
     }
 }
 
-void GalleryRecord::read(const std::filesystem::path& file, bool own) {
-    const std::string text = contents(file);
-    std::map<std::string, FinishedJob> last;
-    std::set<std::string> claims;
-    bool all_records = true;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = text.find('\n', at);
-        const std::string line = text.substr(at, end - at);
-        at = end == std::string::npos ? text.size() : end + 1;
-        try {
-            const auto json = nlohmann::json::parse(line);
-            if (json.contains("claim")) {
-                claims.insert(json.at("claim").get<std::string>());
-                continue;
-            }
-            FinishedJob job;
-            job.file = json.at("file").get<std::string>();
-            job.hash = json.at("hash").get<std::string>();
-            job.bytes = json.at("bytes").get<std::uint64_t>();
-            job.content = json.at("content").get<std::string>();
-            job.job = json.at("job").dump();
-            if (json.contains("told")) job.told = json.at("told").get<std::vector<std::string>>();
-            claims.erase(job.file);
-            std::string name = job.file;
-            last[std::move(name)] = std::move(job);
-        } catch (const nlohmann::json::exception&) {
-            // Torn; what comes after it stands on a line of its own.
-            all_records = all_records && end == std::string::npos;
-        }
+/// The records of shards, and of the whole: all but the own one.
+std::vector<std::filesystem::path> GalleryRecord::others() const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+        const std::string found = entry.path().filename().string();
+        if (found == name_ || !(found == "gallery.jsonl" || is_shard_name(found))) continue;
+        if (!entry.is_symlink() && entry.is_regular_file()) files.push_back(entry.path());
     }
-    for (const std::string& claim : claims) {
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void GalleryRecord::take(const RecordText& record, bool keeps) {
+    for (const std::string& claim : record.claims) {
         known_[claim].claimed = true;
-        known_[claim].claimed_here = known_[claim].claimed_here || own;
+        known_[claim].kept = known_[claim].kept || keeps;
     }
-    for (auto& [name, job] : last) {
-        known_[name].versions.push_back(std::move(job));
-        known_[name].recorded_here = known_[name].recorded_here || own;
+    for (const auto& [name, job] : record.finished) {
+        known_[name].versions.push_back(job);
+        known_[name].kept = known_[name].kept || keeps;
     }
-    if (!own && all_records) shards_.push_back(file);
-    // What is appended begins on a line of its own.
-    if (own && !text.empty() && !text.ends_with('\n')) append("\n", false);
 }
 
 void GalleryRecord::remove_unfinished(const std::string& file) const {
@@ -195,30 +244,27 @@ void GalleryRecord::remove_unfinished(const std::string& file) const {
     for (const auto& path : left) std::filesystem::remove(path, error);
 }
 
-std::optional<FinishedJob> GalleryRecord::finished(const std::string& file, const std::string& hash) const {
-    const auto found = known_.find(file);
-    if (found == known_.end()) return std::nullopt;
-    const std::vector<FinishedJob>& versions = found->second.versions;
-    const auto same = std::find_if(versions.begin(), versions.end(),
-                                   [&](const FinishedJob& version) { return version.hash == hash; });
-    if (same == versions.end()) return std::nullopt;
-    struct stat status {};
-    const std::filesystem::path path = folder_ / file;
-    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode) ||
-        static_cast<std::uint64_t>(status.st_size) != same->bytes) {
-        return std::nullopt;
-    }
-    const bool agree = std::all_of(versions.begin(), versions.end(),
-                                   [&](const FinishedJob& version) { return version.hash == hash; });
-    // A claim after the last record may have made it anew, from another pattern.
-    if ((!agree || found->second.claimed) && content_hash(path) != same->content) return std::nullopt;
-    return *same;
-}
-
-std::optional<FinishedJob> GalleryRecord::last(const std::string& file) const {
+std::optional<FinishedJob> GalleryRecord::present(const std::string& file) const {
     const auto found = known_.find(file);
     if (found == known_.end() || found->second.versions.empty()) return std::nullopt;
-    return found->second.versions.back();
+    const std::vector<FinishedJob>& versions = found->second.versions;
+    const std::filesystem::path path = folder_ / file;
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    const bool agree = std::all_of(versions.begin(), versions.end(), [&](const FinishedJob& version) {
+        return version.hash == versions.front().hash && version.content == versions.front().content;
+    });
+    // A claim after the last record may have made it anew, from another pattern.
+    const std::string content = agree && !found->second.claimed ? versions.back().content : content_hash(path);
+    const auto same = std::find_if(versions.rbegin(), versions.rend(), [&](const FinishedJob& version) {
+        return version.bytes == static_cast<std::uint64_t>(status.st_size) && version.content == content;
+    });
+    return same == versions.rend() ? std::nullopt : std::optional(*same);
+}
+
+std::optional<FinishedJob> GalleryRecord::finished(const std::string& file, const std::string& hash) const {
+    auto job = present(file);
+    return job && job->hash == hash ? job : std::nullopt;
 }
 
 bool GalleryRecord::is_ours(const std::string& file) const {
@@ -242,41 +288,63 @@ void GalleryRecord::append(const std::string& line, bool durable) {
 }
 
 void GalleryRecord::claim(const std::string& file) {
-    nlohmann::json json;
-    json["claim"] = file;
-    append(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", false);
+    append(claim_line(file), false);
 }
 
 void GalleryRecord::add(const FinishedJob& job) {
+    // First the file: what the record says of it then holds whatever happens.
+    synchronise(folder_ / job.file);
     append(job.line(), true);
 }
 
 void GalleryRecord::complete(const std::vector<FinishedJob>& order, bool sole) {
+    /// Records of shards that no run is at work on, locked until they are gone.
+    struct Locked {
+        std::filesystem::path file;
+        int descriptor = -1;
+    };
+    std::vector<Locked> shards;
+    if (sole) {
+        for (const auto& file : others()) {
+            const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+            if (descriptor < 0) continue;
+            // Shards may have finished since this run began: only now it is known what they hold.
+            const bool is_free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+            const RecordText shard = read_record(file);
+            if (!is_free || !shard.is_ours) {
+                ::close(descriptor);
+                continue;
+            }
+            shards.push_back({file, descriptor});
+            take(shard, true);
+            for (const std::string& claim : shard.claims) remove_unfinished(claim);
+            remove_unfinished(file.filename().string());
+        }
+    }
     std::string text;
     std::set<std::string> written;
     for (const FinishedJob& job : order) {
         text += job.line();
         written.insert(job.file);
     }
-    // Of other jobs, what is still there.
+    // Of other jobs, what is still there, also what was not finished: it is no file of others.
     for (const auto& [file, known] : known_) {
-        if (written.contains(file) || known.versions.empty() || !(known.recorded_here || sole)) continue;
-        const FinishedJob& job = known.versions.back();
         std::error_code error;
-        if (std::filesystem::file_size(folder_ / file, error) == job.bytes && !error) text += job.line();
+        if (written.contains(file) || !known.kept || !std::filesystem::exists(folder_ / file, error)) continue;
+        if (const auto job = present(file)) {
+            text += job->line();
+        } else {
+            text += claim_line(file);
+        }
     }
-    const std::filesystem::path file = folder_ / name_;
-    OutputFile output(file);
+    OutputFile output(folder_ / name_);
     output.write(text);
     synchronise(output.temporary());
     output.commit();
     synchronise(folder_);
-    if (!sole) return;
-    for (const auto& shard : shards_) {
-        const int descriptor = ::open(shard.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor < 0) continue;
-        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(shard.c_str());
-        ::close(descriptor);
+    for (const Locked& shard : shards) {
+        ::unlink(shard.file.c_str());
+        ::close(shard.descriptor);
     }
 }
 

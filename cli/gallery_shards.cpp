@@ -114,6 +114,9 @@ std::string slurm_script(const std::vector<std::string>& arguments, const std::s
                          const std::string& log) {
     std::string command;
     for (const std::string& argument : arguments) command += (command.empty() ? "" : " ") + quoted(argument);
+    // A line feed would end the comment.
+    std::string script = quoted(log);
+    std::replace(script.begin(), script.end(), '\n', ' ');
     return fmt::format(
         "#!/bin/sh\n"
         "# A gallery in {0} parts, and then what the whole of it takes:\n"
@@ -123,7 +126,7 @@ std::string slurm_script(const std::vector<std::string>& arguments, const std::s
         "#SBATCH --requeue\n"
         "#SBATCH --open-mode=append\n"
         "cd {3} && exec {4}\n",
-        tasks, tasks - 1, quoted(log), quoted(folder), command);
+        tasks, tasks - 1, script, quoted(folder), command);
 }
 
 }  // namespace sikku

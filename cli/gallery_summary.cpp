@@ -5,7 +5,6 @@
 #include "cli/file_bytes.h"
 #include "cli/gallery_page.h"
 #include "engine/forecast.h"
-#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -17,16 +16,15 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 namespace sikku {
 namespace {
 
 constexpr std::array<std::string_view, 2> sheet_names = {"poster", "contact"};
-constexpr std::array<std::string_view, 3> sheet_formats = {"svg", "pdf", "png"};
+constexpr std::array<std::string_view, 3> sheet_formats = {"pdf", "png", "svg"};
 
 /// Jobs of one name, in the order of their first.
-struct Item {
+struct Prints {
     std::vector<const GalleryJob*> jobs;
     const GalleryJob* find(std::string_view format) const {
         for (const GalleryJob* job : jobs) {
@@ -36,15 +34,30 @@ struct Item {
     }
 };
 
-std::vector<Item> items_of(const std::vector<GalleryJob>& jobs) {
-    std::vector<Item> items;
+std::vector<Prints> by_name(const std::vector<const GalleryJob*>& jobs) {
+    std::vector<Prints> list;
     std::map<std::string_view, std::size_t> places;
-    for (const GalleryJob& job : jobs) {
-        const auto [place, is_new] = places.emplace(job.name, items.size());
-        if (is_new) items.emplace_back();
-        items[place->second].jobs.push_back(&job);
+    for (const GalleryJob* job : jobs) {
+        const auto [place, is_new] = places.emplace(job->name, list.size());
+        if (is_new) list.emplace_back();
+        list[place->second].jobs.push_back(job);
     }
-    return items;
+    return list;
+}
+
+/// What of a job's settings is told in one line: `angle increment = 60, size = A4`.
+/// @param keys  those of the options that are told; null: all but the derivation length, which is told elsewhere
+std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys) {
+    std::string text;
+    const auto add = [&](const std::string& key, const std::string& value) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, value);
+    };
+    for (const auto& [key, value] : job.overrides) add(key, value);
+    for (const auto& [key, value] : job.keys) {
+        if (key == "n" || key == "budget" || (keys && !keys->contains(key))) continue;
+        add(key, value);
+    }
+    return text;
 }
 
 LoadedPattern load_quietly(const GalleryJob& job) {
@@ -79,7 +92,7 @@ std::string angle_of(const Pattern& pattern) {
     return fmt::format("{:.6g}", 360.0 / parts);
 }
 
-GalleryEntry entry_of(const Item& item) {
+GalleryEntry entry_of(const Prints& item) {
     const GalleryJob& first = *item.jobs.front();
     const LoadedPattern loaded = load_quietly(first);
     GalleryEntry entry;
@@ -92,9 +105,7 @@ GalleryEntry entry_of(const Item& item) {
     entry.n = std::to_string(loaded.grammar.steps());
     entry.angle = angle_of(loaded.pattern);
     entry.growth = growth_of(loaded.grammar);
-    for (const auto& [key, value] : first.overrides) {
-        entry.settings += fmt::format("{}{} = {}", entry.settings.empty() ? "" : ", ", key, value);
-    }
+    entry.settings = settings_of(first, nullptr);
     entry.pattern = first.pattern->text ? first.pattern->text->text : std::string();
     // What a browser shows comes first; a picture is the quickest thumbnail.
     const GalleryJob* shown = nullptr;
@@ -125,25 +136,6 @@ GalleryEntry entry_of(const Item& item) {
     return entry;
 }
 
-/// What sikku writes says so near its beginning or its end.
-void require_ours(const std::filesystem::path& file) {
-    constexpr std::streamoff reach = 8192;
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    if (!stream) return;
-    const std::streamoff size = stream.tellg();
-    std::string text(static_cast<std::size_t>(2 * reach), '\0');
-    stream.seekg(0);
-    stream.read(text.data(), reach);
-    stream.clear();
-    stream.seekg(std::max<std::streamoff>(0, size - reach));
-    stream.read(text.data() + reach, reach);
-    if (lower_case(text).find("sikku") == std::string::npos) {
-        throw std::runtime_error(
-            fmt::format("{} was made by others, and is left as it is: another folder, or --force, which replaces it",
-                        file.string()));
-    }
-}
-
 }  // namespace
 
 bool is_summary(std::string_view file) {
@@ -156,28 +148,52 @@ bool is_summary(std::string_view file) {
     return false;
 }
 
-void write_gallery_index(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder, bool replaces) {
-    if (!replaces) require_ours(folder / "index.html");
+bool is_gallery_page(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(4096, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    return text.find("<meta name=\"generator\" content=\"Sikku\"/>") != std::string::npos;
+}
+
+void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
+                         const std::filesystem::path& path) {
     std::vector<GalleryEntry> entries;
-    for (const Item& item : items_of(jobs)) entries.push_back(entry_of(item));
-    OutputFile file(folder / "index.html");
+    for (const Prints& item : by_name(jobs)) entries.push_back(entry_of(item));
+    OutputFile file(path);
     FileBytes bytes(file);
-    write_gallery_page("Sikku", entries, bytes);
+    write_gallery_page(title, entries, bytes);
     bytes.finish();
     file.commit();
 }
 
-void draw_gallery_sheet(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder,
-                        const SheetRequest& request, const Telling& telling) {
+std::vector<std::string> sheet_files(const SheetRequest& request) {
+    std::vector<std::string> files;
+    for (const std::string_view format : sheet_formats) files.push_back(fmt::format("{}.{}", request.name, format));
+    return files;
+}
+
+void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                        const std::filesystem::path& file, const Telling& telling) {
     std::vector<SheetCell> cells;
     std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
+    // What tells the prints of a pattern apart.
+    std::map<const GalleryPattern*, const GalleryJob*> first;
+    std::map<const GalleryPattern*, std::set<std::string>> varying;
     std::vector<std::pair<const GalleryJob*, LoadedPattern>> prints;
-    for (const Item& item : items_of(jobs)) {
+    for (const Prints& item : by_name(jobs)) {
         const auto print =
             std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return !job->is_score(); });
         if (print == item.jobs.end()) continue;
         prints.emplace_back(*print, load_quietly(**print));
         lengths[(*print)->pattern.get()].insert(prints.back().second.grammar.steps());
+        const GalleryJob& other = *first.emplace((*print)->pattern.get(), *print).first->second;
+        std::set<std::string>& keys = varying[(*print)->pattern.get()];
+        for (const auto& [one, two] : {std::pair(*print, &other), std::pair(&other, *print)}) {
+            for (const auto& [key, value] : one->keys) {
+                const auto found = two->keys.find(key);
+                if (found == two->keys.end() || found->second != value) keys.insert(key);
+            }
+        }
     }
     if (prints.empty()) return;
     const bool has_rows =
@@ -190,6 +206,8 @@ void draw_gallery_sheet(const std::vector<GalleryJob>& jobs, const std::filesyst
         cell.style = read_style(loaded.pattern, planned.print.dpi, diagnostics);
         diagnostics.throw_if_errors();
         cell.placement = planned.drawing.placement;
+        cell.window = planned.drawing.window;
+        cell.budget = planned.drawing.budget;
         cell.title = loaded.pattern.text("title");
         if (cell.title.empty()) cell.title = job->pattern->name;
         cell.grammar = std::make_shared<const Grammar>(std::move(loaded.grammar));
@@ -202,32 +220,28 @@ void draw_gallery_sheet(const std::vector<GalleryJob>& jobs, const std::filesyst
         } else {
             cell.caption = {job->name};
         }
-        if (!job->overrides.empty() && request.is_poster) {
-            std::string settings;
-            for (const auto& [key, value] : job->overrides) {
-                settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ", key, value);
-            }
-            cell.caption.push_back(settings);
+        if (request.is_poster) {
+            const std::string settings = settings_of(*job, &varying.at(job->pattern.get()));
+            if (!settings.empty()) cell.caption.push_back(settings);
         }
         cells.push_back(std::move(cell));
     }
     DrawSettings settings;
     settings.size = request.size;
-    for (const std::string_view format : sheet_formats) {
-        settings.output = (folder / fmt::format("{}.{}", request.name, format)).string();
-        if (!request.replaces) require_ours(settings.output);
-        const PlannedPrint planned = plan_print(settings);
-        SheetOptions options;
-        options.format = planned.drawing.format;
-        options.page = planned.print.page;
-        options.page.margin = std::min(options.page.width, options.page.height) / 25;
-        // Large sheets are looked at from further away, and memory has an end.
-        options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
-        options.caption_lines = request.is_poster ? 5 : 1;
-        options.made = fmt::format("sikku {}", SIKKU_VERSION);
-        options.watch = telling.watch;
-        draw_sheet(cells, options, settings.output);
-    }
+    settings.output = file.string();
+    const PlannedPrint planned = plan_print(settings);
+    SheetOptions options;
+    options.format = planned.drawing.format;
+    options.page = planned.print.page;
+    options.page.margin = std::min(options.page.width, options.page.height) / 25;
+    // Large sheets are looked at from further away, and memory has an end.
+    options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
+    options.caption_lines = request.is_poster ? 5 : 1;
+    options.made = fmt::format("sikku {}", SIKKU_VERSION);
+    options.threads = request.threads;
+    options.memory = request.memory;
+    options.watch = telling.watch;
+    draw_sheet(cells, options, file);
 }
 
 }  // namespace sikku

@@ -13,20 +13,29 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Writes `index.html` into the folder: one entry for each name, whatever formats it was made in.
-/// @param replaces  also a page that others made, which is an error otherwise
-void write_gallery_index(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder, bool replaces);
+/// Whether the file is a page that write_gallery_index() wrote.
+bool is_gallery_page(const std::filesystem::path& file);
 
 struct SheetRequest {
     std::string name;       ///< of the files: poster, contact
     std::string size;       ///< as for `sikku draw`
     bool is_poster = true;  ///< with large captions; else a contact sheet, with names alone
-    bool replaces = false;  ///< also files that others made
+    int threads = 0;        ///< 0: one for each core
+    double memory = 0;      ///< bytes for cells of pictures; 0: no limit
 };
 
-/// Draws the prints of the gallery, one for each name, on one sheet: NAME.svg, NAME.pdf, NAME.png. Where patterns
-/// have several derivation lengths, each has a row of its own. @throws UsageError, and what draw_sheet() throws
-void draw_gallery_sheet(const std::vector<GalleryJob>& jobs, const std::filesystem::path& folder,
-                        const SheetRequest& request, const Telling& telling);
+/// The files of a sheet: NAME.pdf, NAME.png, NAME.svg.
+std::vector<std::string> sheet_files(const SheetRequest& request);
+
+/// @param jobs  that are there
+/// @param file  `index.html`: one entry for each name, whatever formats it was made in
+void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
+                         const std::filesystem::path& file);
+
+/// Draws the prints among `jobs`, one for each name, on one sheet; the file's ending tells the format. Where patterns
+/// have several derivation lengths, each has rows of its own. Nothing is written where there is no print.
+/// @throws UsageError, and what draw_sheet() throws
+void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                        const std::filesystem::path& file, const Telling& telling);
 
 }  // namespace sikku

@@ -98,7 +98,7 @@ TEST_F(GalleryTest, MakesWhatTheFileSays) {
                              "hilbert-in-c-seed2.mid", "gallery.jsonl"}) {
         EXPECT_TRUE(files.contains(name)) << name;
     }
-    EXPECT_EQ(lines_of(files.at("gallery.jsonl")), small_count);
+    EXPECT_EQ(lines_of(files.at("gallery.jsonl")), small_count + 1) << "the page, too";
     EXPECT_NE(files.at("hilbert-in-c-seed1.mid"), files.at("hilbert-in-c-seed2.mid"));
     // The same as the commands for one make.
     ASSERT_EQ(run({"-q", "draw", "square.lsys", "-n", "3", "--size", "50x50mm", "--dpi", "100", "-o", "x.png"},
@@ -133,15 +133,15 @@ TEST_F(GalleryTest, ForecastsWithoutMakingAnything) {
 
 TEST_F(GalleryTest, NamesByTemplate) {
     folder.write("t.toml",
-                 "name = '{kind}/{pattern}-{n}-{r}'\n[[item]]\npattern = 'hilbert'\n[item.set]\n"
-                 "heading = ['0', '90']\nr = '0.1:0.3:0.1'\n");
+                 "name = '{kind}/{pattern}-{n}-{angle increment}'\n[[item]]\npattern = 'hilbert'\n[item.set]\n"
+                 "heading = ['0', '90']\n'angle increment' = '60:62:1'\n");
     const Outcome list = gallery({"--file", "t.toml", "--list"});
     // `heading` is not in the name.
     EXPECT_EQ(list.status, 2);
     EXPECT_TRUE(has(list.errors, "t.toml:2:1: two jobs are named 'curves/hilbert-"));
-    const Outcome named = gallery({"--file", "t.toml", "--list", "--name", "{heading}/{pattern}-{r}"});
+    const Outcome named = gallery({"--file", "t.toml", "--list", "--name", "{heading}/{pattern}-{angle increment}"});
     EXPECT_EQ(named.status, 0) << named.errors;
-    for (const char* name : {"0/hilbert-0.1.svg", "0/hilbert-0.3.svg", "90/hilbert-0.2.svg"}) {
+    for (const char* name : {"0/hilbert-60.svg", "0/hilbert-62.svg", "90/hilbert-61.svg"}) {
         EXPECT_TRUE(has(named.output, name));
     }
     const Outcome own = gallery({"hilbert", "--list", "--name", "{pattern}-n{n}"});
@@ -175,7 +175,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     refused("x = \n", "bad.toml:1:5");
     refused("pattern = 'hilbert'\nn = 'a'\n", "bad.toml:2:1: n: expected a whole number");
     refused("pattern = 'hilbert'\nn = -1\n", "bad.toml:2:1: n: expected a whole number");
-    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: the range 5:1 holds nothing");
+    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: n: the range 5:1 holds nothing");
     refused("pattern = 'hilbert'\nn = []\n", "bad.toml:2:1: n: this list is empty");
     refused("[[item]]\nn = 3\n", "bad.toml:1:1: this item has no pattern");
     refused("pattern = 'hilbrt'\n",
@@ -354,10 +354,11 @@ TEST_F(GalleryTest, OneFailsAmongGoodOnes) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_TRUE(has(outcome.errors, "1 failed"));
     EXPECT_TRUE(has(outcome.errors, "bad.lsys:1:"));
-    EXPECT_EQ(tree(folder / "out").size(), 4U);
+    EXPECT_EQ(tree(folder / "out").size(), 5U) << "with a page of what is there";
+    EXPECT_EQ(contents(folder / "out/index.html").find("\"bad\""), std::string::npos);
     folder.write("bad.lsys", "axiom: F\n");
     EXPECT_EQ(gallery(asked).status, 0);
-    EXPECT_EQ(tree(folder / "out").size(), 6U) << "with a page, now that all is there";
+    EXPECT_EQ(tree(folder / "out").size(), 6U) << "with a page";
 }
 
 TEST_F(GalleryTest, ForeignFilesStay) {
@@ -390,14 +391,21 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
     for (const char* name : {"snake-kolam", "anklets-of-krishna", "bag-of-candies", "mango-leaves"}) {
         EXPECT_NE(page.find(name), std::string::npos) << name;
     }
+    EXPECT_NE(page.find("<h1>Kolams</h1>"), std::string::npos);
     // Again: nothing is made anew, and all is the same.
+    const auto made_at = std::filesystem::last_write_time(folder / "wall/poster.svg");
+    ASSERT_EQ(run(command).status, 0);
+    EXPECT_EQ(differences(first, tree(folder.file("wall"))), "");
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "wall/poster.svg"), made_at);
+    // What was cut is.
+    std::filesystem::resize_file(folder / "wall/contact.png", 10);
     ASSERT_EQ(run(command).status, 0);
     EXPECT_EQ(differences(first, tree(folder.file("wall"))), "");
     // A page of others is not ours to replace.
     folder.write("wall/index.html", "<p>mine</p>");
     const Outcome refused = run(command);
     EXPECT_EQ(refused.status, 1);
-    EXPECT_NE(refused.errors.find("made by others"), std::string::npos) << refused.errors;
+    EXPECT_TRUE(has(refused.errors, "index.html' is there already and was not made by this gallery"));
     EXPECT_EQ(contents(folder.file("wall/index.html")), "<p>mine</p>");
 }
 
@@ -508,6 +516,180 @@ TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
                                      "--memory", "300M", "-o", "out"});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_LT(outcome.peak, 330 * 1024);
+}
+
+TEST_F(GalleryTest, AShardMayFinishWhileTheWholeIsMade) {
+    std::filesystem::create_directories(folder / "out");
+    // One that has begun.
+    folder.write("out/gallery-1-of-2.jsonl", "{\"claim\":\"dragon.svg\"}\n");
+    Child whole({"gallery", "snake-kolam", "hilbert", "-n", "4", "-f", "png", "--size", "A1", "-o", "out"},
+                {.folder = folder.path()});
+    whole.await_handler(SIGTERM);
+    ASSERT_EQ(gallery({"dragon", "koch-curve", "-o", "out", "--shard", "1/2"}).status, 0);
+    ASSERT_EQ(gallery({"dragon", "koch-curve", "-o", "out", "--shard", "2/2"}).status, 0);
+    EXPECT_EQ(whole.wait().status, 0);
+    const auto names = tree(folder / "out");
+    EXPECT_FALSE(names.contains("gallery-1-of-2.jsonl"));
+    EXPECT_TRUE(has(gallery({"dragon", "koch-curve", "-o", "out"}).errors, "0 made, 2 there already"));
+}
+
+TEST_F(GalleryTest, ClaimsOfKilledRunsAreKept) {
+    ASSERT_EQ(gallery({"hilbert", "dragon", "-o", "out"}).status, 0);
+    std::string record = contents(folder / "out/gallery.jsonl");
+    // As of a run that was killed between a file and its record; of two shards, likewise.
+    record.replace(0, record.find('\n'), "{\"claim\":\"hilbert.svg\"}");
+    folder.write("out/gallery.jsonl", record);
+    folder.write("out/koch-curve.svg", "torn");
+    folder.write("out/gallery-2-of-3.jsonl", "{\"claim\":\"koch-curve.svg\"}\n{\"claim\":\"snake-kolam.svg\"}\n");
+    folder.write("out/.snake-kolam.svg.abcdef.tmp", "torn");
+    folder.write("out/.snake-kolam.svg.notes", "mine");
+    EXPECT_EQ(gallery({"hilbert", "dragon", "-o", "out", "--only", "dragon"}).status, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/gallery-2-of-3.jsonl"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/.snake-kolam.svg.abcdef.tmp"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/.snake-kolam.svg.notes"));
+    const Outcome again = gallery({"hilbert", "dragon", "koch-curve", "-o", "out"});
+    EXPECT_EQ(again.status, 0) << again.errors;
+    EXPECT_EQ(contents(folder / "out/gallery.jsonl").find("claim"), std::string::npos);
+}
+
+TEST_F(GalleryTest, RecordsOfOthersStay) {
+    const auto hold = [&](const std::string& name, const std::string& text, std::vector<std::string> more,
+                          int status) {
+        std::filesystem::remove_all(folder / "out");
+        std::filesystem::create_directories(folder / "out");
+        folder.write("out/" + name, text);
+        more.insert(more.begin(), {"hilbert", "-o", "out"});
+        const Outcome outcome = gallery(more);
+        EXPECT_EQ(outcome.status, status) << name << outcome.errors;
+        EXPECT_EQ(contents(folder / ("out/" + name)), text) << name;
+    };
+    hold("gallery.jsonl", "notes\n", {}, 1);
+    hold("gallery-empty.jsonl", "", {}, 0);
+    hold("gallery-1-of-2.jsonl", "notes\n", {}, 0);
+    hold("index.html", "<p>This is not by Sikku</p>", {}, 1);
+    hold("poster.svg", "<svg/>", {"--poster", "A5"}, 1);
+    std::filesystem::remove_all(folder / "out");
+    std::filesystem::create_directories(folder / "out");
+    folder.write("out/gallery.jsonl", "{\"pattern\":\"hilbert\"}\n");
+    EXPECT_EQ(gallery({"--manifest", "out/gallery.jsonl", "-o", "out"}).status, 1);
+    EXPECT_EQ(contents(folder / "out/gallery.jsonl"), "{\"pattern\":\"hilbert\"}\n");
+    // Links are replaced, not followed.
+    folder.write("precious.svg", "mine");
+    std::filesystem::remove_all(folder / "out");
+    std::filesystem::create_directories(folder / "out");
+    std::filesystem::create_symlink("../precious.svg", folder / "out/hilbert.svg");
+    EXPECT_EQ(gallery({"hilbert", "-o", "out"}).status, 1);
+    EXPECT_EQ(gallery({"hilbert", "-o", "out", "--force"}).status, 0);
+    EXPECT_EQ(contents(folder / "precious.svg"), "mine");
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "out/hilbert.svg"));
+    // Records do not lead out of the folder.
+    folder.write(".outside.abcdef.tmp", "mine");
+    std::ofstream(folder / "out/gallery.jsonl", std::ios::app) << "{\"claim\":\"../outside\"}\n";
+    EXPECT_EQ(gallery({"hilbert", "-o", "out"}).status, 0);
+    EXPECT_EQ(contents(folder / ".outside.abcdef.tmp"), "mine");
+    folder.write("wall.sbatch", "mine");
+    EXPECT_EQ(gallery({"hilbert", "-o", "wall", "--slurm", "2"}).status, 1);
+    EXPECT_EQ(contents(folder / "wall.sbatch"), "mine");
+}
+
+TEST_F(GalleryTest, JsonOfOthers) {
+    const auto refused = [&](const std::string& line, std::string_view message) {
+        folder.write("bad.jsonl", line + "\n");
+        const Outcome outcome = gallery({"--manifest", "bad.jsonl", "--list"});
+        EXPECT_EQ(outcome.status, 2) << line.substr(0, 80);
+        EXPECT_TRUE(has(outcome.errors, message));
+    };
+    refused(std::string(200'000, '['), "bad.jsonl:1:51: too many brackets in each other");
+    refused("{\"pattern\":\"hilbert\",\"dpi\":1e400}", "bad.jsonl:1:");
+    refused("{\"pattern\":\"hilbert\",\"n\":1,\"n\":2}", "bad.jsonl:1:28: the key 'n' stands twice");
+    std::filesystem::create_directories(folder / "out");
+    folder.write("out/gallery.jsonl", "{\"file\":\"a.svg\",\"hash\":\"\",\"bytes\":1,\"content\":\"\",\"job\":" +
+                                          std::string(200'000, '[') + std::string(200'000, ']') + "}\n");
+    EXPECT_EQ(gallery({"hilbert", "-o", "out"}).status, 0);
+}
+
+TEST_F(GalleryTest, MistakesInValuesHavePlaces) {
+    const auto refused = [&](const std::string& text, std::string_view message) {
+        folder.write("bad.toml", "pattern = 'hilbert'\n" + text);
+        const Outcome outcome = gallery({"--file", "bad.toml", "-o", "out"});
+        EXPECT_EQ(outcome.status, 2) << text << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, message)) << text;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out")) << text;
+    };
+    refused("palette = 'rad'\n", "bad.toml:2:1: ");
+    refused("n = [1, 2]\nvariant = 'nope'\n", "bad.toml:3:1: ");
+    refused("set = { 'angel increment' = 3 }\n", "bad.toml:2:9: ");
+    refused("set = { 'angle increment' = [60, 'x'] }\n", "bad.toml:2:9: ");
+    refused("angle = ['60:70:5', 'x']\n", "bad.toml:2:1: ");
+    refused("budget = -4\n", "bad.toml:2:1: budget: expected 1 or more, not '-4'");
+    refused("compression = 77\n", "bad.toml:2:1: compression: expected 9 at most");
+    refused("bars = 0\n", "bad.toml:2:1: bars: expected 1 or more");
+    refused("n = '3:-2:-1'\n", "bad.toml:2:1: n: expected whole numbers");
+    refused("fit = true\nstep = '1mm'\n", "bad.toml:3:1: step: a print has a step or fits its page");
+    refused("item = []\n", "bad.toml:2:1: item: this list is empty");
+    refused("poster = '3x'\n", "bad.toml:2:1: --poster 3x");
+    refused("name = 'a//x'\n", "cannot be the name");
+    refused("name = \"a\\nx\"\n", "cannot be the name");
+    refused("n = '0:1e300'\n", "this would make 1e+300 jobs");
+    EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "--contact 3x"));
+    EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 holds nothing"));
+    EXPECT_EQ(gallery({"hilbert", "--json"}).status, 2);
+    EXPECT_EQ(gallery({"hilbert", "--name", "\xFFx", "--list"}).status, 2);
+    // Not mistakes.
+    const auto listed = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "hilbert");
+        arguments.push_back("--list");
+        return lines_of(gallery(std::move(arguments)).output);
+    };
+    EXPECT_EQ(listed({"--set", "title=1:3"}), 1U);
+    folder.write("good.toml", "pattern = 'hilbert'\nangle = ['60:70:5', 90]\nstep = '1mm'\n");
+    EXPECT_EQ(lines_of(gallery({"--file", "good.toml", "--list"}).output), 4U);
+    EXPECT_EQ(gallery({"--file", "good.toml", "--list", "--fit"}).status, 0);
+}
+
+TEST_F(GalleryTest, FoldersThatAreCalledAsOthers) {
+    // The folder of the gallery shadows no kind.
+    ASSERT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
+    EXPECT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
+    std::filesystem::create_directories(folder / "a[b]*");
+    folder.write("a[b]*/x.lsys", square);
+    folder.write("a[b]*/y[1].lsys", square);
+    EXPECT_EQ(lines_of(gallery({"a[b]*", "--list"}).output), 2U);
+    EXPECT_EQ(lines_of(gallery({"a[b]*/y[1].lsys", "--list"}).output), 1U);
+    folder.write("a[b]*/g.toml", "pattern = '*.lsys'\n");
+    EXPECT_EQ(lines_of(gallery({"--file", "a[b]*/g.toml", "--list"}).output), 2U);
+}
+
+TEST_F(GalleryTest, ASheetThatCannotBeMadeStopsNoOther) {
+    const Outcome outcome = gallery(
+        {"hilbert", "-n", "15", "-f", "png", "--size", "30x30mm", "--dpi", "100", "--poster", "A6", "-o", "out"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "poster.svg failed: 'Hilbert curve'"));
+    const auto files = tree(folder / "out");
+    EXPECT_TRUE(files.contains("index.html"));
+    EXPECT_TRUE(files.contains("poster.png"));
+    EXPECT_FALSE(files.contains("poster.svg"));
+    // Windows are seen in all.
+    EXPECT_EQ(
+        gallery({"hilbert", "-n", "30", "--window", "0,0,20,20", "--size", "30x30mm", "--poster", "A6", "-o", "w"})
+            .status,
+        0);
+}
+
+TEST_F(GalleryTest, CardsTellWhatWasSet) {
+    ASSERT_EQ(
+        gallery({"hilbert", "--set", "heading=0:90:90", "--rotate", "45", "--size", "30x30mm", "-o", "out"}).status,
+        0);
+    const std::string page = contents(folder / "out/index.html");
+    EXPECT_TRUE(has(page, "\"settings\":\"heading = 90, rotate = 45, size = 30x30mm\""));
+}
+
+TEST_F(GalleryTest, ForecastsTellWhatWillFail) {
+    const Outcome large = gallery({"hilbert", "-n", "40", "--dry-run"});
+    EXPECT_EQ(large.status, 1);
+    EXPECT_TRUE(has(large.output, "above the budget"));
+    EXPECT_TRUE(has(large.output, "1 job cannot be made"));
+    EXPECT_EQ(gallery({"hilbert", "-f", "png", "--size", "A0", "--memory", "1M", "--dry-run"}).status, 1);
 }
 
 }  // namespace

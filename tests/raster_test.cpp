@@ -765,6 +765,26 @@ TEST(ImageFile, AFullDiskIsAnError) {
     }
 }
 
+TEST(Raster, AWatcherMayStopItWithinABand) {
+    struct Stop : std::runtime_error {
+        using std::runtime_error::runtime_error;
+    };
+    const Print print = pixel_print(64, 64, 2.0);
+    const auto raster = make_raster(print);
+    raster->begin_stroke({1, 1}, {});
+    for (int i = 0; i < 100'000; ++i) {
+        const glm::dvec2 end{i % 2 == 0 ? 60.0 : 1.0, 1.0 + i % 50};
+        raster->lines({&end, 1});
+    }
+    raster->end_stroke(false);
+    int calls = 0;
+    raster->watch([&] {
+        if (++calls == 5) throw Stop("stop");
+    });
+    EXPECT_THROW(raster->render(1, [](int, int, std::span<const std::uint8_t>) { FAIL() << "no band is whole"; }),
+                 Stop);
+}
+
 TEST(ImageFile, WhatIsNoImageIsNotReadAndNoFolderIsAnError) {
     const ScratchFolder folder;
     std::ofstream(folder / "text.png") << "axiom: F\n";

@@ -252,11 +252,16 @@ TEST_F(Sheets, GenerationsAreRowsWithHeadings) {
     EXPECT_EQ(cells[2].title, "Koch, n = 2");
     EXPECT_EQ(cells[2].grammar->steps(), 2);
     EXPECT_TRUE(cells[2].heading.empty());
+    options_.columns = 4;
     const SheetLayout layout = write(cells, "rows.svg");
     EXPECT_EQ(layout.columns, 4);
     EXPECT_EQ(layout.rows, 2);
-    EXPECT_EQ(layout.windows[4].left, layout.windows[0].left);
-    EXPECT_EQ(layout.windows[3].top, layout.windows[0].top);
+    // Rows are broken where that fills the sheet.
+    options_.columns = 0;
+    const SheetLayout broken = write(cells, "broken.svg");
+    EXPECT_LT(broken.columns, 4);
+    EXPECT_GT(broken.windows[0].width, 1.2 * layout.windows[0].width);
+    EXPECT_EQ(broken.windows[4].left, broken.windows[0].left);
     // Equally long steps: the first generation is one, whatever the last.
     options_.same_scale = true;
     write(cells, "same.svg");
@@ -306,6 +311,21 @@ TEST_F(Sheets, FailuresNameTheCellOrTheFile) {
     EXPECT_THROW(write({endless}, "sheet.svg"), BudgetError);
     EXPECT_TRUE(message({endless}, "sheet.svg").starts_with("'Endless, n = 40': "));
     EXPECT_TRUE(folder_.names().empty());
+}
+
+TEST_F(Sheets, CellsAreSeenThroughWindowsAndAtAnyOrder) {
+    SheetCell window = cell(kolam, "Window");
+    window = generations(window, 30, 30).front();
+    window.window = parse_window("0,0,20,20");
+    SheetCell large = generations(cell(kolam, "Large"), 30, 30).front();
+    for (const std::string name : {"sheet.svg", "sheet.pdf", "sheet.png"}) {
+        EXPECT_NO_THROW(write({window, cell(tiles)}, name)) << name;
+    }
+    EXPECT_NE(contents(folder_ / "sheet.svg").find("<clipPath id=\"window1\">"), std::string::npos);
+    write({large, cell(tiles)}, "large.png");
+    EXPECT_THROW(write({large, cell(tiles)}, "large.svg"), BudgetError);
+    options_.memory = 1e6;
+    EXPECT_THROW(write({window}, "none.png"), std::runtime_error);
 }
 
 TEST_F(Sheets, AWatcherMayStopIt) {
