@@ -125,7 +125,8 @@ void add_derive(CLI::App& app, bool& quiet) {
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;
-        derivation.longest_word = memory_budget();
+        // Modules with parameters take more than symbols.
+        derivation.longest_word = memory_budget() / (grammar.is_plain() ? 1 : 4);
         derivation.watch = progress.watch();
         try {
             derive(grammar, sink, derivation);
