@@ -124,7 +124,7 @@ public:
     void symbols(const Run& run) override {
         const std::uint64_t first = position_;
         if (run.arguments.empty()) {
-            for (const Symbol symbol : run.symbols) obey(symbol, commands_[symbol]);
+            for (const Symbol symbol : run.symbols) obey<false>(symbol, commands_[symbol]);
         } else {
             const double* next = run.arguments.data();
             for (const Symbol symbol : run.symbols) {
@@ -133,9 +133,9 @@ public:
                     Instruction own = command;
                     own.value *= *next;
                     own.finite = std::isfinite(own.value);
-                    obey(symbol, own);
+                    obey<true>(symbol, own);
                 } else {
-                    obey(symbol, command);
+                    obey<false>(symbol, command);
                 }
                 next += command.arity;
             }
@@ -189,20 +189,22 @@ private:
         std::uint32_t arity;
     };
 
+    /// With `Own`, a module that states the command's value.
+    template <bool Own>
     void obey(Symbol symbol, const Instruction& command) {
         ++position_;
         switch (command.action) {
             case Action::pass:
                 break;
             case Action::draw:
-                step(symbol, command, true);
+                step<Own>(symbol, command, true);
                 break;
             case Action::move:
-                step(symbol, command, false);
+                step<Own>(symbol, command, false);
                 break;
             case Action::turn:
                 require_finite(command);
-                if (command.takes_argument) {
+                if constexpr (Own) {
                     walker_.turn_by(state_.place, command.value);
                 } else {
                     walker_.turn(state_.place, symbol);
@@ -213,8 +215,9 @@ private:
         }
     }
 
+    template <bool Own>
     void walk(Symbol symbol, const Instruction& command) {
-        if (command.takes_argument) {
+        if constexpr (Own) {
             walker_.step_by(state_.place, command.value);
         } else {
             walker_.step(state_.place, symbol);
@@ -227,11 +230,12 @@ private:
         }
     }
 
+    template <bool Own>
     void step(Symbol symbol, const Instruction& command, bool drawn) {
         require_finite(command);
         if constexpr (Surveying) {
             if (drawn) note_ink(walker_.point(state_.place));
-            walk(symbol, command);
+            walk<Own>(symbol, command);
             const glm::dvec2 point = walker_.point(state_.place);
             widen(survey_.box, point);
             ++survey_.moves;
@@ -243,13 +247,13 @@ private:
         } else {
             if (drawn || moves_draw_) {
                 lower();
-                walk(symbol, command);
+                walk<Own>(symbol, command);
                 points_.push_back(walker_.point(state_.place));
                 if (places_) note_place();
                 if (points_.size() == points_in_block) flush();
             } else {
                 lift();
-                walk(symbol, command);
+                walk<Own>(symbol, command);
             }
             if (!polygons_.empty()) {
                 Polygon& polygon = polygons_.back();
