@@ -446,6 +446,7 @@ void Drawing::read_straight(PathSink& sink) const {
     const auto turtle = Turtle::drawing(grammar_, sink, spline_);
     DerivationOptions derivation;
     derivation.interpreted = true;
+    derivation.limit_whole_words(options_.budget);
     derivation.watch = options_.watch;
     derive(grammar_, *turtle, derivation);
 }

@@ -1037,6 +1037,7 @@ KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, cons
     const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline);
     DerivationOptions derivation;
     derivation.interpreted = true;
+    derivation.limit_whole_words(options.budget);
     derivation.watch = options.watch;
     derive(grammar, *turtle, derivation);
     const Strokes strokes = reader.finish();

@@ -591,7 +591,8 @@ int Sheet::readers_at_a_time() const {
 /// The angle of `+`, as the first symbol of that letter has it.
 std::string angle_of(const Grammar& grammar) {
     for (const SymbolInfo& symbol : grammar.symbols()) {
-        if (symbol.letter != "+" || !symbol.arguments.empty() || symbol.command.action != Action::turn) continue;
+        if (symbol.letter != "+" || !symbol.arguments.empty() || symbol.arity > 0) continue;
+        if (symbol.command.action != Action::turn) continue;
         return fmt::format("{:.6g}°", std::fabs(symbol.command.angle.degrees));
     }
     return "";

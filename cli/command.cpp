@@ -72,6 +72,7 @@ void add_override_options(CLI::App& command, PatternOptions& options) {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     command.add_option("--variant", options.variant, "One of the pattern's variants");
+    command.add_option("--seed", options.seed, "Where chance starts, instead of the pattern's seed")->type_name("N");
 }
 
 void add_budget_option(CLI::App& command, double& budget) {
@@ -168,6 +169,7 @@ LoadedPattern load(const PatternOptions& options, const Telling& telling) {
         }
         settings.push_back({"-n", "derivation length", options.steps});
     }
+    if (!options.seed.empty()) settings.push_back({"--seed", "seed", options.seed});
     settings.insert(settings.end(), options.more.begin(), options.more.end());
     PatternText text = options.text ? *options.text : read_pattern_text(options.pattern);
     Diagnostics diagnostics;

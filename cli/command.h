@@ -85,6 +85,7 @@ struct PatternOptions {
     std::vector<std::string> settings;
     std::string variant;
     std::vector<Setting> more;  ///< settings of options of their own; they come last
+    std::string seed;
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
 /// The same without PATTERN.

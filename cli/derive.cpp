@@ -18,7 +18,9 @@ namespace {
 class TextSink : public SymbolSink {
 public:
     TextSink(const Grammar& grammar, int descriptor) : grammar_(grammar), descriptor_(descriptor) {
-        for (const SymbolInfo& symbol : grammar.symbols()) texts_.push_back(symbol_text(symbol));
+        for (const SymbolInfo& symbol : grammar.symbols()) {
+            texts_.push_back(symbol.arity > 0 ? std::string() : symbol_text(symbol));
+        }
         has_names_ = !grammar.names().empty();
         buffer_.reserve(buffer_size + 4096);
 #ifdef F_SETPIPE_SZ
@@ -29,7 +31,9 @@ public:
 
     void symbols(const Run& run) override {
         if (has_last_ && has_names_ && needs_blank(grammar_, last_, run.symbols.front())) buffer_ += ' ';
-        if (run.block < 0) {
+        if (!run.arguments.empty()) {
+            append_modules(run);
+        } else if (run.block < 0) {
             append(run.symbols, buffer_);
         } else {
             const auto number = static_cast<std::size_t>(run.block);
@@ -55,6 +59,21 @@ private:
         for (std::size_t i = 0; i < symbols.size(); ++i) {
             if (i > 0 && has_names_ && needs_blank(grammar_, symbols[i - 1], symbols[i])) text += ' ';
             text += texts_[symbols[i]];
+        }
+    }
+
+    void append_modules(const Run& run) {
+        const double* next = run.arguments.data();
+        for (std::size_t i = 0; i < run.symbols.size(); ++i) {
+            const Symbol symbol = run.symbols[i];
+            if (i > 0 && has_names_ && needs_blank(grammar_, run.symbols[i - 1], symbol)) buffer_ += ' ';
+            const SymbolInfo& info = grammar_.symbols()[symbol];
+            if (info.arity == 0) {
+                buffer_ += texts_[symbol];
+            } else {
+                buffer_ += symbol_text(info, {next, info.arity});
+                next += info.arity;
+            }
         }
     }
 
@@ -106,7 +125,8 @@ void add_derive(CLI::App& app, bool& quiet) {
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;
-        derivation.longest_word = memory_budget();
+        // Modules with parameters take more than symbols.
+        derivation.longest_word = memory_budget() / (grammar.is_plain() ? 1 : 4);
         derivation.watch = progress.watch();
         try {
             derive(grammar, sink, derivation);

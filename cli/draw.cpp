@@ -53,6 +53,7 @@ std::string made_with(const DrawSettings& options, const Grammar& grammar) {
     std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, grammar.steps());
     if (options.window) text += " --window " + *options.window;
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
+    if (!options.pattern.seed.empty()) text += " --seed " + options.pattern.seed;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
     return text;
 }

@@ -177,6 +177,7 @@ Player load_player(const PlaySettings& options, const std::string& name, const T
 std::string made_with(const PlaySettings& options, const std::vector<Player>& players) {
     std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, players.front().loaded.grammar.steps());
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
+    if (!options.pattern.seed.empty()) text += " --seed " + options.pattern.seed;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
     const auto keys = melody_keys();
     for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +16,7 @@ namespace {
 
 constexpr std::size_t longest_run = 4096;
 constexpr std::size_t shortest_block = 32;  // below this a block is copied into the run being gathered
+constexpr std::size_t most_pending = std::size_t{1} << 27;         // parameters, while words are streamed
 constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;  // symbols or frames
 
 /// The tables from the last level upwards: level 0 is the finished word, level r has r tables still to come.
@@ -319,7 +322,8 @@ private:
 /// Source: Prusinkiewicz & Hanan 1989, section 3.4 and appendix A.
 class Neighbourhood {
 public:
-    Neighbourhood(const Grammar& grammar, const Word& word) : word_(word) {
+    Neighbourhood(const Grammar& grammar, const Word& word, bool with_branches) : grammar_(grammar), word_(word) {
+        if (with_branches) find_branches();
         const auto size = static_cast<std::uint32_t>(word.size());
         before_.resize(word.size() + 1);
         after_.resize(word.size() + 1);
@@ -360,29 +364,501 @@ public:
         }
     }
 
-    bool left_matches(const Word& context, std::size_t at) const {
+    /// Where the symbols of a context were seen, from left to right, is written to `seen` if there is one.
+    bool left_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) const {
         for (std::size_t k = context.size(); k > 0; --k) {
             const std::uint32_t seen = before_[at];
             if (seen == nothing || word_[seen] != context[k - 1]) return false;
+            if (seen_at) seen_at[k - 1] = seen;
             at = seen;
         }
         return true;
     }
 
-    bool right_matches(const Word& context, std::size_t at) const {
+    bool right_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) {
+        ends_.clear();
         for (const Symbol wanted : context) {
-            const std::uint32_t seen = after_[at];
-            if (seen == nothing || word_[seen] != wanted) return false;
-            at = std::size_t{seen} + 1;
+            if (!branch_.empty() && grammar_.is_push(wanted)) {
+                // Nothing but what is ignored may lie before the branch.
+                const std::size_t begin =
+                    at < word_.size() && !grammar_.is_push(word_[at]) ? std::size_t{branch_[at]} : at;
+                if (begin >= word_.size()) return false;
+                ends_.push_back(branch_[begin]);
+                at = begin + 1;
+                if (seen_at) *seen_at++ = nothing;
+            } else if (!branch_.empty() && grammar_.is_pop(wanted)) {
+                at = ends_.back() == nothing ? word_.size() : std::size_t{ends_.back()} + 1;
+                ends_.pop_back();
+                if (seen_at) *seen_at++ = nothing;
+            } else {
+                const std::uint32_t seen = after_[at];
+                if (seen == nothing || word_[seen] != wanted) return false;
+                if (seen_at) *seen_at++ = seen;
+                at = std::size_t{seen} + 1;
+            }
         }
         return true;
     }
 
 private:
+    /// Of a '[', its ']'; of another place, the '[' that follows with nothing but what is ignored before it.
+    void find_branches() {
+        branch_.assign(word_.size(), nothing);
+        std::vector<std::uint32_t> closed;
+        for (auto i = static_cast<std::uint32_t>(word_.size()); i-- > 0;) {
+            const Symbol symbol = word_[i];
+            if (grammar_.is_pop(symbol)) {
+                closed.push_back(i);
+            } else if (grammar_.is_push(symbol)) {
+                if (!closed.empty()) {
+                    branch_[i] = closed.back();
+                    closed.pop_back();
+                }
+            } else if (grammar_.ignored(symbol) && std::size_t{i} + 1 < word_.size()) {
+                branch_[i] = grammar_.is_push(word_[i + 1]) ? i + 1 : branch_[i + 1];
+            }
+        }
+    }
+
     static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+    const Grammar& grammar_;
     const Word& word_;
     std::vector<std::uint32_t> before_;  // the place seen from the left end of each symbol
     std::vector<std::uint32_t> after_;   // the place seen from there to the right, its own included
+    std::vector<std::uint32_t> branch_;  // empty if no context looks into branches
+    std::vector<std::uint32_t> ends_;    // of the branches of a context being matched
+};
+
+bool looks_into_branches(const Grammar& grammar, const Table& table) {
+    return std::any_of(table.productions().begin(), table.productions().end(), [&](const Production& production) {
+        return std::any_of(production.right.begin(), production.right.end(),
+                           [&](Symbol symbol) { return grammar.is_push(symbol); });
+    });
+}
+
+/// One of those candidates of the group that match, the first of which does. `fault` throws, told what is wrong with
+/// weights.
+template <class Fault>
+const Production& weighted_choice(const Table& table, std::span<const std::uint32_t> candidates,
+                                  std::span<const double> formals, const Chance& chance, const Fault& fault) {
+    const std::uint32_t group = table.production(candidates.front()).group;
+    const auto each = [&](auto take) {
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const Production& production = table.production(candidates[k]);
+            if (production.group != group) continue;
+            if (k > 0 && production.condition && production.condition->evaluate(formals, chance) == 0) continue;
+            if (take(production, production.weight->evaluate(formals, chance))) return;
+        }
+    };
+    double sum = 0;
+    each([&](const Production&, double weight) {
+        if (!(weight >= 0)) fault("a weight is negative or no number");
+        sum += weight;
+        return false;
+    });
+    if (sum == 0) fault("the weights are all 0");
+    if (!std::isfinite(sum)) fault("the weights have no finite sum");
+    double left = chance.uniform(0) * sum;
+    const Production* chosen = nullptr;
+    each([&](const Production& production, double weight) {
+        if (weight > 0) chosen = &production;
+        left -= weight;
+        return left < 0;
+    });
+    return *chosen;
+}
+
+/// The production that applies, or null. `match` tells of a production whether predecessor and contexts fit and,
+/// then, sets `formals`; it is asked once for neighbouring candidates of one group.
+template <class Match, class Fault>
+const Production* choose(const Table& table, std::span<const std::uint32_t> candidates, const Chance& chance,
+                         const Fault& fault, std::span<const double>& formals, Match match) {
+    std::uint32_t asked = 0;  // groups are counted from 1
+    bool fits = false;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Production& production = table.production(candidates[k]);
+        if (production.group != asked) {
+            fits = match(production);
+            asked = production.group;
+        }
+        if (!fits || (production.condition && production.condition->evaluate(formals, chance) == 0)) continue;
+        if (!production.weight) return &production;
+        return &weighted_choice(table, candidates.subspan(k), formals, chance, fault);
+    }
+    return nullptr;
+}
+
+/// The word without its cut symbols and what follows them in their branches.
+/// Source: Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 13.
+ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word) {
+    ModuleWord result;
+    const double* next = word.arguments.data();
+    for (std::size_t at = 0; at < word.symbols.size(); ++at) {
+        const auto pass = [&] { next += grammar.symbols()[word.symbols[at]].arity; };
+        if (word.symbols[at] == *grammar.cut()) {
+            for (std::size_t depth = 0; at < word.symbols.size(); ++at) {
+                if (grammar.is_pop(word.symbols[at]) && depth-- == 0) break;
+                if (grammar.is_push(word.symbols[at])) ++depth;
+                pass();
+            }
+            if (at == word.symbols.size()) break;
+        }
+        const std::uint32_t arity = grammar.symbols()[word.symbols[at]].arity;
+        result.symbols.push_back(word.symbols[at]);
+        result.arguments.insert(result.arguments.end(), next, next + arity);
+        if (grammar.is_stochastic()) {
+            result.places.push_back(word.places.empty() ? axiom_place(grammar.seed(), at) : word.places[at]);
+        }
+        pass();
+    }
+    return result;
+}
+
+/// One step of a system with parameters or chance.
+class ModuleRewriter {
+public:
+    ModuleRewriter(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options)
+        : grammar_(grammar), table_(table), word_(word), step_(step), options_(options) {
+        if (!table.context_free()) neighbourhood_.emplace(grammar, word.symbols, looks_into_branches(grammar, table));
+        if (grammar.is_parametric() && neighbourhood_) {
+            if (word.arguments.size() > UINT32_MAX) throw BudgetError("the word has more than 2^32 parameters");
+            begin_.reserve(word.symbols.size());
+            std::uint32_t next = 0;
+            for (const Symbol symbol : word.symbols) {
+                begin_.push_back(next);
+                next += grammar.symbols()[symbol].arity;
+            }
+        }
+    }
+
+    ModuleWord run(std::uint64_t longest, const std::function<void()>& refuse) {
+        ModuleWord result;
+        result.symbols.reserve(word_.symbols.size());
+        result.arguments.reserve(word_.arguments.size());
+        const bool has_places = grammar_.is_stochastic();
+        if (has_places) result.places.reserve(word_.symbols.size());
+        std::uint64_t visited = 0;
+        const auto fault = [&](const char* message) {
+            throw WordError(fmt::format("step {}: symbol {} of the word before it, '{}': {}", step_, at_ + 1,
+                                        symbol_text(info(at_), {word_.arguments.data() + argument_, info(at_).arity}),
+                                        message));
+        };
+        while (at_ < word_.symbols.size()) {
+            if (++visited % between_watches == 0 && options_.watch) options_.watch(0);
+            const Symbol symbol = word_.symbols[at_];
+            const std::uint64_t place = !has_places            ? 0
+                                        : word_.places.empty() ? axiom_place(grammar_.seed(), at_)
+                                                               : word_.places[at_];
+            const Chance chance{place, step_};
+            const auto candidates = table_.candidates(symbol);
+            const Production* production = nullptr;
+            if (!candidates.empty()) {
+                production = choose(table_, candidates, chance, fault, formals_,
+                                    [this](const Production& candidate) { return matches(candidate); });
+            }
+            if (!production) {
+                if (result.symbols.size() >= longest) refuse();
+                result.symbols.push_back(symbol);
+                const double* own = word_.arguments.data() + argument_;
+                result.arguments.insert(result.arguments.end(), own, own + info(at_).arity);
+                if (has_places) result.places.push_back(place);
+                argument_ += info(at_++).arity;
+                continue;
+            }
+            if (result.symbols.size() + production->successor.size() > longest) refuse();
+            result.symbols.insert(result.symbols.end(), production->successor.begin(), production->successor.end());
+            for (const Expression& argument : production->arguments) {
+                result.arguments.push_back(argument.evaluate(formals_, chance));
+            }
+            if (has_places) {
+                for (std::size_t i = 0; i < production->successor.size(); ++i) {
+                    result.places.push_back(child_place(place, i));
+                }
+            }
+            for (std::size_t i = 0; i < production->predecessor.size(); ++i) argument_ += info(at_++).arity;
+        }
+        return result;
+    }
+
+private:
+    const SymbolInfo& info(std::size_t at) const { return grammar_.symbols()[word_.symbols[at]]; }
+
+    bool matches(const Production& production) {
+        const std::size_t end = at_ + production.predecessor.size();
+        if (end > word_.symbols.size() || !std::equal(production.predecessor.begin(), production.predecessor.end(),
+                                                      word_.symbols.begin() + static_cast<std::ptrdiff_t>(at_))) {
+            return false;
+        }
+        std::size_t own = 0;
+        for (std::size_t i = at_; i < end; ++i) own += info(i).arity;
+        formals_ = std::span(word_.arguments).subspan(argument_, own);
+        if (!production.has_context()) return true;
+        if (begin_.empty()) {
+            return neighbourhood_->left_matches(production.left, at_) &&
+                   neighbourhood_->right_matches(production.right, end);
+        }
+        seen_.resize(production.left.size() + production.right.size());
+        if (!neighbourhood_->left_matches(production.left, at_, seen_.data()) ||
+            !neighbourhood_->right_matches(production.right, end, seen_.data() + production.left.size())) {
+            return false;
+        }
+        gathered_.clear();
+        const auto gather = [&](std::uint32_t place, Symbol symbol) {
+            const std::uint32_t arity = grammar_.symbols()[symbol].arity;
+            if (arity == 0) return;
+            const double* first = word_.arguments.data() + begin_[place];
+            gathered_.insert(gathered_.end(), first, first + arity);
+        };
+        for (std::size_t i = 0; i < production.left.size(); ++i) gather(seen_[i], production.left[i]);
+        gathered_.insert(gathered_.end(), formals_.begin(), formals_.end());
+        for (std::size_t i = 0; i < production.right.size(); ++i) {
+            gather(seen_[production.left.size() + i], production.right[i]);
+        }
+        formals_ = gathered_;
+        return true;
+    }
+
+    const Grammar& grammar_;
+    const Table& table_;
+    const ModuleWord& word_;
+    std::int64_t step_;
+    const DerivationOptions& options_;
+    std::optional<Neighbourhood> neighbourhood_;
+    std::vector<std::uint32_t> begin_;  // of each symbol's arguments, where contexts ask for them
+    std::size_t at_ = 0;
+    std::size_t argument_ = 0;  // of the symbol at_
+    std::span<const double> formals_;
+    std::vector<std::uint32_t> seen_;
+    std::vector<double> gathered_;
+};
+
+/// Depth-first expansion through `levels` where each module is another: parameters, chance.
+class ModuleStreamer {
+public:
+    ModuleStreamer(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink)
+        : grammar_(grammar),
+          levels_(levels),
+          first_step_(grammar.steps_done() + 1),
+          has_places_(grammar.is_stochastic()),
+          options_(options),
+          sink_(sink) {
+        for (const SymbolInfo& symbol : grammar.symbols()) arity_.push_back(symbol.arity);
+        active_.assign(arity_.size(), 0);
+        for (std::int64_t level = levels.count(); level > 0; level = levels.stretch_begin(level)) {
+            for (Symbol symbol = 0; symbol < active_.size(); ++symbol) {
+                if (!levels.table(level).candidates(symbol).empty()) active_[symbol] = 1;
+            }
+        }
+        symbols_.resize(longest_run);
+        const auto largest = std::max_element(arity_.begin(), arity_.end());
+        arguments_.resize(longest_run * (largest == arity_.end() ? 0 : *largest));
+    }
+
+    void stream(const ModuleWord& word) {
+        const double* next = word.arguments.data();
+        const std::size_t size = word.symbols.size();
+        for (std::size_t i = 0; i < size;) {
+            const std::size_t begin = i;
+            const double* first = next;
+            while (i < size && i - begin < longest_run && !active_[word.symbols[i]])
+                next += arity_[word.symbols[i++]];
+            emit(word.symbols.data() + begin, i - begin, first);
+            if (i == size || !active_[word.symbols[i]]) continue;
+            const Symbol symbol = word.symbols[i];
+            const std::uint64_t place = !has_places_          ? 0
+                                        : word.places.empty() ? axiom_place(grammar_.seed(), i)
+                                                              : word.places[i];
+            double* const own = room(arity_[symbol]);
+            std::copy(next, next + arity_[symbol], own);
+            top_ += arity_[symbol];
+            next += arity_[symbol];
+            ++i;
+            expand(symbol, 0, place, levels_.count());
+            while (!frames_.empty()) advance();
+            top_ = 0;
+        }
+        flush();
+    }
+
+private:
+    struct Frame {
+        const Symbol* first;
+        const Symbol* next;
+        const Symbol* end;
+        std::size_t begin;     // where the stack ends when the frame is done
+        std::size_t argument;  // of the next child
+        std::int64_t level;
+        std::uint64_t place;  // of the parent
+    };
+
+    /// Room for so many values at the top of the stack.
+    double* room(std::size_t count) {
+        if (top_ + count > stack_.size()) {
+            if (top_ + count > most_pending) throw BudgetError("too many parameters are pending at a time");
+            stack_.resize(2 * (top_ + count) + 64);
+        }
+        return stack_.data() + top_;
+    }
+
+    const Table& table(std::int64_t level) {
+        if (level <= table_begin_ || level > table_end_) {
+            table_ = &levels_.table(level);
+            table_begin_ = levels_.stretch_begin(level);
+            table_end_ = level;
+        }
+        return *table_;
+    }
+
+    /// Hands over what stays of the children of the last frame, up to one that is expanded.
+    void advance() {
+        Frame& frame = frames_.back();
+        const Symbol* const begin = frame.next;
+        const Symbol* next = begin;
+        std::size_t own = 0;
+        while (next != frame.end && !active_[*next]) own += arity_[*next++];
+        if (next != begin) emit(begin, static_cast<std::size_t>(next - begin), stack_.data() + frame.argument);
+        if (next == frame.end) {
+            top_ = frame.begin;
+            frames_.pop_back();
+            return;
+        }
+        const Symbol symbol = *next;
+        const std::uint64_t place =
+            has_places_ ? child_place(frame.place, static_cast<std::uint64_t>(next - frame.first)) : 0;
+        const std::size_t argument = frame.argument + own;
+        frame.next = next + 1;
+        frame.argument = argument + arity_[symbol];
+        expand(symbol, argument, place, frame.level);
+    }
+
+    /// A module whose arguments lie in the stack at `argument`, with `level` tables to come.
+    void expand(Symbol symbol, std::size_t argument, std::uint64_t place, std::int64_t level) {
+        const std::size_t top = top_;
+        while (level > 0) {
+            const Table& rules = table(level);
+            const Chance chance{place, first_step_ + levels_.count() - level};
+            const auto candidates = rules.candidates(symbol);
+            const Production* production = nullptr;
+            if (!candidates.empty()) {
+                visit(1);
+                std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
+                production = choose(
+                    rules, candidates, chance, [&](const char* message) { tell(symbol, argument, chance, message); },
+                    formals, [](const Production&) { return true; });
+            }
+            if (!production) {
+                // What stays once stays under the same table.
+                level = rules.has_random_conditions() ? level - 1 : table_begin_;
+                continue;
+            }
+            --level;
+            const Word& successor = production->successor;
+            const std::vector<Expression>& own = production->arguments;
+            if (level == 0 && successor.size() <= longest_run) {
+                // The last step goes into the run at once.
+                if (count_ + successor.size() > longest_run) flush();
+                visit(successor.size());
+                std::copy(successor.begin(), successor.end(), symbols_.begin() + static_cast<std::ptrdiff_t>(count_));
+                count_ += successor.size();
+                const std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
+                double* next = arguments_.data() + argument_count_;
+                for (const Expression& expression : own) *next++ = expression.evaluate(formals, chance);
+                argument_count_ += own.size();
+                top_ = top;
+                return;
+            }
+            double* const values = room(own.size());
+            const std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
+            for (std::size_t i = 0; i < own.size(); ++i) values[i] = own[i].evaluate(formals, chance);
+            if (successor.size() != 1) {
+                if (successor.empty()) {
+                    top_ = top;
+                } else {
+                    const Symbol* const first = successor.data();
+                    frames_.push_back({first, first, first + successor.size(), top, top_, level, place});
+                    top_ += own.size();
+                }
+                return;
+            }
+            // A unit takes the place of its parent.
+            symbol = successor.front();
+            if (has_places_) place = child_place(place, 0);
+            std::copy(values, values + own.size(), stack_.begin() + static_cast<std::ptrdiff_t>(top));
+            top_ = top + own.size();
+            argument = top;
+        }
+        emit(&symbol, 1, stack_.data() + argument);
+        top_ = top;
+    }
+
+    void emit(const Symbol* symbols, std::size_t count, const double* arguments) {
+        if (count == 0) return;
+        visit(count);
+        while (count > 0) {
+            if (count_ + count > longest_run) flush();
+            const std::size_t taken = std::min(count, longest_run);
+            for (std::size_t i = 0; i < taken; ++i) {
+                symbols_[count_ + i] = symbols[i];
+                for (std::uint32_t k = arity_[symbols[i]]; k > 0; --k) arguments_[argument_count_++] = *arguments++;
+            }
+            count_ += taken;
+            symbols += taken;
+            count -= taken;
+        }
+    }
+
+    void visit(std::size_t nodes) {
+        visited_ += nodes;
+        if (visited_ >= next_look_) look();
+    }
+
+    void look() {
+        next_look_ = visited_ + between_watches;
+        if (static_cast<double>(visited_) > options_.most_nodes) {
+            throw BudgetError(fmt::format("deriving the word (n = {}) visits more nodes than the budget of {:.0f}",
+                                          grammar_.steps(), options_.most_nodes));
+        }
+        if (options_.watch) options_.watch(0);
+    }
+
+    void flush() {
+        if (count_ == 0) return;
+        handed_over_ += count_;
+        sink_.symbols({std::span(symbols_).first(count_), -1, std::span(arguments_).first(argument_count_)});
+        if (options_.watch) options_.watch(count_);
+        count_ = 0;
+        argument_count_ = 0;
+    }
+
+    [[noreturn]] void tell(Symbol symbol, std::size_t argument, const Chance& chance, const char* message) {
+        throw WordError(fmt::format(
+            "step {}: what becomes symbol {} of the word, '{}': {}", chance.step, handed_over_ + count_ + 1,
+            symbol_text(grammar_.symbols()[symbol], {stack_.data() + argument, arity_[symbol]}), message));
+    }
+
+    const Grammar& grammar_;
+    const Levels& levels_;
+    std::int64_t first_step_;
+    bool has_places_;
+    const DerivationOptions& options_;
+    SymbolSink& sink_;
+    std::vector<std::uint32_t> arity_;
+    std::vector<char> active_;  // symbols that some table rewrites
+    std::vector<Frame> frames_;
+    std::vector<double> stack_;  // arguments of what the frames hold
+    std::size_t top_ = 0;        // of the stack
+    Word symbols_;               // of the next run
+    std::size_t count_ = 0;
+    std::vector<double> arguments_;
+    std::size_t argument_count_ = 0;
+    std::uint64_t visited_ = 0;
+    std::uint64_t next_look_ = between_watches;
+    std::uint64_t handed_over_ = 0;
+    // The table that rewrites at the level last asked for, and at those above table_begin_.
+    const Table* table_ = nullptr;
+    std::int64_t table_begin_ = 0;
+    std::int64_t table_end_ = 0;
 };
 
 }  // namespace
@@ -399,9 +875,11 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
     };
     result.reserve(word.size());
     const bool context_free = table.context_free();
-    const auto choose =
-        [&, neighbourhood = context_free ? std::nullopt : std::optional<Neighbourhood>(std::in_place, grammar, word)](
-            std::size_t at) -> const Production* {
+    auto choose = [&, neighbourhood = context_free
+                                          ? std::nullopt
+                                          : std::optional<Neighbourhood>(std::in_place, grammar, word,
+                                                                         looks_into_branches(grammar, table))](
+                      std::size_t at) mutable -> const Production* {
         for (const std::uint32_t i : table.candidates(word[at])) {
             const Production& production = table.production(i);
             const std::size_t end = at + production.predecessor.size();
@@ -438,15 +916,42 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
     return result;
 }
 
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
+                   const DerivationOptions& options) {
+    std::optional<ModuleWord> trimmed;
+    if (grammar.cut() &&
+        std::find(given.symbols.begin(), given.symbols.end(), *grammar.cut()) != given.symbols.end()) {
+        trimmed = without_cuts(grammar, given);
+    }
+    const ModuleWord& word = trimmed ? *trimmed : given;
+    if (grammar.is_plain()) return {rewrite(grammar, table, word.symbols, options), {}, {}};
+    // Places are counted in 32 bits.
+    const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
+    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
+    if (word.symbols.size() > longest) refuse();
+    return ModuleRewriter(grammar, table, word, step, options).run(longest, refuse);
+}
+
+namespace {
+
+/// To the bit: -0 is not 0.
+bool is_same(const ModuleWord& one, const ModuleWord& other) {
+    return one.symbols == other.symbols && one.arguments.size() == other.arguments.size() &&
+           std::memcmp(one.arguments.data(), other.arguments.data(), one.arguments.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
 Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
     const std::int64_t whole = grammar.whole_word_steps();
     if (whole == 0) return grammar;
-    std::shared_ptr<const Word> word;
+    std::shared_ptr<const ModuleWord> word;
+    const std::int64_t done = grammar.steps_done();
     std::int64_t step = 0;
     std::uint64_t visited = 0;
     for (const ScheduleRun& run : grammar.schedule()) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
-            const Word& before = word ? *word : grammar.axiom();
+            const ModuleWord& before = word ? *word : grammar.axiom_modules();
             const auto refuse = [&](const std::string& what, std::uint64_t most) {
                 // With a schedule a shorter derivation takes other steps.
                 const std::string advice = grammar.has_schedule()
@@ -457,17 +962,17 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
                     "{}) would have more than {} symbols{}",
                     what, step + 1, grammar.steps(), most, advice));
             };
-            visited += before.size();
+            visited += before.symbols.size();
             if (visited > options.whole_words) refuse("all words up to that", options.whole_words);
-            Word next;
+            ModuleWord next;
             try {
-                next = rewrite(grammar, grammar.tables()[run.table], before, options);
+                next = rewrite(grammar, grammar.tables()[run.table], before, done + step + 1, options);
             } catch (const BudgetError&) {
                 refuse("that", options.longest_word);
             }
             // A word that came back unchanged under the same table stays so for the rest of its run.
-            const bool unchanged = next == before;
-            word = std::make_shared<const Word>(std::move(next));
+            const bool unchanged = !grammar.is_stochastic() && is_same(next, before);
+            word = std::make_shared<const ModuleWord>(std::move(next));
             if (options.watch) options.watch(0);
             if (unchanged) {
                 step += std::min(run.steps - i, whole - step) - 1;
@@ -481,8 +986,36 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
 void derive(const Grammar& given, SymbolSink& sink, const DerivationOptions& options) {
     if (given.whole_word_steps() > 0) return derive(resolve_contexts(given, options), sink, options);
     const Levels levels(given, options.interpreted);
-    Streamer(given, levels, options, sink).stream(given.axiom());
+    if (given.is_plain()) {
+        Streamer(given, levels, options, sink).stream(given.axiom());
+    } else {
+        ModuleStreamer(given, levels, options, sink).stream(given.axiom_modules());
+    }
     sink.finish();
+}
+
+Grammar write_out(const Grammar& given, DerivationOptions options) {
+    class Writer : public SymbolSink {
+    public:
+        explicit Writer(std::uint64_t longest) : longest_(longest) {}
+        void symbols(const Run& run) override {
+            if (run.symbols.size() > longest_ - word.symbols.size()) {
+                throw BudgetError(fmt::format("the word has more than {} symbols", longest_));
+            }
+            word.symbols.insert(word.symbols.end(), run.symbols.begin(), run.symbols.end());
+            word.arguments.insert(word.arguments.end(), run.arguments.begin(), run.arguments.end());
+        }
+        ModuleWord word;
+
+    private:
+        std::uint64_t longest_;
+    } writer(options.longest_word);
+    options.interpreted = true;
+    options.pruner = nullptr;
+    derive(given, writer, options);
+    auto written = given.written_out(writer.word);
+    if (!written) throw BudgetError("the word has more than 524,288 different modules");
+    return std::move(*written);
 }
 
 }  // namespace sikku

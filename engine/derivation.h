@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -15,7 +16,8 @@ namespace sikku {
 /// may keep what it made of it.
 struct Run {
     std::span<const Symbol> symbols;
-    std::int32_t block = -1;  ///< >= 0: the block's number; blocks are counted from 0
+    std::int32_t block = -1;              ///< >= 0: the block's number; blocks are counted from 0
+    std::span<const double> arguments{};  ///< SymbolInfo::arity values for each symbol, in order
 };
 
 /// What every reader of a word implements: turtle, counter, printer. Virtual and still cheap, because a call carries
@@ -38,8 +40,8 @@ class WordError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Lets a reader pass over parts of the word that it can account for otherwise: what lies before the bar to be played,
-/// what lies outside the page.
+/// Lets a reader pass over parts of the word that it can account for otherwise: what lies before the bar to be
+/// played, what lies outside the page.
 class Pruner {
 public:
     virtual ~Pruner() = default;
@@ -58,14 +60,18 @@ struct DerivationOptions {
     std::uint64_t whole_words = UINT64_MAX;
     /// Most symbols that the blocks hold together: what is kept to be handed out again.
     std::size_t block_memory = std::size_t{1} << 20;
-    /// Null: everything is handed over. Words kept whole are not pruned.
+    /// Most nodes of the derivation tree of a system that cannot be forecast (parameters, chance) that are visited.
+    double most_nodes = std::numeric_limits<double>::infinity();
+    /// Null: everything is handed over. Words kept whole, and systems that cannot be forecast, are not pruned.
     Pruner* pruner = nullptr;
     /// Called after each run with its number of symbols, and with 0 from time to time where nothing is handed over;
     /// may throw, to stop the derivation.
     std::function<void(std::uint64_t symbols)> watch;
 
-    /// Limits the words kept whole to a budget of nodes: keeping a symbol takes the memory and time of about 40.
+    /// Limits the words kept whole, and systems that cannot be forecast, to a budget of nodes: keeping a symbol takes
+    /// the memory and time of about 40.
     void limit_whole_words(double nodes) {
+        most_nodes = nodes;
         if (nodes >= 1e19) return;
         longest_word = static_cast<std::uint64_t>(nodes / 40);
         whole_words = static_cast<std::uint64_t>(nodes);
@@ -75,20 +81,31 @@ struct DerivationOptions {
 /// Hands the word after grammar.steps() derivation steps to `sink`, left to right.
 ///
 /// Memory: O(steps) frames, the blocks, and, only if a production looks at its neighbours, the word of the last step
-/// that does so, with the step before. Time: O(nodes visited); a part whose expansion is short is expanded once.
-/// @throws what `sink` throws; BudgetError
+/// that does so, with the step before. Time: O(nodes visited); a part whose expansion is short is expanded once,
+/// unless parameters or chance are in play.
+/// @throws what `sink` throws; BudgetError; WordError for weights that cannot be chosen among
 /// Source: Prusinkiewicz & Hanan 1989, sections 1.2 and 3.4.
 void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& options = {});
 
 /// A grammar with the same derived word in which no step that is left looks at its neighbours: `grammar` itself, or
 /// what is left of it when the word after the last step that does so takes the place of the axiom.
-/// Memory: that word, the one before it, and 8 bytes a symbol. Time: linear in the symbols of the words, times the
-/// length of the contexts. BudgetError above the limits of `options`, which alone matter here.
+/// Memory: that word, the one before it, and 8 bytes a symbol (up to 16 with parameters or brackets in contexts).
+/// Time: linear in the symbols of the words, times the length of the contexts. BudgetError above the limits of
+/// `options`, which alone matter here.
 Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options);
 
-/// One derivation step applied to a whole word, needed where contexts are looked at. BudgetError above
-/// `options.longest_word` symbols.
+/// A plain grammar with nothing left to derive whose word is that of `grammar`, `interpret:` applied, so that readers
+/// of plain systems read any. BudgetError above `options.longest_word` symbols, or 524,288 different modules.
+Grammar write_out(const Grammar& grammar, DerivationOptions options);
+
+/// One derivation step applied to a whole word of a plain grammar, needed where contexts are looked at. BudgetError
+/// above `options.longest_word` symbols.
 Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options = {});
+
+/// The same for any grammar, in the derivation step of that number, counted from 1. Memory: 4 bytes a symbol, 8 for
+/// each argument of its own, 8 for its place if the system is stochastic; and what resolve_contexts() tells.
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options = {});
 
 /// The number of levels above the finished word up to which short expansions are kept: those that are empty cost
 /// nothing there.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -19,8 +20,8 @@ bool continues_name(char byte) {
 /// Dijkstra's shunting yard: operators wait on an explicit stack, so that nesting costs memory and no call stack.
 class ExpressionCompiler {
 public:
-    ExpressionCompiler(const Span& text, const NameLookup& names, Diagnostics& diagnostics)
-        : text_(text), view_(text.view()), names_(names), diagnostics_(diagnostics) {}
+    ExpressionCompiler(const Span& text, const NameLookup& names, Diagnostics& diagnostics, std::uint32_t* draws)
+        : text_(text), view_(text.view()), names_(names), diagnostics_(diagnostics), draws_(draws) {}
 
     std::optional<Expression> run() {
         while (skip_blanks(), at_ < view_.size()) {
@@ -33,6 +34,7 @@ public:
             }
             emit();
         }
+        result_.find_shape();
         return std::move(result_);
     }
 
@@ -49,7 +51,7 @@ private:
         Operation operation;
         int arguments;
     };
-    static constexpr std::array<Function, 18> functions = {{{"sin", Operation::sine, 1},
+    static constexpr std::array<Function, 19> functions = {{{"sin", Operation::sine, 1},
                                                             {"cos", Operation::cosine, 1},
                                                             {"tan", Operation::tangent, 1},
                                                             {"asin", Operation::arcsine, 1},
@@ -66,7 +68,8 @@ private:
                                                             {"round", Operation::round, 1},
                                                             {"min", Operation::minimum, 2},
                                                             {"max", Operation::maximum, 2},
-                                                            {"mod", Operation::modulo, 2}}};
+                                                            {"mod", Operation::modulo, 2},
+                                                            {"random", Operation::random, 2}}};
 
     static int precedence(Operation operation) {
         switch (operation) {
@@ -112,10 +115,23 @@ private:
     }
 
     void emit() {
-        result_.steps_.push_back({waiting_.back().operation});
-        const bool unary = precedence(waiting_.back().operation) == 7;
-        if (!unary) --depth_;
+        const Operation operation = waiting_.back().operation;
+        push_operation({operation}, precedence(operation) == 7 ? 1 : 2);
         waiting_.pop_back();
+    }
+
+    /// What is constant is computed here and now.
+    void push_operation(const Expression::Step& step, std::size_t operands) {
+        std::vector<Expression::Step>& steps = result_.steps_;
+        depth_ -= operands - 1;
+        const bool is_constant =
+            step.operation != Operation::random &&
+            std::all_of(steps.end() - static_cast<std::ptrdiff_t>(operands), steps.end(),
+                        [](const Expression::Step& operand) { return operand.operation == Operation::number; });
+        if (!is_constant) return steps.push_back(step);
+        const double last = steps.back().value;
+        if (operands == 2) steps.pop_back();
+        steps.back().value = Expression::apply(step.operation, steps.back().value, last);
     }
 
     void push_value(const Expression::Step& step) {
@@ -166,12 +182,12 @@ private:
     }
 
     bool function(std::string_view name, std::size_t begin) {
-        if (name == "random") return wrong(begin, "chance is not supported yet: 'random'");
         Operation operation = Operation::open;
         for (const Function& known : functions) {
             if (known.name == name) operation = known.operation;
         }
         if (operation == Operation::open) return wrong(begin, fmt::format("there is no function '{}'", name));
+        if (operation == Operation::random && !draws_) return wrong(begin, "chance has no place here: 'random'");
         waiting_.push_back({Operation::open, at_++, operation});
         return true;
     }
@@ -193,8 +209,12 @@ private:
             return wrong(open.at, fmt::format("this function takes {} argument{}, not {}", arity(open.function),
                                               arity(open.function) == 1 ? "" : "s", open.arguments));
         }
-        result_.steps_.push_back({open.function});
-        depth_ -= static_cast<std::size_t>(open.arguments - 1);
+        Expression::Step step{open.function};
+        if (step.operation == Operation::random) {
+            step.slot = (*draws_)++;
+            result_.uses_chance_ = true;
+        }
+        push_operation(step, static_cast<std::size_t>(open.arguments));
         return true;
     }
 
@@ -274,6 +294,7 @@ private:
     std::string_view view_;
     const NameLookup& names_;
     Diagnostics& diagnostics_;
+    std::uint32_t* draws_;
     std::size_t at_ = 0;
     std::size_t depth_ = 0;
     bool expect_operand_ = true;
@@ -281,127 +302,126 @@ private:
     Expression result_;
 };
 
-std::optional<Expression> Expression::compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics) {
-    return ExpressionCompiler(text, names, diagnostics).run();
+std::optional<Expression> Expression::compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics,
+                                              std::uint32_t* draws) {
+    return ExpressionCompiler(text, names, diagnostics, draws).run();
 }
 
-double Expression::evaluate(std::span<const double> formals) const {
-    std::array<double, 16> small{};
+void Expression::find_shape() {
+    const auto is = [&](std::size_t i, Operation operation) { return steps_[i].operation == operation; };
+    shape_ = Shape::steps;
+    if (steps_.size() == 1) {
+        shape_ = is(0, Operation::number) ? Shape::number : Shape::formal;
+        slot_ = steps_[0].slot;
+        number_ = steps_[0].value;
+    } else if (steps_.size() == 3) {
+        const bool number_first = is(0, Operation::number) && is(1, Operation::formal);
+        if (!number_first && !(is(0, Operation::formal) && is(1, Operation::number))) return;
+        if (is(2, Operation::multiply)) {
+            shape_ = Shape::product;
+        } else if (is(2, Operation::add) || (is(2, Operation::subtract) && !number_first)) {
+            shape_ = Shape::sum;
+        } else if (is(2, number_first ? Operation::less_equal : Operation::greater_equal)) {
+            shape_ = Shape::at_least;
+        } else {
+            return;
+        }
+        slot_ = steps_[number_first ? 1 : 0].slot;
+        number_ = steps_[number_first ? 0 : 1].value;
+        if (is(2, Operation::subtract)) number_ = -number_;  // a - b is a + -b, in IEEE arithmetic too
+    }
+    if (shape_ != Shape::steps) steps_ = {};
+}
+
+double Expression::apply(Operation operation, double a, double b) {
+    switch (operation) {
+        case Operation::negate:
+            return -a;
+        case Operation::complement:
+            return a == 0 ? 1.0 : 0.0;
+        case Operation::sine:
+            return std::sin(a);
+        case Operation::cosine:
+            return std::cos(a);
+        case Operation::tangent:
+            return std::tan(a);
+        case Operation::arcsine:
+            return std::asin(a);
+        case Operation::arccosine:
+            return std::acos(a);
+        case Operation::arctangent:
+            return std::atan(a);
+        case Operation::exponential:
+            return std::exp(a);
+        case Operation::logarithm:
+            return std::log(a);
+        case Operation::logarithm10:
+            return std::log10(a);
+        case Operation::square_root:
+            return std::sqrt(a);
+        case Operation::absolute:
+            return std::fabs(a);
+        case Operation::floor:
+            return std::floor(a);
+        case Operation::ceiling:
+            return std::ceil(a);
+        case Operation::round:
+            return std::round(a);
+        case Operation::power:
+            return std::pow(a, b);
+        case Operation::multiply:
+            return a * b;
+        case Operation::divide:
+            return a / b;
+        case Operation::add:
+            return a + b;
+        case Operation::subtract:
+            return a - b;
+        case Operation::less:
+            return a < b ? 1.0 : 0.0;
+        case Operation::less_equal:
+            return a <= b ? 1.0 : 0.0;
+        case Operation::greater:
+            return a > b ? 1.0 : 0.0;
+        case Operation::greater_equal:
+            return a >= b ? 1.0 : 0.0;
+        case Operation::equal:
+            return a == b ? 1.0 : 0.0;
+        case Operation::not_equal:
+            return a != b ? 1.0 : 0.0;
+        case Operation::conjunction:
+            return a != 0 && b != 0 ? 1.0 : 0.0;
+        case Operation::disjunction:
+            return a != 0 || b != 0 ? 1.0 : 0.0;
+        case Operation::arctangent2:
+            return std::atan2(a, b);
+        case Operation::minimum:
+            return std::fmin(a, b);
+        case Operation::maximum:
+            return std::fmax(a, b);
+        case Operation::modulo:
+            return std::fmod(a, b);
+        default:
+            return a;
+    }
+}
+
+double Expression::evaluate_steps(std::span<const double> formals, const Chance& chance) const {
+    std::array<double, 16> small;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
     std::vector<double> large(stack_ > small.size() ? stack_ : 0);
     double* next = large.empty() ? small.data() : large.data();  // where the next value goes
     for (const Step& step : steps_) {
-        const auto binary = [&](auto&& combine) {
+        if (step.operation == Operation::number) {
+            *next++ = step.value;
+        } else if (step.operation == Operation::formal) {
+            *next++ = formals[step.slot];
+        } else if (step.operation < Operation::power) {
+            next[-1] = apply(step.operation, next[-1], 0.0);
+        } else {
             --next;
-            next[-1] = combine(next[-1], next[0]);
-        };
-        switch (step.operation) {
-            case Operation::number:
-                *next++ = step.value;
-                break;
-            case Operation::formal:
-                *next++ = formals[step.slot];
-                break;
-            case Operation::negate:
-                next[-1] = -next[-1];
-                break;
-            case Operation::complement:
-                next[-1] = next[-1] == 0;
-                break;
-            case Operation::power:
-                binary([](double a, double b) { return std::pow(a, b); });
-                break;
-            case Operation::multiply:
-                binary([](double a, double b) { return a * b; });
-                break;
-            case Operation::divide:
-                binary([](double a, double b) { return a / b; });
-                break;
-            case Operation::add:
-                binary([](double a, double b) { return a + b; });
-                break;
-            case Operation::subtract:
-                binary([](double a, double b) { return a - b; });
-                break;
-            case Operation::less:
-                binary([](double a, double b) { return a < b ? 1.0 : 0.0; });
-                break;
-            case Operation::less_equal:
-                binary([](double a, double b) { return a <= b ? 1.0 : 0.0; });
-                break;
-            case Operation::greater:
-                binary([](double a, double b) { return a > b ? 1.0 : 0.0; });
-                break;
-            case Operation::greater_equal:
-                binary([](double a, double b) { return a >= b ? 1.0 : 0.0; });
-                break;
-            case Operation::equal:
-                binary([](double a, double b) { return a == b ? 1.0 : 0.0; });
-                break;
-            case Operation::not_equal:
-                binary([](double a, double b) { return a != b ? 1.0 : 0.0; });
-                break;
-            case Operation::conjunction:
-                binary([](double a, double b) { return a != 0 && b != 0 ? 1.0 : 0.0; });
-                break;
-            case Operation::disjunction:
-                binary([](double a, double b) { return a != 0 || b != 0 ? 1.0 : 0.0; });
-                break;
-            case Operation::sine:
-                next[-1] = std::sin(next[-1]);
-                break;
-            case Operation::cosine:
-                next[-1] = std::cos(next[-1]);
-                break;
-            case Operation::tangent:
-                next[-1] = std::tan(next[-1]);
-                break;
-            case Operation::arcsine:
-                next[-1] = std::asin(next[-1]);
-                break;
-            case Operation::arccosine:
-                next[-1] = std::acos(next[-1]);
-                break;
-            case Operation::arctangent:
-                next[-1] = std::atan(next[-1]);
-                break;
-            case Operation::arctangent2:
-                binary([](double a, double b) { return std::atan2(a, b); });
-                break;
-            case Operation::exponential:
-                next[-1] = std::exp(next[-1]);
-                break;
-            case Operation::logarithm:
-                next[-1] = std::log(next[-1]);
-                break;
-            case Operation::logarithm10:
-                next[-1] = std::log10(next[-1]);
-                break;
-            case Operation::square_root:
-                next[-1] = std::sqrt(next[-1]);
-                break;
-            case Operation::absolute:
-                next[-1] = std::fabs(next[-1]);
-                break;
-            case Operation::floor:
-                next[-1] = std::floor(next[-1]);
-                break;
-            case Operation::ceiling:
-                next[-1] = std::ceil(next[-1]);
-                break;
-            case Operation::round:
-                next[-1] = std::round(next[-1]);
-                break;
-            case Operation::minimum:
-                binary([](double a, double b) { return std::fmin(a, b); });
-                break;
-            case Operation::maximum:
-                binary([](double a, double b) { return std::fmax(a, b); });
-                break;
-            case Operation::modulo:
-                binary([](double a, double b) { return std::fmod(a, b); });
-                break;
-            case Operation::open:
-                break;
+            next[-1] = step.operation == Operation::random
+                           ? next[-1] + (next[0] - next[-1]) * chance.uniform(step.slot)
+                           : apply(step.operation, next[-1], next[0]);
         }
     }
     return next[-1];

@@ -88,6 +88,39 @@ Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted
     return {value, fmt::format("about 10^{:.0f}", std::floor(largest + std::log10(parts)))};
 }
 
+/// How often each symbol occurs.
+class Census : public SymbolSink {
+public:
+    explicit Census(const Grammar& grammar) : counts_(grammar.symbols().size()) {}
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) ++counts_[symbol];
+    }
+    std::vector<Integer> counts() const { return {counts_.begin(), counts_.end()}; }
+
+private:
+    std::vector<std::uint64_t> counts_;
+};
+
+/// Of systems that cannot be forecast: both words are walked through.
+Measurement walked(const Grammar& grammar, DerivationOptions options) {
+    Measurement result;
+    result.n = grammar.steps();
+    result.derived = true;
+    options.interpreted = false;
+    Census census(grammar);
+    derive(grammar, census, options);
+    tell_counts(grammar, census.counts(), result);
+    options.interpreted = true;
+    const auto turtle = Turtle::surveying(grammar);
+    derive(grammar, *turtle, options);
+    const Survey survey = turtle->survey();
+    result.drawn = Quantity::of(Integer(survey.drawn));
+    result.moves = Quantity::of(Integer(survey.moves));
+    result.length = Quantity::of(survey.length);
+    result.geometry = as_fold(survey);
+    return result;
+}
+
 }  // namespace
 
 Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
@@ -96,6 +129,7 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     options.limit_whole_words(budget);
     options.watch = watch;
     const Grammar grammar = resolve_contexts(shorten(given), options);
+    if (!grammar.is_plain()) return walked(grammar, options);
     Measurement result;
     result.n = given.steps();
     result.derived = grammar.is_begun();

@@ -237,12 +237,12 @@ std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
 }  // namespace
 
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
-    if (grammar.whole_word_steps() > 0) return std::nullopt;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
     return rough_forecast(grammar, Steps(grammar, interpreted));
 }
 
 std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
-    if (grammar.whole_word_steps() > 0) return std::nullopt;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
     const Steps steps(grammar, interpreted);
     Forecast result = rough_forecast(grammar, steps);
     if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
@@ -311,7 +311,7 @@ std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double
 }
 
 void require_affordable(const Grammar& grammar, bool interpreted, double budget) {
-    if (grammar.whole_word_steps() > 0) return;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return;
     const Steps steps(grammar, interpreted);
     Forecast found = rough_forecast(grammar, steps);
     if (found.nodes <= budget) return;
@@ -348,6 +348,7 @@ namespace {
 
 Grammar shorten(const Grammar& grammar) {
     if (grammar.steps() <= most_steps) return grammar;
+    if (!grammar.is_plain() || grammar.cut()) refuse_steps(grammar);
     const std::vector<char> reached = grammar.reachable();
     constexpr auto nothing = std::numeric_limits<Symbol>::max();
     std::vector<std::vector<Symbol>> maps;  // of each table: what a symbol becomes

@@ -32,7 +32,8 @@ struct Forecast {
     std::string length() const;
 };
 
-/// Nullopt if productions look at neighbours: then nothing short of deriving tells (see resolve_contexts).
+/// Nullopt if productions look at neighbours (see resolve_contexts), if words are cut, or if parameters or chance are
+/// in play: then nothing short of deriving tells.
 /// @param interpreted  of the word after `interpret:`
 /// Cost: O(steps x size of the tables), times the size of the numbers; BudgetError if even the first is too much
 /// (5 x 10^7).
@@ -45,7 +46,7 @@ std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget);
 
 /// Throws BudgetError, with the length and the largest derivation length that fits, if the word costs more than
-/// `budget` nodes. Systems with contexts pass; resolve_contexts() leaves one that does not.
+/// `budget` nodes. What forecast() does not tell of passes: DerivationOptions limits it.
 void require_affordable(const Grammar& grammar, bool interpreted, double budget);
 
 /// A grammar that derives the same word in at most most_steps steps: itself, or, for a longer derivation in which

@@ -1,7 +1,5 @@
 #include "engine/grammar.h"
 
-#include "engine/expression.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <numeric>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace sikku {
 namespace {
@@ -23,6 +22,7 @@ constexpr std::size_t most_symbols = std::size_t{1} << 19;
 // What tables repeat, together: productions that all of them share, and a place for each symbol of the grammar.
 constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
 constexpr std::size_t most_places = std::size_t{1} << 22;
+constexpr std::size_t most_parameters = 64;                   // of a module that states them for itself
 constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
@@ -111,7 +111,11 @@ public:
         if (const Key* key = pattern_.find("derivation length")) {
             if (const auto steps = whole_number(key->value)) grammar_.steps_ = *steps;
         }
+        if (const Key* key = pattern_.find("seed")) {
+            if (const auto seed = whole_number(key->value)) grammar_.seed_ = static_cast<std::uint64_t>(*seed);
+        }
         read_angles();
+        find_types();
         read_axiom();
         read_tables();
         read_contexts();
@@ -123,10 +127,10 @@ public:
                 grammar_.scale_percent_ = percent;
             }
         }
-        if (const Key* key = pattern_.find("seed")) whole_number(key->value);
         read_commands();
         read_schedule();
         finish_tables();
+        warn_of_types();
         return std::move(grammar_);
     }
 
@@ -332,16 +336,18 @@ private:
 
     // --- words ---------------------------------------------------------------------------------------------
 
-    Symbol intern(std::string letter, bool is_name, std::vector<double> arguments) {
+    Symbol intern(std::string letter, bool is_name, std::vector<double> arguments, std::uint32_t arity = 0) {
         std::string key = letter;
         key += '\0';
+        if (arity > 0) key += fmt::format("{}", arity);
         for (const double value : arguments) key += fmt::format("({}", value == 0 ? 0.0 : value);
         const auto [found, fresh] = symbol_index_.try_emplace(key, static_cast<Symbol>(grammar_.symbols_.size()));
         if (fresh) {
             const auto [letter_at, new_letter] =
                 letter_index_.try_emplace(letter, static_cast<std::uint32_t>(grammar_.letters_.size()));
             if (new_letter) grammar_.letters_.push_back(letter);
-            grammar_.symbols_.push_back({std::move(letter), std::move(arguments), is_name, letter_at->second, {}});
+            grammar_.symbols_.push_back(
+                {std::move(letter), std::move(arguments), is_name, letter_at->second, {}, arity});
         }
         return found->second;
     }
@@ -349,69 +355,233 @@ private:
     /// What may stand in a word.
     enum class Place { axiom_or_successor, predecessor, context, list };
 
-    /// Reads a word; nullopt after the first mistake in it.
-    std::optional<Word> word(const Span& span, Place place) {
+    /// Reads a word; nullopt after the first mistake in it. The parameters of modules that state them for themselves
+    /// go to `arguments`.
+    std::optional<Word> word(const Span& span, Place place, std::vector<Expression>* arguments = nullptr) {
         Word result;
         const std::string_view text = span.view();
         if (text == "*" || text == "\xCE\xB5") return result;  // ε
         // A large word is looked through before memory is spent on it.
-        if (text.size() > large_word && !read_word(span, place, [](Symbol) {})) return std::nullopt;
+        if (text.size() > large_word && !read_word(span, place, [](Symbol, std::vector<Expression>&) {})) {
+            return std::nullopt;
+        }
         result.reserve(text.size() > large_word ? text.size() : 0);
-        if (!read_word(span, place, [&](Symbol symbol) { result.push_back(symbol); })) return std::nullopt;
+        const bool good = read_word(span, place, [&](Symbol symbol, std::vector<Expression>& own) {
+            result.push_back(symbol);
+            if (arguments && !own.empty()) std::move(own.begin(), own.end(), std::back_inserter(*arguments));
+        });
+        if (!good) return std::nullopt;
         return result;
     }
 
-    /// Hands each symbol to `take`; false after the first mistake.
+    /// Hands each symbol to `take`, with its parameters if it states them for itself; false after the first mistake.
     template <class Take>
     bool read_word(const Span& span, Place place, Take take) {
         const std::string_view text = span.view();
         std::size_t at = 0;
+        std::vector<Expression> own;
         while (true) {
-            bool blank_before = false;
-            while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) {
-                ++at;
-                blank_before = true;
-            }
+            const bool blank_before = skip_blanks(text, at);
             if (at >= text.size()) return true;
             const std::size_t begin = at;
             bool is_name = false;
             if (!symbol_at(span, text, at, is_name, blank_before)) return false;
             const std::string_view letter = text.substr(begin, at - begin);
             const bool plain = letter.size() == 1 && (at >= text.size() || text[at] != '(');
+            own.clear();
             if (plain) {
                 // Most symbols are single letters that were met before.
-                Symbol& known = plain_symbols_[static_cast<unsigned char>(letter.front())];
+                const Symbol known = plain_symbols_[static_cast<unsigned char>(letter.front())];
                 if (known != no_symbol && letter != "%") {
-                    take(known);
+                    take(known, own);
                     continue;
                 }
             }
             std::vector<double> arguments;
+            std::uint32_t arity = 0;
             if (at < text.size() && text[at] == '(') {
-                if (place != Place::axiom_or_successor) {
-                    diagnostics_.error(span.part(at), "formal parameters are not supported yet");
+                if (place == Place::list) {
+                    diagnostics_.error(span.part(at), "a list of symbols holds no parameters");
                     return false;
                 }
-                if (!read_arguments(span, text, at, arguments)) return false;
+                std::vector<Span> parts;
+                const std::size_t open = at;
+                if (!split_parameters(span, text, at, parts)) return false;
+                if (letter == "%") {
+                    diagnostics_.error(span.part(open), "the cut symbol '%' has no parameters");
+                    return false;
+                }
+                if (place != Place::axiom_or_successor) {
+                    if (!read_formals(parts)) return false;
+                    arity = static_cast<std::uint32_t>(parts.size());
+                } else if (types_.contains(type_key(letter, parts.size()))) {
+                    if (!read_parameters(parts, own)) return false;
+                    arity = static_cast<std::uint32_t>(parts.size());
+                } else {
+                    for (const Span& part : parts) {
+                        const auto value = constant(part);
+                        if (!value) return false;
+                        arguments.push_back(*value);
+                    }
+                }
+                if (arity > most_parameters) {
+                    diagnostics_.error(span.part(open), "a module has at most 64 parameters");
+                    return false;
+                }
             }
-            if (letter == "%" && place != Place::list) {
-                diagnostics_.error(span.part(begin), "the cut symbol '%' is not supported yet");
+            if (letter == "%" && place != Place::list && place != Place::axiom_or_successor) {
+                diagnostics_.error(span.part(begin), "the cut symbol '%' is gone before productions apply");
                 return false;
             }
             if (grammar_.symbols_.size() >= most_symbols) {
                 diagnostics_.error(span.part(begin), "there are more than 524,288 different symbols");
                 return false;
             }
-            const Symbol symbol = intern(std::string(letter), is_name, std::move(arguments));
+            const Symbol symbol = intern(std::string(letter), is_name, std::move(arguments), arity);
+            if (letter == "%" && place == Place::axiom_or_successor) grammar_.cut_ = symbol;
             if (plain) plain_symbols_[static_cast<unsigned char>(letter.front())] = symbol;
-            take(symbol);
+            take(symbol, own);
         }
     }
 
-    bool symbol_at(const Span& span, std::string_view text, std::size_t& at, bool& is_name, bool blank_before) {
+    static bool skip_blanks(std::string_view text, std::size_t& at) {
+        const std::size_t begin = at;
+        while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+        return at > begin;
+    }
+
+    /// Names that stand for the arguments of a module, each once in a production.
+    bool read_formals(const std::vector<Span>& parts) {
+        for (const Span& part : parts) {
+            const std::string_view name = part.view();
+            if (!begins_name(name.front()) || !std::all_of(name.begin(), name.end(), continues_name)) {
+                diagnostics_.error(part, "a predecessor and its contexts hold names of parameters only");
+                return false;
+            }
+            if (!formals_.try_emplace(name, static_cast<std::uint32_t>(formals_.size())).second) {
+                diagnostics_.error(part, fmt::format("the parameter '{}' is named twice", name));
+                return false;
+            }
+        }
+        return true;
+    }
+
+    std::optional<Expression> expression(const Span& text) {
+        const auto names = [this](std::string_view name) -> std::optional<NameMeaning> {
+            if (const auto formal = formals_.find(name); formal != formals_.end()) {
+                return NameMeaning{true, 0.0, formal->second};
+            }
+            const auto found = defines_.find(name);
+            if (found == defines_.end()) return std::nullopt;
+            return NameMeaning{false, found->second};
+        };
+        return Expression::compile(text, names, diagnostics_, &draws_);
+    }
+
+    bool read_parameters(const std::vector<Span>& parts, std::vector<Expression>& own) {
+        for (const Span& part : parts) {
+            auto compiled = expression(part);
+            if (!compiled) return false;
+            if (compiled->uses_chance()) grammar_.is_stochastic_ = true;
+            own.push_back(std::move(*compiled));
+        }
+        return true;
+    }
+
+    // --- types of modules ----------------------------------------------------------------------------------
+
+    static std::string type_key(std::string_view letter, std::size_t parameters) {
+        return fmt::format("{}({}", letter, parameters);
+    }
+
+    /// Which modules state their parameters for themselves: those that a predecessor or a context names the
+    /// parameters of, and those that a word computes them for.
+    void find_types() {
+        const auto mentions = [&](const Span& text) { return text.view().find('(') != std::string_view::npos; };
+        const auto is_computed = [&](const Span& part) {
+            const auto names = names_in(part.view());
+            return std::any_of(names.begin(), names.end(),
+                               [&](std::string_view name) { return name == "random" || formals_.contains(name); });
+        };
+        const auto computed = [&](std::string_view letter, const std::vector<Span>& parts) {
+            if (std::any_of(parts.begin(), parts.end(), is_computed)) types_.insert(type_key(letter, parts.size()));
+        };
+        const auto named = [&](std::string_view letter, const std::vector<Span>& parts) {
+            types_.insert(type_key(letter, parts.size()));
+            for (const Span& part : parts) formals_.try_emplace(part.view(), 0);
+        };
+        const auto look_at = [&](const std::vector<ProductionText>& productions) {
+            for (const ProductionText& text : productions) {
+                formals_.clear();
+                for (const auto& span : {text.left, std::optional(text.predecessor), text.right}) {
+                    if (span && mentions(*span)) look_through(*span, named);
+                }
+                if (mentions(text.successor)) look_through(text.successor, computed);
+            }
+        };
+        look_at(pattern_.common);
+        for (const TableText& table : pattern_.tables) look_at(table.productions);
+        look_at(pattern_.interpret);
+        formals_.clear();
+        const Key* axiom = pattern_.find("axiom");
+        if (axiom && axiom->value.view().find("random") != std::string_view::npos) {
+            look_through(axiom->value, computed);
+        }
+        grammar_.is_parametric_ = !types_.empty();
+    }
+
+    /// Hands each letter with parameters to `take`, up to the first mistake, which is reported when the word is read.
+    template <class Take>
+    void look_through(const Span& span, Take take) {
+        const std::string_view text = span.view();
+        std::vector<Span> parts;
+        for (std::size_t at = 0; skip_blanks(text, at), at < text.size();) {
+            const std::size_t begin = at;
+            bool is_name = false;
+            if (!symbol_at(span, text, at, is_name, false, true)) return;
+            if (at >= text.size() || text[at] != '(') continue;
+            const std::string_view letter = text.substr(begin, at - begin);
+            parts.clear();
+            if (!split_parameters(span, text, at, parts, true)) return;
+            take(letter, parts);
+        }
+    }
+
+    /// A production for a number of parameters that no word states can never apply.
+    void warn_of_types() {
+        if (looked_at_.empty() || diagnostics_.has_errors()) return;
+        std::vector<char> stated(grammar_.symbols_.size(), 0);
+        const auto state = [&](const Word& word) {
+            for (const Symbol symbol : word) stated[symbol] = 1;
+        };
+        state(grammar_.axiom());
+        for (const Table& table : grammar_.tables_) {
+            for (const Production& production : table.productions_) state(production.successor);
+        }
+        if (grammar_.interpretation_) {
+            for (const Production& production : grammar_.interpretation_->productions_) state(production.successor);
+        }
+        std::vector<std::optional<std::size_t>> other(grammar_.letters_.size());  // stated number of parameters
+        for (std::size_t i = 0; i < stated.size(); ++i) {
+            const SymbolInfo& symbol = grammar_.symbols_[i];
+            if (stated[i]) other[symbol.letter_index] = std::max<std::size_t>(symbol.arity, symbol.arguments.size());
+        }
+        for (const auto& [symbol, where] : looked_at_) {
+            const SymbolInfo& info = grammar_.symbols_[symbol];
+            if (stated[symbol] || !other[info.letter_index]) continue;
+            diagnostics_.warning(where, fmt::format("no word has '{}' with {} parameters, but one with {}: this "
+                                                    "production can never apply",
+                                                    info.letter, info.arity, *other[info.letter_index]));
+        }
+    }
+
+    // --- symbols -------------------------------------------------------------------------------------------
+
+    bool symbol_at(const Span& span, std::string_view text, std::size_t& at, bool& is_name, bool blank_before,
+                   bool quiet = false) {
         const char byte = text[at];
         const auto wrong = [&](std::string message) {
-            diagnostics_.error(span.part(at), std::move(message));
+            if (!quiet) diagnostics_.error(span.part(at), std::move(message));
             return false;
         };
         for (std::size_t length = std::min(longest_name_, text.size() - at); length > 0; --length) {
@@ -459,7 +629,9 @@ private:
         return true;
     }
 
-    bool read_arguments(const Span& span, std::string_view text, std::size_t& at, std::vector<double>& arguments) {
+    /// From the parenthesis at `at` to the one that closes it.
+    bool split_parameters(const Span& span, std::string_view text, std::size_t& at, std::vector<Span>& parts,
+                          bool quiet = false) {
         const std::size_t open = at;
         std::size_t depth = 0;
         std::size_t begin = at + 1;
@@ -467,21 +639,19 @@ private:
             if (text[at] == '(') ++depth;
             const bool last = text[at] == ')' && --depth == 0;
             if (!last && !(text[at] == ',' && depth == 1)) continue;
-            const Span argument = span.part(begin, at - begin).trimmed();
-            if (argument.empty()) {
-                diagnostics_.error(span.part(begin), "expected a parameter");
+            const Span part = span.part(begin, at - begin).trimmed();
+            if (part.empty()) {
+                if (!quiet) diagnostics_.error(span.part(begin), "expected a parameter");
                 return false;
             }
-            const auto value = constant(argument);
-            if (!value) return false;
-            arguments.push_back(*value);
+            parts.push_back(part);
             begin = at + 1;
             if (last) {
                 ++at;
                 return true;
             }
         }
-        diagnostics_.error(span.part(open), "this '(' is not closed");
+        if (!quiet) diagnostics_.error(span.part(open), "this '(' is not closed");
         return false;
     }
 
@@ -491,8 +661,21 @@ private:
             diagnostics_.error({pattern_.source, 0, 0}, "there is no 'axiom:'");
         } else if (key->value.empty()) {
             diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
-        } else if (auto axiom = word(key->value, Place::axiom_or_successor)) {
-            grammar_.axiom_ = std::make_shared<const Word>(std::move(*axiom));
+        } else {
+            std::vector<Expression> arguments;
+            auto axiom = word(key->value, Place::axiom_or_successor, &arguments);
+            if (!axiom) return;
+            ModuleWord modules{std::move(*axiom), {}, {}};
+            modules.arguments.reserve(arguments.size());
+            if (!arguments.empty()) {
+                for (std::size_t i = 0, next = 0; i < modules.symbols.size(); ++i) {
+                    const Chance chance{axiom_place(grammar_.seed_, i), 0};
+                    for (std::uint32_t k = 0; k < grammar_.symbols_[modules.symbols[i]].arity; ++k) {
+                        modules.arguments.push_back(arguments[next++].evaluate({}, chance));
+                    }
+                }
+            }
+            grammar_.axiom_ = std::make_shared<const ModuleWord>(std::move(modules));
         }
     }
 
@@ -506,58 +689,169 @@ private:
         }
         auto result = word(*text, Place::context);
         if (!result) return std::nullopt;
+        std::size_t depth = 0;
         for (const Symbol symbol : *result) {
             const std::string& letter = grammar_.symbols_[symbol].letter;
             if (letter != "[" && letter != "]") continue;
-            diagnostics_.error(
-                text->part(text->view().find(letter)),
-                right ? "brackets in a right context are not supported yet" : "a left context holds no brackets");
+            if (!right) {
+                diagnostics_.error(text->part(text->view().find(letter)), "a left context holds no brackets");
+                return std::nullopt;
+            }
+            if (letter == "]" && depth == 0) {
+                diagnostics_.error(*text, "this context has a ']' without '['");
+                return std::nullopt;
+            }
+            depth += letter == "[" ? 1 : -1;
+        }
+        if (depth > 0) {
+            diagnostics_.error(*text, "this context has a '[' that is not closed");
             return std::nullopt;
         }
         return result;
     }
 
-    void add_productions(Table& table, const std::vector<ProductionText>& texts,
-                         std::set<std::tuple<Word, Word, Word>>& seen, bool homomorphism) {
+    /// Productions of equal predecessor and contexts.
+    struct Group {
+        std::uint32_t number = 0;
+        bool is_certain = false;      ///< one of them has neither condition nor weight
+        bool has_conditions = false;  ///< that are not constant
+        bool has_variables = false;   ///< weights that are not constant
+        bool is_mixed = false;
+        std::optional<Span> weighted;    ///< the first weight
+        std::optional<Span> unweighted;  ///< the first production without one
+        double sum = 0.0;                ///< of constant weights
+    };
+    using Groups = std::map<std::tuple<Word, Word, Word>, Group>;
+
+    void add_productions(Table& table, const std::vector<ProductionText>& texts, Groups& groups, bool homomorphism) {
         for (const ProductionText& text : texts) {
-            if (text.condition) {
-                diagnostics_.error(*text.condition, "conditions are not supported yet");
-                continue;
-            }
-            if (text.weight) {
-                diagnostics_.error(*text.weight, "weights are not supported yet");
-                continue;
-            }
             if (text.predecessor.view() == "*" || text.predecessor.view() == "\xCE\xB5") {
                 diagnostics_.error(text.predecessor, "the empty word is no predecessor");
                 continue;
             }
+            formals_.clear();
             auto left = context(text.left, false);
             auto predecessor = word(text.predecessor, Place::predecessor);
             auto right = context(text.right, true);
             if (!left || !predecessor || !right) continue;
-            auto successor = word(text.successor, Place::axiom_or_successor);
+            std::optional<Expression> condition;
+            if (text.condition) {
+                if (text.condition->empty()) {
+                    diagnostics_.error(*text.condition, "expected a condition after ':'");
+                    continue;
+                }
+                condition = expression(*text.condition);
+                if (!condition) continue;
+            }
+            std::vector<Expression> arguments;
+            auto successor = word(text.successor, Place::axiom_or_successor, &arguments);
             if (!successor) continue;
+            std::optional<Expression> weight;
+            if (text.weight) {
+                if (text.weight->empty()) {
+                    diagnostics_.error(*text.weight, "expected a weight after ':'");
+                    continue;
+                }
+                weight = expression(*text.weight);
+                if (!weight) continue;
+            }
             if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
                 diagnostics_.error(text.predecessor,
                                    "an interpretation replaces one symbol, whatever its neighbours are");
                 continue;
             }
-            if (!seen.insert({*left, *predecessor, *right}).second) {
+            if (grammar_.is_parametric_) {
+                for (const Word* looked : {&*left, &*predecessor, &*right}) {
+                    for (const Symbol symbol : *looked) looked_at_.try_emplace(symbol, text.predecessor);
+                }
+            }
+            Group& group = groups.try_emplace({*left, *predecessor, *right}).first->second;
+            if (group.number == 0) group.number = static_cast<std::uint32_t>(groups.size());
+            if (group.is_certain && !text.weight) {
                 diagnostics_.error(text.predecessor,
                                    "this production can never apply: one with the same predecessor and contexts "
                                    "stands before it");
                 continue;
             }
-            table.productions_.push_back(
-                {std::move(*left), std::move(*predecessor), std::move(*right), std::move(*successor)});
+            if (!text.condition && !text.weight) group.is_certain = true;
+            if (!belongs(text, weight, group)) continue;
+            if (condition) {
+                if (const auto value = condition->constant()) {
+                    if (std::isnan(*value)) {
+                        diagnostics_.error(*text.condition, "this condition is never a number");
+                    }
+                    if (*value == 0) continue;
+                    condition.reset();
+                } else {
+                    group.has_conditions = true;
+                    if (condition->uses_chance()) {
+                        grammar_.is_stochastic_ = true;
+                        table.has_random_conditions_ = true;
+                    }
+                }
+            }
+            table.productions_.push_back({std::move(*left), std::move(*predecessor), std::move(*right),
+                                          std::move(*successor), std::move(condition), std::move(weight),
+                                          std::move(arguments), group.number});
+        }
+    }
+
+    /// Does its weight, or that it has none, go with those of the others?
+    bool belongs(const ProductionText& text, const std::optional<Expression>& weight, Group& group) {
+        if (!weight && !group.unweighted) group.unweighted = text.predecessor;
+        if (weight && !group.weighted) group.weighted = *text.weight;
+        if (group.weighted && group.unweighted && !group.is_mixed) {
+            group.is_mixed = true;
+            diagnostics_.error(*group.unweighted,
+                               "this production has no weight, and others of the same predecessor and contexts have");
+        }
+        if (!weight) return true;
+        const auto value = weight->constant();
+        if (!value) {
+            group.has_variables = true;
+        } else if (!(*value >= 0) || !std::isfinite(*value)) {
+            diagnostics_.error(*text.weight, "a weight is a finite number, 0 or more");
+            group.has_variables = true;
+            return false;
+        } else {
+            group.sum += *value;
+        }
+        return true;
+    }
+
+    /// What is left to chance once constant weights are known: nothing where one production alone has any.
+    void weigh(Table& table, const Groups& groups) {
+        std::vector<const Group*> by_number(groups.size() + 1, nullptr);
+        bool any = false;
+        for (const auto& [pattern, group] : groups) {
+            by_number[group.number] = &group;
+            if (!group.weighted) continue;
+            any = true;
+            if (!group.has_variables && !(group.sum > 0 && std::isfinite(group.sum))) {
+                diagnostics_.error(*group.weighted, group.sum > 0 ? "these weights have no finite sum"
+                                                                  : "the weights of this predecessor are all 0");
+            }
+        }
+        if (!any || diagnostics_.has_errors()) return;
+        const auto is_fixed = [&](const Production& production) {
+            const Group& group = *by_number[production.group];
+            return production.weight && !group.has_variables && !group.has_conditions;
+        };
+        std::erase_if(table.productions_, [&](const Production& production) {
+            return is_fixed(production) && production.weight->constant() == 0.0;
+        });
+        std::vector<std::uint32_t> members(groups.size() + 1, 0);
+        for (const Production& production : table.productions_) ++members[production.group];
+        for (Production& production : table.productions_) {
+            if (is_fixed(production) && members[production.group] == 1) production.weight.reset();
+            if (production.weight) grammar_.is_stochastic_ = true;
         }
     }
 
     void read_tables() {
         Table common;
-        std::set<std::tuple<Word, Word, Word>> seen;
-        add_productions(common, pattern_.common, seen, false);
+        Groups groups;
+        add_productions(common, pattern_.common, groups, false);
         std::size_t size = 0;
         for (const Production& production : common.productions_) {
             size += 64 + production.left.size() + production.predecessor.size() + production.right.size() +
@@ -569,19 +863,22 @@ private:
             return;
         }
         if (pattern_.tables.empty()) {
+            weigh(common, groups);
             grammar_.tables_.push_back(std::move(common));
         } else {
             for (const TableText& text : pattern_.tables) {
                 Table table = common;
-                auto seen_here = seen;
-                add_productions(table, text.productions, seen_here, false);
+                Groups groups_here = groups;
+                add_productions(table, text.productions, groups_here, false);
+                weigh(table, groups_here);
                 grammar_.tables_.push_back(std::move(table));
             }
         }
         if (!pattern_.interpret.empty()) {
             Table table;
-            std::set<std::tuple<Word, Word, Word>> seen_here;
-            add_productions(table, pattern_.interpret, seen_here, true);
+            Groups groups_here;
+            add_productions(table, pattern_.interpret, groups_here, true);
+            weigh(table, groups_here);
             grammar_.interpretation_ = std::move(table);
         }
     }
@@ -651,13 +948,17 @@ private:
     Command command_of(const SymbolInfo& symbol, const std::set<std::string>& forward,
                        const std::set<std::string>& move) const {
         const std::string& letter = symbol.letter;
-        const bool has_value = !symbol.arguments.empty();
-        const double value = has_value ? symbol.arguments.front() : 0.0;
-        const auto with = [](Action action, double number) { return Command{action, number, {}}; };
-        if (forward.contains(letter)) return with(Action::draw, has_value ? value : 1.0);
-        if (move.contains(letter)) return with(Action::move, has_value ? value : 1.0);
+        const bool takes_argument = symbol.arity > 0;
+        const bool has_value = takes_argument || !symbol.arguments.empty();
+        const double value = takes_argument ? 1.0 : has_value ? symbol.arguments.front() : 0.0;
+        const auto with = [](Action action, double number) { return Command{action, number, {}, false}; };
+        const auto with_value = [&](Action action, double otherwise) {
+            return has_value ? Command{action, value, {}, takes_argument} : with(action, otherwise);
+        };
+        if (forward.contains(letter)) return with_value(Action::draw, 1.0);
+        if (move.contains(letter)) return with_value(Action::move, 1.0);
         if (letter.size() == 2 && letter[0] == '@') {
-            if (letter[1] == 'O') return with(Action::disc, has_value ? value : 1.0);
+            if (letter[1] == 'O') return with_value(Action::disc, 1.0);
             if (letter[1] == '.') return with(Action::disc, 0.0);
             return {};
         }
@@ -665,12 +966,13 @@ private:
         switch (letter[0]) {
             case '+':
             case '-': {
-                const Angle angle = has_value ? angle_of_degrees(value) : increment_;
                 const bool left = (letter[0] == '+') == plus_turns_left_;
-                return {Action::turn, 0.0, left ? angle : negated(angle)};
+                if (takes_argument) return {Action::turn, left ? 1.0 : -1.0, {}, true};
+                const Angle angle = has_value ? angle_of_degrees(value) : increment_;
+                return {Action::turn, 0.0, left ? angle : negated(angle), false};
             }
             case '|':
-                return {Action::turn, 0.0, Angle{180.0, TurnFraction{1, 2}}};
+                return {Action::turn, 0.0, Angle{180.0, TurnFraction{1, 2}}, false};
             case '[':
                 return with(Action::push, 0);
             case ']':
@@ -680,14 +982,14 @@ private:
             case '}':
                 return with(Action::polygon_end, 0);
             case '#':
-                return has_value ? with(Action::width_set, value) : with(Action::width_factor, 1.25);
+                return has_value ? with_value(Action::width_set, 0) : with(Action::width_factor, 1.25);
             case '!':
-                return has_value ? with(Action::width_set, value) : with(Action::width_factor, 0.8);
+                return has_value ? with_value(Action::width_set, 0) : with(Action::width_factor, 0.8);
             case '\'':
             case ';':
-                return has_value ? with(Action::colour_set, value) : with(Action::colour_step, 1);
+                return has_value ? with_value(Action::colour_set, 0) : with(Action::colour_step, 1);
             case ',':
-                return has_value ? with(Action::colour_set, value) : with(Action::colour_step, -1);
+                return has_value ? with_value(Action::colour_set, 0) : with(Action::colour_step, -1);
             default:
                 return {};
         }
@@ -805,10 +1107,10 @@ private:
             std::all_of(table.productions_.begin(), table.productions_.end(), [](const Production& production) {
                 return !production.has_context() && production.predecessor.size() == 1;
             });
-        if (table.context_free_) {
+        if (table.context_free_ && grammar_.is_plain()) {
             table.first_.assign(symbols, -1);
-            for (std::size_t i = 0; i < table.productions_.size(); ++i) {
-                table.first_[table.productions_[i].predecessor.front()] = static_cast<std::int32_t>(i);
+            for (std::size_t i = table.productions_.size(); i > 0; --i) {
+                table.first_[table.productions_[i - 1].predecessor.front()] = static_cast<std::int32_t>(i - 1);
             }
             return;
         }
@@ -836,6 +1138,10 @@ private:
     std::set<std::string, std::less<>> name_set_;
     std::size_t longest_name_ = 0;
     std::map<std::string_view, double> defines_;
+    std::unordered_map<std::string_view, std::uint32_t> formals_;  // slots, of the production being read
+    std::uint32_t draws_ = 1;                                      // draw 0 chooses among weights
+    std::unordered_set<std::string> types_;                        // of modules that state their parameters
+    std::map<Symbol, Span> looked_at_;  // by predecessors and contexts of parametric systems
     static constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
     std::array<Symbol, 256> plain_symbols_ = [] {
         std::array<Symbol, 256> symbols{};
@@ -853,12 +1159,6 @@ private:
 
 Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics) {
     return GrammarCompiler(pattern, diagnostics).run();
-}
-
-std::span<const std::uint32_t> Table::candidates(Symbol symbol) const {
-    if (symbol + 1 >= candidate_begin_.size()) return {};
-    return std::span(candidate_list_)
-        .subspan(candidate_begin_[symbol], candidate_begin_[symbol + 1] - candidate_begin_[symbol]);
 }
 
 bool Grammar::make_schedule(std::string* problem) {
@@ -909,13 +1209,13 @@ std::vector<char> Grammar::reachable() const {
         }
     };
     const auto follow = [&](const Table& table, Symbol symbol) {
-        if (!table.context_free()) {
+        if (!table.context_free() || !is_plain()) {
             for (const std::uint32_t i : table.candidates(symbol)) visit(table.production(i).successor);
         } else if (const Word* successor = table.successor(symbol)) {
             visit(*successor);
         }
     };
-    visit(*axiom_);
+    visit(axiom());
     while (!pending.empty()) {
         const Symbol symbol = pending.back();
         pending.pop_back();
@@ -933,7 +1233,13 @@ std::optional<Grammar> Grammar::with_steps(std::int64_t steps) const {
     return other;
 }
 
-Grammar Grammar::after(std::int64_t steps, std::shared_ptr<const Word> word) && {
+std::int64_t Grammar::steps_done() const {
+    std::int64_t left = 0;
+    for (const ScheduleRun& run : schedule_) left += run.steps;
+    return steps_ - left;
+}
+
+Grammar Grammar::after(std::int64_t steps, std::shared_ptr<const ModuleWord> word) && {
     begun_ = true;
     axiom_ = std::move(word);
     for (ScheduleRun& run : schedule_) {
@@ -959,7 +1265,54 @@ Grammar Grammar::with_map(const std::vector<Symbol>& map) const {
     return other;
 }
 
+std::optional<Grammar> Grammar::written_out(const ModuleWord& word) const {
+    Grammar other = *this;
+    other.tables_.assign(1, Table());
+    other.interpretation_.reset();
+    other.schedule_.clear();
+    other.schedule_items_ = nullptr;
+    other.begun_ = true;
+    other.is_parametric_ = other.is_stochastic_ = false;
+    other.cut_.reset();
+    ModuleWord written;
+    std::unordered_map<std::string, Symbol> known;  // by symbol and the bytes of its arguments
+    std::string key;
+    const double* next = word.arguments.data();
+    for (const Symbol symbol : word.symbols) {
+        const SymbolInfo& info = symbols_[symbol];
+        const std::span<const double> arguments(next, info.arity);
+        next += info.arity;
+        if (arguments.empty()) {
+            written.symbols.push_back(symbol);
+            continue;
+        }
+        key.assign(reinterpret_cast<const char*>(&symbol), sizeof(symbol));
+        key.append(reinterpret_cast<const char*>(arguments.data()), arguments.size_bytes());
+        const auto [found, fresh] = known.try_emplace(key, static_cast<Symbol>(other.symbols_.size()));
+        written.symbols.push_back(found->second);
+        if (!fresh) continue;
+        if (other.symbols_.size() >= most_symbols) return std::nullopt;
+        SymbolInfo own = info;
+        own.arguments.assign(arguments.begin(), arguments.end());
+        own.arity = 0;
+        Command& command = own.command;
+        if (command.takes_argument) {
+            command.value *= arguments.front();
+            command.takes_argument = false;
+            if (command.action == Action::turn) {
+                command.angle = angle_of_degrees(command.value);
+                command.value = 0;
+            }
+        }
+        other.symbols_.push_back(std::move(own));
+        other.ignored_.push_back(ignored_[symbol]);
+    }
+    other.axiom_ = std::make_shared<const ModuleWord>(std::move(written));
+    return other;
+}
+
 std::int64_t Grammar::whole_word_steps() const {
+    if (cut_) return steps_ - steps_done();
     std::int64_t last = 0;
     std::int64_t before = 0;
     for (const ScheduleRun& run : schedule_) {
@@ -969,17 +1322,20 @@ std::int64_t Grammar::whole_word_steps() const {
     return last;
 }
 
-std::string symbol_text(const SymbolInfo& symbol) {
+std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments) {
     std::string text = symbol.letter;
-    for (std::size_t i = 0; i < symbol.arguments.size(); ++i) {
-        const double value = symbol.arguments[i];
+    if (symbol.arity == 0) arguments = symbol.arguments;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const double value = arguments[i];
+        text += i == 0 ? '(' : ',';
         // What no number can say is said by what gives it.
-        const std::string digits = std::isnan(value)   ? "0/0"
-                                   : std::isinf(value) ? (value > 0 ? "1/0" : "-1/0")
-                                                       : fmt::format("{}", value);
-        text += fmt::format("{}{}", i == 0 ? '(' : ',', digits);
+        if (std::isfinite(value)) {
+            fmt::format_to(std::back_inserter(text), "{}", value);
+        } else {
+            text += std::isnan(value) ? "0/0" : value > 0 ? "1/0" : "-1/0";
+        }
     }
-    if (!symbol.arguments.empty()) text += ')';
+    if (!arguments.empty()) text += ')';
     return text;
 }
 
@@ -987,7 +1343,7 @@ bool needs_blank(const Grammar& grammar, Symbol before, Symbol after) {
     const SymbolInfo& one = grammar.symbols()[before];
     const SymbolInfo& other = grammar.symbols()[after];
     if (one.is_name || other.is_name) return true;
-    if (grammar.names().empty() || !one.arguments.empty()) return false;
+    if (grammar.names().empty() || one.arity > 0 || !one.arguments.empty()) return false;
     // Two letters that begin a name could be read as it, together with what follows.
     const std::string both = one.letter + other.letter;
     const auto found = std::lower_bound(grammar.names().begin(), grammar.names().end(), both);
@@ -999,6 +1355,18 @@ std::string to_text(const Grammar& grammar, std::span<const Symbol> word) {
     for (std::size_t i = 0; i < word.size(); ++i) {
         if (i > 0 && needs_blank(grammar, word[i - 1], word[i])) text += ' ';
         text += symbol_text(grammar.symbols()[word[i]]);
+    }
+    return text;
+}
+
+std::string to_text(const Grammar& grammar, const ModuleWord& word) {
+    std::string text;
+    const double* next = word.arguments.data();
+    for (std::size_t i = 0; i < word.symbols.size(); ++i) {
+        const SymbolInfo& symbol = grammar.symbols()[word.symbols[i]];
+        if (i > 0 && needs_blank(grammar, word.symbols[i - 1], word.symbols[i])) text += ' ';
+        text += symbol_text(symbol, {next, symbol.arity});
+        next += symbol.arity;
     }
     return text;
 }

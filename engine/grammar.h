@@ -1,6 +1,7 @@
 // engine/grammar.h: a checked L-system, ready to be derived: symbols as numbers, productions in tables, a schedule.
 #pragma once
 
+#include "engine/expression.h"
 #include "engine/pattern.h"
 
 #include <cstdint>
@@ -13,9 +14,17 @@
 namespace sikku {
 
 /// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)`
-/// and `F(2.5)` are three symbols.
+/// and `F(2.5)` are three symbols; or, where a production names or computes the parameters, the type of a module:
+/// a letter with their number, the values standing beside the symbols of a word.
 using Symbol = std::uint32_t;
 using Word = std::vector<Symbol>;
+
+/// A word with what is a module's own.
+struct ModuleWord {
+    Word symbols;
+    std::vector<double> arguments;      ///< SymbolInfo::arity values for each symbol, in order
+    std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol, or none: that of an axiom
+};
 
 /// A rational number of whole turns (360 degrees), in lowest terms, denominator > 0.
 struct TurnFraction {
@@ -49,6 +58,8 @@ struct Command {
     Action action = Action::pass;
     double value = 0.0;
     Angle angle;
+    /// The module's first argument times `value` is the value; of a turn, degrees anticlockwise.
+    bool takes_argument = false;
 };
 
 /// A symbol as the file writes it.
@@ -58,14 +69,20 @@ struct SymbolInfo {
     bool is_name = false;            ///< listed under `symbols:`
     std::uint32_t letter_index = 0;  ///< the same for `F` and `F(2)`; into Grammar::letters()
     Command command;
+    std::uint32_t arity = 0;  ///< number of parameters that each module states for itself
 };
 
-/// left < predecessor > right --> successor
+/// left < predecessor > right : condition --> successor : weight
+/// Expressions take the arguments of left, predecessor and right, in this order, as formal parameters.
 struct Production {
     Word left;
     Word predecessor;
-    Word right;
+    Word right;  ///< with brackets that balance, if it looks into branches
     Word successor;
+    std::optional<Expression> condition{};  ///< none: always
+    std::optional<Expression> weight{};     ///< none: not chosen by chance
+    std::vector<Expression> arguments{};    ///< of the successor's symbols with arity, in order
+    std::uint32_t group = 0;                ///< the same in a table for equal predecessor and contexts
     bool has_context() const { return !left.empty() || !right.empty(); }
 };
 
@@ -74,23 +91,30 @@ class Table {
 public:
     /// True if every production replaces one symbol whatever its neighbours are.
     bool context_free() const { return context_free_; }
-    /// Context-free tables: the successor of a symbol, or null if it stays as it is.
+    /// Context-free tables of plain grammars: the successor of a symbol, or null if it stays as it is.
     const Word* successor(Symbol symbol) const {
         const std::int32_t index = symbol < first_.size() ? first_[symbol] : -1;
         return index < 0 ? nullptr : &productions_[static_cast<std::size_t>(index)].successor;
     }
-    /// The productions whose predecessor begins with `symbol`, in the order in which they are tried.
-    std::span<const std::uint32_t> candidates(Symbol symbol) const;
+    /// Other tables: the productions whose predecessor begins with `symbol`, in the order in which they are tried.
+    std::span<const std::uint32_t> candidates(Symbol symbol) const {
+        if (std::size_t{symbol} + 1 >= candidate_begin_.size()) return {};
+        return std::span(candidate_list_)
+            .subspan(candidate_begin_[symbol], candidate_begin_[symbol + 1] - candidate_begin_[symbol]);
+    }
     const Production& production(std::uint32_t index) const { return productions_[index]; }
     const std::vector<Production>& productions() const { return productions_; }
+    /// Do conditions depend on chance, so that a module that stays in one step may not in the next?
+    bool has_random_conditions() const { return has_random_conditions_; }
 
 private:
     friend class GrammarCompiler;
     friend class Grammar;
     std::vector<Production> productions_;
     bool context_free_ = true;
-    std::vector<std::int32_t> first_;            // context-free: by symbol, index of the production or -1
-    std::vector<std::uint32_t> candidate_list_;  // else: grouped by first symbol
+    bool has_random_conditions_ = false;
+    std::vector<std::int32_t> first_;            // by symbol, index of the production or -1
+    std::vector<std::uint32_t> candidate_list_;  // grouped by first symbol
     std::vector<std::uint32_t> candidate_begin_;
 };
 
@@ -105,7 +129,8 @@ class Grammar {
 public:
     const std::vector<SymbolInfo>& symbols() const { return symbols_; }
     const std::vector<std::string>& letters() const { return letters_; }
-    const Word& axiom() const { return *axiom_; }
+    const Word& axiom() const { return axiom_->symbols; }
+    const ModuleWord& axiom_modules() const { return *axiom_; }
     const std::vector<Table>& tables() const { return tables_; }
     /// The homomorphism, or null.
     const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
@@ -114,6 +139,20 @@ public:
     /// Which table applies in which step, from the first to the last; steps sum to steps(), unless after() has taken
     /// the first of them away.
     const std::vector<ScheduleRun>& schedule() const { return schedule_; }
+    /// Steps that after() has taken away.
+    std::int64_t steps_done() const;
+
+    /// Some modules state their parameters for themselves.
+    bool is_parametric() const { return is_parametric_; }
+    /// Some successors, conditions or parameters are a matter of chance.
+    bool is_stochastic() const { return is_stochastic_; }
+    /// Neither: what a symbol becomes depends on nothing but the table, and on its neighbours in tables that are not
+    /// context-free. Only such systems are forecast and folded.
+    bool is_plain() const { return !is_parametric_ && !is_stochastic_; }
+    /// Where chance starts.
+    std::uint64_t seed() const { return seed_; }
+    /// The symbol `%`, if words hold it: a step begins by removing it and what follows in its branch.
+    std::optional<Symbol> cut() const { return cut_; }
 
     const Angle& heading() const { return heading_; }
     double scale_percent() const { return scale_percent_; }
@@ -132,7 +171,7 @@ public:
 
     /// What is left to do once `word` has been derived by the first `steps` steps. It keeps steps(), and has no
     /// with_steps().
-    Grammar after(std::int64_t steps, std::shared_ptr<const Word> word) &&;
+    Grammar after(std::int64_t steps, std::shared_ptr<const ModuleWord> word) &&;
     bool is_begun() const { return begun_; }
     /// True if the file says which table applies when; else one table applies in every step.
     bool has_schedule() const { return schedule_items_ != nullptr; }
@@ -140,8 +179,12 @@ public:
     /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
     Grammar with_map(const std::vector<Symbol>& map) const;
 
+    /// A plain system with nothing left to derive or to interpret, whose word is `word`: modules that state their
+    /// parameters become symbols of their own. Nullopt if there are more than 524,288 of them.
+    std::optional<Grammar> written_out(const ModuleWord& word) const;
+
     /// The number of steps from the beginning up to and including the last that needs whole words (contexts,
-    /// predecessors of several symbols); 0 if the system is context-free throughout.
+    /// predecessors of several symbols, cuts); 0 if the system is context-free throughout.
     std::int64_t whole_word_steps() const;
 
 private:
@@ -151,11 +194,16 @@ private:
 
     std::vector<SymbolInfo> symbols_;
     std::vector<std::string> letters_;
-    std::shared_ptr<const Word> axiom_ = std::make_shared<const Word>();  // shared by copies: it may be large
+    // Shared by copies: it may be large.
+    std::shared_ptr<const ModuleWord> axiom_ = std::make_shared<const ModuleWord>();
     std::vector<Table> tables_;
     std::optional<Table> interpretation_;
     std::int64_t steps_ = 0;
     bool begun_ = false;
+    bool is_parametric_ = false;
+    bool is_stochastic_ = false;
+    std::uint64_t seed_ = 0;
+    std::optional<Symbol> cut_;
     std::vector<ScheduleRun> schedule_;
     std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
     Angle heading_;
@@ -170,11 +218,13 @@ Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics);
 
 /// The symbols of `word` as `sikku derive` prints them.
 std::string to_text(const Grammar& grammar, std::span<const Symbol> word);
+std::string to_text(const Grammar& grammar, const ModuleWord& word);
 
 /// True if a blank is needed between two symbols, so that the text reads back as the same two.
 bool needs_blank(const Grammar& grammar, Symbol before, Symbol after);
 
 /// One symbol as it is printed, parameters in the shortest digits that read back the same.
-std::string symbol_text(const SymbolInfo& symbol);
+/// @param arguments  those of the module, if its symbol has none of its own
+std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments = {});
 
 }  // namespace sikku

@@ -98,12 +98,13 @@ Lattice make_lattice(const Grammar& grammar) {
     for (const SymbolInfo& symbol : grammar.symbols()) {
         const Command& command = symbol.command;
         if (command.action == Action::turn && whole_headings) {
-            whole_headings = command.angle.exact && command.angle.exact->denominator <= most_headings;
+            whole_headings =
+                !command.takes_argument && command.angle.exact && command.angle.exact->denominator <= most_headings;
             if (whole_headings) k = std::lcm(k, command.angle.exact->denominator);
             whole_headings = whole_headings && k <= most_headings;
         }
         if ((command.action == Action::draw || command.action == Action::move) && whole_lengths) {
-            const std::int64_t needed = decimal_denominator(command.value);
+            const std::int64_t needed = command.takes_argument ? 0 : decimal_denominator(command.value);
             whole_lengths = needed > 0;
             if (whole_lengths) denominator = std::lcm(denominator, needed);
             whole_lengths = whole_lengths && denominator <= largest_unit;

@@ -147,7 +147,7 @@ bool Parts<Number>::find_headings(const Grammar& grammar, const std::vector<std:
 template <class Number>
 std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool moves_draw) {
     const Lattice lattice = make_lattice(grammar);
-    if (grammar.whole_word_steps() > 0 || lattice.headings == 0) return std::nullopt;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0 || lattice.headings == 0) return std::nullopt;
     Parts parts;
     parts.headings_ = lattice.headings;
     parts.symbols_ = grammar.symbols().size();

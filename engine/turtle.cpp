@@ -33,6 +33,9 @@ public:
         const auto& power = powers_[state.heading];
         for (std::size_t i = 0; i < Rank; ++i) state.at[i] += power[i] * length;
     }
+    // Modules that state their steps or angles lie on no lattice.
+    void step_by(State&, double) const {}
+    void turn_by(State&, double) const {}
     void turn(State& state, Symbol symbol) const {
         state.heading += lattice_.turn[symbol];
         if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
@@ -72,8 +75,8 @@ public:
     };
 
     PlaneWalker(const Lattice& lattice, const Grammar& grammar) : lattice_(lattice), grammar_(grammar) {}
-    void step(State& state, Symbol symbol) const {
-        const double length = grammar_.symbols()[symbol].command.value;
+    void step(State& state, Symbol symbol) const { step_by(state, grammar_.symbols()[symbol].command.value); }
+    void step_by(State& state, double length) const {
         const glm::dvec2 direction = lattice_.headings > 0 ? lattice_.direction[state.heading]
                                                            : unit_vector(lattice_.first_heading + state.degrees);
         state.at += length * direction;
@@ -83,9 +86,10 @@ public:
             state.heading += lattice_.turn[symbol];
             if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
         } else {
-            state.degrees = std::fmod(state.degrees + grammar_.symbols()[symbol].command.angle.degrees, 360.0);
+            turn_by(state, grammar_.symbols()[symbol].command.angle.degrees);
         }
     }
+    void turn_by(State& state, double degrees) const { state.degrees = std::fmod(state.degrees + degrees, 360.0); }
     glm::dvec2 point(const State& state) const { return state.at; }
     double heading(const State& state) const {
         return lattice_.first_heading +
@@ -111,31 +115,29 @@ public:
           moves_draw_(moves_draw) {
         for (const SymbolInfo& symbol : grammar.symbols()) {
             commands_.push_back({symbol.command.action, symbol.command.value,
-                                 std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees)});
+                                 std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees),
+                                 symbol.command.takes_argument, symbol.arity});
         }
         points_.reserve(points_in_block);
     }
 
     void symbols(const Run& run) override {
         const std::uint64_t first = position_;
-        for (const Symbol symbol : run.symbols) {
-            ++position_;
-            const Instruction& command = commands_[symbol];
-            switch (command.action) {
-                case Action::pass:
-                    break;
-                case Action::draw:
-                    step(symbol, command, true);
-                    break;
-                case Action::move:
-                    step(symbol, command, false);
-                    break;
-                case Action::turn:
-                    require_finite(command);
-                    walker_.turn(state_.place, symbol);
-                    break;
-                default:
-                    rare(command);
+        if (run.arguments.empty()) {
+            for (const Symbol symbol : run.symbols) obey<false>(symbol, commands_[symbol]);
+        } else {
+            const double* next = run.arguments.data();
+            for (const Symbol symbol : run.symbols) {
+                const Instruction& command = commands_[symbol];
+                if (command.takes_argument) {
+                    Instruction own = command;
+                    own.value *= *next;
+                    own.finite = std::isfinite(own.value);
+                    obey<true>(symbol, own);
+                } else {
+                    obey<false>(symbol, command);
+                }
+                next += command.arity;
             }
         }
         if (!walker_.in_range(state_.place)) {
@@ -183,7 +185,44 @@ private:
         Action action;
         double value;
         bool finite;
+        bool takes_argument;
+        std::uint32_t arity;
     };
+
+    /// With `Own`, a module that states the command's value.
+    template <bool Own>
+    void obey(Symbol symbol, const Instruction& command) {
+        ++position_;
+        switch (command.action) {
+            case Action::pass:
+                break;
+            case Action::draw:
+                step<Own>(symbol, command, true);
+                break;
+            case Action::move:
+                step<Own>(symbol, command, false);
+                break;
+            case Action::turn:
+                require_finite(command);
+                if constexpr (Own) {
+                    walker_.turn_by(state_.place, command.value);
+                } else {
+                    walker_.turn(state_.place, symbol);
+                }
+                break;
+            default:
+                rare(command);
+        }
+    }
+
+    template <bool Own>
+    void walk(Symbol symbol, const Instruction& command) {
+        if constexpr (Own) {
+            walker_.step_by(state_.place, command.value);
+        } else {
+            walker_.step(state_.place, symbol);
+        }
+    }
 
     void require_finite(const Instruction& command) const {
         if (!command.finite) {
@@ -191,11 +230,12 @@ private:
         }
     }
 
+    template <bool Own>
     void step(Symbol symbol, const Instruction& command, bool drawn) {
         require_finite(command);
         if constexpr (Surveying) {
             if (drawn) note_ink(walker_.point(state_.place));
-            walker_.step(state_.place, symbol);
+            walk<Own>(symbol, command);
             const glm::dvec2 point = walker_.point(state_.place);
             widen(survey_.box, point);
             ++survey_.moves;
@@ -207,13 +247,13 @@ private:
         } else {
             if (drawn || moves_draw_) {
                 lower();
-                walker_.step(state_.place, symbol);
+                walk<Own>(symbol, command);
                 points_.push_back(walker_.point(state_.place));
                 if (places_) note_place();
                 if (points_.size() == points_in_block) flush();
             } else {
                 lift();
-                walker_.step(state_.place, symbol);
+                walk<Own>(symbol, command);
             }
             if (!polygons_.empty()) {
                 Polygon& polygon = polygons_.back();

@@ -1247,12 +1247,13 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
     return Player(grammar, melody, options).play(sink);
 }
 
 std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
-    if (melody.mapping != Mapping::runs || given.whole_word_steps() > 0) return std::nullopt;
+    if (melody.mapping != Mapping::runs || !given.is_plain() || given.whole_word_steps() > 0) return std::nullopt;
     const Grammar grammar = shorten(given);
     const auto fold = MelodyFold::make(grammar);
     if (!fold) return std::nullopt;

@@ -100,7 +100,7 @@ bool is_on_grid(const Lattice& lattice, int& first_direction) {
 std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar) {
     const Lattice lattice = make_lattice(grammar);
     MelodyFold fold;
-    if (grammar.whole_word_steps() > 0 || !is_on_grid(lattice, fold.first_direction_)) return std::nullopt;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0 || !is_on_grid(lattice, fold.first_direction_)) return std::nullopt;
     const std::vector<char> needed = grammar.reachable();
     std::size_t levels = 1 + (grammar.interpretation() ? 1 : 0);
     for (const ScheduleRun& run : grammar.schedule()) levels += static_cast<std::size_t>(run.steps);

@@ -153,23 +153,6 @@ TEST(Productions, InterpretationsReplaceSingleSymbols) {
     EXPECT_EQ(derived_text(text, true), "[F]");
 }
 
-TEST(Productions, WhatIsNotSupportedYetIsToldWithItsPlace) {
-    expect_mistakes("axiom: A(1)\nA(x) --> A(x)\n", {{{2, 2}, "formal parameters are not supported yet"}});
-    expect_mistakes("axiom: A\nB < A > C(y) --> A\n", {{{2, 10}, "formal parameters are not supported yet"}});
-    expect_mistakes("axiom: A\nB(x) < A --> A\n", {{{2, 2}, "formal parameters are not supported yet"}});
-    expect_mistakes("axiom: A\nA : 1 > 0 --> A\n", {{{2, 5}, "conditions are not supported yet"}});
-    expect_mistakes("axiom: A\nA --> AB : 0.5\n", {{{2, 12}, "weights are not supported yet"}});
-    expect_mistakes("axiom: A\nA --> A%B\n", {{{2, 8}, "'%' is not supported yet"}});
-    expect_mistakes("axiom: A%B\n", {{{1, 9}, "'%' is not supported yet"}});
-    expect_mistakes("axiom: A\nA > B[C] --> A\n", {{{2, 6}, "brackets in a right context are not supported yet"}});
-    expect_mistakes("axiom: A\nA > [] --> A\n", {{{2, 5}, "brackets in a right context are not supported yet"}});
-    expect_mistakes("axiom: A\n[ < A --> A\n", {{{2, 1}, "left context"}});
-    expect_mistakes("axiom: A(random(0, 1))\n", {{{1, 10}, "'random'"}});
-    // All of them at once.
-    expect_mistakes("axiom: A\nA(x) --> A\nB : 1 --> A\nC --> D : 2\nE --> %\n",
-                    {{{2, 2}, "formal"}, {{3, 5}, "conditions"}, {{4, 11}, "weights"}, {{5, 7}, "'%'"}});
-}
-
 TEST(Productions, ThePfgProgramsFilesAreReadAsTheyStand) {
     // Prusinkiewicz & Hanan 1989, figure 3.11a, as printed but for the line that the scan ran together.
     const Grammar grammar = grammar_of(

@@ -26,6 +26,14 @@ const std::string signal =
     "axiom: F1F1F1\nignore: +-F\nangle factor: 16\n0 < 0 > 0 --> 0\n0 < 0 > 1 --> 1[+F1F1]\n0 < 1 > 0 --> 1\n"
     "0 < 1 > 1 --> 1\n1 < 0 > 0 --> 0\n1 < 0 > 1 --> 1F1\n1 < 1 > 0 --> 0\n1 < 1 > 1 --> 0\n+ --> -\n- --> +\n";
 
+// Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 11 with the values of table 1 a.
+const std::string honda =
+    "define r1 = .75\ndefine r2 = .77\ndefine q = .5\ndefine e = .4\ndefine min = 0\naxiom: A(100,30)\nangle factor: "
+    "8\n"
+    "A(s,w) : s >= min --> !(w)F(s)[+(35)/(0)A(s*r1,w*q^e)][+(-35)/(0)A(s*r2,w*(1-q)^e)]\n";
+// Prusinkiewicz & Hanan 1989, figure 3.16.
+const std::string specimen =
+    "axiom: F\nangle factor: 14\nF --> F[+F]F[-F]F : 0.33\nF --> F[+F]F : 0.33\nF --> F[-F]F : 0.34\n";
 class Counter : public SymbolSink {
 public:
     void symbols(const Run& run) override { count += run.symbols.size(); }
@@ -83,6 +91,37 @@ void measure_hilbert(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(measure(grammar, 1e6));
 }
 
+void modules(benchmark::State& state, const std::string& text, std::int64_t steps) {
+    const Grammar grammar = grammar_of(text, steps);
+    std::uint64_t symbols = 0;
+    for (auto _ : state) {
+        Counter counter;
+        derive(grammar, counter);
+        symbols += counter.count;
+    }
+    state.counters["modules/s"] = benchmark::Counter(static_cast<double>(symbols), benchmark::Counter::kIsRate);
+}
+
+/// One step, with contexts, of a word of ten million symbols.
+void a_step_with_contexts(benchmark::State& state, bool parametric) {
+    const std::int64_t size = 10'000'000;
+    std::string axiom = "ignore: +-\naxiom: ";
+    const std::string part = parametric ? "A(1)[+B(2)]A(3)-" : "A[+B]AA-";
+    const std::int64_t symbols_of_part = parametric ? 7 : 8;
+    for (std::int64_t i = 0; i < size / symbols_of_part; ++i) axiom += part;
+    axiom += parametric ? "\nA(x) < A(y) : x <= y --> A(x+y)\nA(x) > [B(y)]A(z) --> A(x+y+z)\n"
+                        : "\nA < A > A --> B\nB < A --> A\nA > [B] --> C\n";
+    const Grammar grammar = grammar_of(axiom, 1);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(rewrite(grammar, grammar.tables()[0], grammar.axiom_modules(), 1));
+    }
+    state.counters["symbols"] = static_cast<double>(grammar.axiom().size());
+}
+
+BENCHMARK_CAPTURE(modules, honda_17, honda, 17)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(modules, specimen_10, specimen, 10)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(a_step_with_contexts, plain, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(a_step_with_contexts, parametric, true)->Unit(benchmark::kMillisecond);
 BENCHMARK(derivation_of_117_million_symbols)->Unit(benchmark::kMillisecond);
 BENCHMARK(context_sensitive_derivation)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(turtle, hilbert_10, hilbert, 10)->Unit(benchmark::kMillisecond);

@@ -175,6 +175,50 @@ inline void compare(const Fold& fold, const Survey& survey, const Lattice& latti
     if (lattice.rank > 0) require(fold.closed == survey.closed, "fold and turtle disagree on closedness");
 }
 
+/// Parameters, chance and cuts: streamed, on whole words, and as a plain word, the same comes out.
+inline void try_modules(const Grammar& grammar, double most_nodes) {
+    class ModuleSink : public SymbolSink {
+    public:
+        explicit ModuleSink(const Grammar& its) : grammar_(its) {}
+        void symbols(const Run& run) override {
+            std::size_t own = 0;
+            for (const Symbol symbol : run.symbols) own += grammar_.symbols().at(symbol).arity;
+            require(!run.symbols.empty() && own == run.arguments.size(),
+                    "a run has not the arguments of its modules");
+            word.symbols.insert(word.symbols.end(), run.symbols.begin(), run.symbols.end());
+            word.arguments.insert(word.arguments.end(), run.arguments.begin(), run.arguments.end());
+        }
+        ModuleWord word;
+
+    private:
+        const Grammar& grammar_;
+    };
+    DerivationOptions options;
+    options.limit_whole_words(40 * most_nodes);
+    options.most_nodes = most_nodes;
+    ModuleWord whole = grammar.axiom_modules();
+    std::int64_t step = 0;
+    for (const ScheduleRun& run : grammar.schedule()) {
+        for (std::int64_t i = 0; i < run.steps; ++i) {
+            whole = rewrite(grammar, grammar.tables()[run.table], whole, ++step, options);
+        }
+    }
+    ModuleSink streamed(grammar);
+    derive(grammar, streamed, options);
+    require(to_text(grammar, whole) == to_text(grammar, streamed.word), "streamed and rewritten words differ");
+    options.interpreted = true;
+    ModuleSink interpreted(grammar);
+    derive(grammar, interpreted, options);
+    const Grammar written = write_out(grammar, options);
+    require(written.is_plain() && to_text(written, written.axiom()) == to_text(grammar, interpreted.word),
+            "the word written out is another");
+    measure(grammar, most_nodes);
+    StrictPathSink strict;
+    const auto turtle = Turtle::drawing(grammar, strict, false);
+    derive(grammar, *turtle, options);
+    require(!strict.is_open(), "the last stroke is not ended");
+}
+
 /// Compiles bytes and derives them in every way there is, within a small budget.
 inline void try_derivation(std::string_view bytes) {
     constexpr std::uint64_t most_nodes = 20'000;
@@ -186,6 +230,7 @@ inline void try_derivation(std::string_view bytes) {
         const Grammar whole = shorten(*compiled.grammar);
         const auto cut = whole.with_steps(std::min(whole.steps(), most_steps_here));
         if (!cut) return;
+        if (!cut->is_plain() || cut->cut()) return try_modules(*cut, most_nodes);
         DerivationOptions options;
         options.limit_whole_words(40.0 * most_nodes);
         const Grammar grammar = resolve_contexts(*cut, options);

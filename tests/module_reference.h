@@ -1,0 +1,696 @@
+// tests/module_reference.h: a slow and obvious second way to words with parameters, chance, cuts and contexts in
+// brackets: lists of modules, expressions read anew each time they are evaluated.
+#pragma once
+
+#include "engine/chance.h"
+#include "tests/reference.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku::reference {
+
+using Values = std::map<std::string, double>;
+
+/// Recursive descent, one function a level of precedence.
+class Calculator {
+public:
+    /// @param draw  number of the first `random` in it
+    Calculator(const std::string& text, const Values& values, const Chance& chance, std::uint32_t draw)
+        : text_(text), values_(values), chance_(chance), draw_(draw) {}
+    double result() {
+        const double value = either();
+        if (peek() != '\0') throw std::logic_error("left over in " + text_);
+        return value;
+    }
+
+private:
+    char peek() {
+        while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+        return at_ < text_.size() ? text_[at_] : '\0';
+    }
+    bool take(const std::string& token) {
+        peek();
+        if (text_.compare(at_, token.size(), token) != 0) return false;
+        at_ += token.size();
+        return true;
+    }
+    double either() {
+        double value = both();
+        while (take("||")) {
+            const double other = both();
+            value = value != 0 || other != 0;
+        }
+        return value;
+    }
+    double both() {
+        double value = equality();
+        while (take("&&")) {
+            const double other = equality();
+            value = value != 0 && other != 0;
+        }
+        return value;
+    }
+    double equality() {
+        double value = order();
+        while (true) {
+            if (take("==")) {
+                value = value == order();
+            } else if (take("!=")) {
+                value = value != order();
+            } else {
+                return value;
+            }
+        }
+    }
+    double order() {
+        double value = sum();
+        while (true) {
+            if (take("<=")) {
+                value = value <= sum();
+            } else if (take(">=")) {
+                value = value >= sum();
+            } else if (take("<")) {
+                value = value < sum();
+            } else if (take(">")) {
+                value = value > sum();
+            } else {
+                return value;
+            }
+        }
+    }
+    double sum() {
+        double value = product();
+        while (true) {
+            if (take("+")) {
+                value = value + product();
+            } else if (take("-")) {
+                value = value - product();
+            } else {
+                return value;
+            }
+        }
+    }
+    double product() {
+        double value = sign();
+        while (true) {
+            if (take("*")) {
+                value = value * sign();
+            } else if (take("/")) {
+                value = value / sign();
+            } else {
+                return value;
+            }
+        }
+    }
+    double sign() {
+        if (take("-")) return -sign();
+        if (peek() == '!' && text_.compare(at_, 2, "!=") != 0 && take("!")) return sign() == 0;
+        const double base = primary();
+        return take("^") ? std::pow(base, sign()) : base;
+    }
+    double primary() {
+        if (take("(")) {
+            const double value = either();
+            take(")");
+            return value;
+        }
+        const char first = peek();
+        if (first == '.' || std::isdigit(static_cast<unsigned char>(first)) != 0) {
+            std::size_t length = 0;
+            const double value = std::stod(text_.substr(at_), &length);
+            at_ += length;
+            return value;
+        }
+        std::string name;
+        const auto goes_on = [](char byte) {
+            return byte == '_' || static_cast<unsigned char>(byte) >= 0x80 ||
+                   std::isalnum(static_cast<unsigned char>(byte)) != 0;
+        };
+        while (goes_on(peek())) name += text_[at_++];
+        if (!take("(")) return values_.at(name);
+        const double a = either();
+        double b = 0;
+        if (take(",")) b = either();
+        take(")");
+        if (name == "random") return a + (b - a) * chance_.uniform(draw_++);
+        if (name == "min") return std::fmin(a, b);
+        if (name == "max") return std::fmax(a, b);
+        if (name == "mod") return std::fmod(a, b);
+        if (name == "sqrt") return std::sqrt(a);
+        if (name == "floor") return std::floor(a);
+        throw std::logic_error("no function " + name);
+    }
+
+    const std::string& text_;
+    const Values& values_;
+    const Chance& chance_;
+    std::uint32_t draw_;
+    std::size_t at_ = 0;
+};
+
+struct Module {
+    std::string letter;
+    std::vector<double> values;
+    std::uint64_t place = 0;
+
+    std::string text() const {
+        std::string text = letter;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            text += i == 0 ? '(' : ',';
+            text += std::isfinite(values[i]) ? fmt::format("{}", values[i])
+                    : std::isnan(values[i])  ? "0/0"
+                    : values[i] > 0          ? "1/0"
+                                             : "-1/0";
+        }
+        return values.empty() ? text : text + ")";
+    }
+};
+using Modules = std::vector<Module>;
+
+/// A letter with names, or with expressions.
+struct Written {
+    std::string letter;
+    std::vector<std::string> parts;
+
+    std::string text() const {
+        std::string text = letter;
+        for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "(" : ",") + parts[i];
+        return parts.empty() ? text : text + ")";
+    }
+    bool is(const Module& module) const { return letter == module.letter && parts.size() == module.values.size(); }
+};
+using WrittenWord = std::vector<Written>;
+
+inline std::string text_of(const WrittenWord& word) {
+    std::string text;
+    for (const Written& module : word) text += module.text();
+    return text.empty() ? "*" : text;
+}
+inline std::string text_of(const Modules& word) {
+    std::string text;
+    for (const Module& module : word) text += module.text();
+    return text;
+}
+
+struct ModuleRule {
+    WrittenWord left, predecessor, right;
+    std::string condition;
+    WrittenWord successor;
+    std::string weight;
+
+    /// Letters and numbers of parameters.
+    std::string shape() const {
+        std::string text;
+        for (const WrittenWord* word : {&left, &predecessor, &right}) {
+            for (const Written& module : *word) text += fmt::format("{}{} ", module.letter, module.parts.size());
+            text += '|';
+        }
+        return text;
+    }
+};
+
+struct ModuleSystem {
+    WrittenWord axiom;
+    std::vector<ModuleRule> rules;
+    std::vector<ModuleRule> interpretation;
+    std::size_t steps = 0;
+    std::uint64_t seed = 0;
+    std::set<std::string> ignored;
+    Values defines;  ///< not written by text()
+
+    std::string text() const {
+        std::string text = fmt::format("axiom: {} \nderivation length: {}\nseed: {}\n", text_of(axiom), steps, seed);
+        if (!ignored.empty()) {
+            text += "ignore: ";
+            for (const std::string& letter : ignored) text += letter;
+            text += " \n";
+        }
+        const auto write = [&](const std::vector<ModuleRule>& productions) {
+            for (const ModuleRule& rule : productions) {
+                if (!rule.left.empty()) text += text_of(rule.left) + " < ";
+                text += text_of(rule.predecessor);
+                if (!rule.right.empty()) text += " > " + text_of(rule.right);
+                if (!rule.condition.empty()) text += " : " + rule.condition;
+                text += " --> " + text_of(rule.successor);
+                if (!rule.weight.empty()) text += " : " + rule.weight;
+                text += " \n";
+            }
+        };
+        write(rules);
+        if (!interpretation.empty()) {
+            text += "interpret:\n";
+            write(interpretation);
+        }
+        return text;
+    }
+};
+
+class ModuleReference {
+public:
+    explicit ModuleReference(const ModuleSystem& system) : system_(system) {
+        // `random` draws by its number in the file; draw 0 chooses among weights.
+        const auto count = [this](const std::string& text) {
+            draws_.try_emplace(&text, next_draw_);
+            for (std::size_t at = text.find("random("); at != std::string::npos; at = text.find("random(", at + 1)) {
+                ++next_draw_;
+            }
+        };
+        const auto count_word = [&](const WrittenWord& word) {
+            for (const Written& module : word) {
+                for (const std::string& part : module.parts) count(part);
+            }
+        };
+        count_word(system.axiom);
+        for (const auto* rules : {&system.rules, &system.interpretation}) {
+            for (const ModuleRule& rule : *rules) {
+                count(rule.condition);
+                count_word(rule.successor);
+                count(rule.weight);
+            }
+        }
+    }
+
+    /// Empty if a word on the way is too long.
+    std::optional<Modules> word(bool interpreted, std::size_t most) {
+        Modules word;
+        for (std::size_t i = 0; i < system_.axiom.size(); ++i) {
+            word.push_back(
+                made(system_.axiom[i], {}, {axiom_place(system_.seed, i), 0}, axiom_place(system_.seed, i)));
+        }
+        std::int64_t step = 0;
+        while (step < static_cast<std::int64_t>(system_.steps)) {
+            word = rewritten(system_.rules, system_.ignored, without_cuts(word), ++step);
+            if (word.size() > most) return std::nullopt;
+        }
+        if (interpreted) word = rewritten(system_.interpretation, {}, word, ++step);
+        return word;
+    }
+
+private:
+    double value(const std::string& text, const Values& values, const Chance& chance) const {
+        if (system_.defines.empty()) return Calculator(text, values, chance, draws_.at(&text)).result();
+        Values all = values;  // formal parameters come first
+        all.insert(system_.defines.begin(), system_.defines.end());
+        return Calculator(text, all, chance, draws_.at(&text)).result();
+    }
+
+    Module made(const Written& module, const Values& values, const Chance& chance, std::uint64_t place) const {
+        Module result{module.letter, {}, place};
+        for (const std::string& part : module.parts) result.values.push_back(value(part, values, chance));
+        return result;
+    }
+
+    static Modules without_cuts(const Modules& word) {
+        Modules result;
+        for (std::size_t i = 0; i < word.size(); ++i) {
+            if (word[i].letter == "%") {
+                int depth = 0;
+                while (i < word.size() && !(word[i].letter == "]" && depth == 0)) {
+                    if (word[i].letter == "[") ++depth;
+                    if (word[i].letter == "]") --depth;
+                    ++i;
+                }
+                if (i == word.size()) break;
+            }
+            result.push_back(word[i]);
+        }
+        return result;
+    }
+
+    static void name(const Written& shape, const Module& module, Values& values) {
+        for (std::size_t i = 0; i < shape.parts.size(); ++i) values[shape.parts[i]] = module.values[i];
+    }
+
+    /// After the ']' that closes the branch whose '[' is at `at`.
+    static std::size_t after_branch(const Modules& word, std::size_t at) {
+        int depth = 0;
+        for (; at < word.size(); ++at) {
+            if (word[at].letter == "[") ++depth;
+            if (word[at].letter == "]" && --depth == 0) return at + 1;
+        }
+        return at;
+    }
+
+    static bool left_fits(const WrittenWord& context, const Modules& word, std::size_t at,
+                          const std::set<std::string>& ignored, Values& values) {
+        auto i = static_cast<std::ptrdiff_t>(at) - 1;
+        for (std::size_t k = context.size(); k > 0;) {
+            if (i < 0) return false;
+            const Module& module = word[static_cast<std::size_t>(i)];
+            if (ignored.contains(module.letter) || module.letter == "[") {
+                --i;
+            } else if (module.letter == "]") {
+                int depth = 0;
+                for (; i >= 0; --i) {
+                    if (word[static_cast<std::size_t>(i)].letter == "]") ++depth;
+                    if (word[static_cast<std::size_t>(i)].letter == "[" && --depth == 0) break;
+                }
+                --i;
+            } else if (context[k - 1].is(module)) {
+                name(context[--k], module, values);
+                --i;
+            } else {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    static bool right_fits(const WrittenWord& context, const Modules& word, std::size_t at,
+                           const std::set<std::string>& ignored, Values& values) {
+        for (std::size_t k = 0; k < context.size(); ++k) {
+            if (context[k].letter == "[") {
+                WrittenWord inner;
+                int depth = 1;
+                for (++k; !(context[k].letter == "]" && depth == 1); ++k) {
+                    if (context[k].letter == "[") ++depth;
+                    if (context[k].letter == "]") --depth;
+                    inner.push_back(context[k]);
+                }
+                while (at < word.size() && ignored.contains(word[at].letter)) ++at;
+                if (at >= word.size() || word[at].letter != "[") return false;
+                if (!right_fits(inner, word, at + 1, ignored, values)) return false;
+                at = after_branch(word, at);
+                continue;
+            }
+            while (at < word.size() && (ignored.contains(word[at].letter) || word[at].letter == "[")) {
+                at = word[at].letter == "[" ? after_branch(word, at) : at + 1;
+            }
+            if (at >= word.size() || !context[k].is(word[at])) return false;
+            name(context[k], word[at++], values);
+        }
+        return true;
+    }
+
+    Modules rewritten(const std::vector<ModuleRule>& rules, const std::set<std::string>& ignored, const Modules& word,
+                      std::int64_t step) const {
+        Modules result;
+        for (std::size_t at = 0; at < word.size();) {
+            const Chance chance{word[at].place, step};
+            const auto fits = [&](const ModuleRule& rule, Values& values) {
+                for (std::size_t i = 0; i < rule.predecessor.size(); ++i) {
+                    if (at + i >= word.size() || !rule.predecessor[i].is(word[at + i])) return false;
+                    name(rule.predecessor[i], word[at + i], values);
+                }
+                return left_fits(rule.left, word, at, ignored, values) &&
+                       right_fits(rule.right, word, at + rule.predecessor.size(), ignored, values) &&
+                       (rule.condition.empty() || value(rule.condition, values, chance) != 0);
+            };
+            const ModuleRule* chosen = nullptr;
+            for (const bool with_context : {true, false}) {
+                for (const ModuleRule& rule : rules) {
+                    Values values;
+                    if (chosen || (rule.left.empty() && rule.right.empty()) == with_context) continue;
+                    if (fits(rule, values)) chosen = &rule;
+                }
+            }
+            if (!chosen) {
+                result.push_back(word[at++]);
+                continue;
+            }
+            if (!chosen->weight.empty()) {
+                std::vector<std::pair<const ModuleRule*, double>> weighted;
+                double sum = 0;
+                for (const ModuleRule& rule : rules) {
+                    Values values;
+                    if (rule.shape() != chosen->shape() || !fits(rule, values)) continue;
+                    weighted.emplace_back(&rule, value(rule.weight, values, chance));
+                    sum += weighted.back().second;
+                }
+                double left = chance.uniform(0) * sum;
+                for (const auto& [rule, weight] : weighted) {
+                    chosen = rule;
+                    left -= weight;
+                    if (left < 0) break;
+                }
+            }
+            Values values;
+            fits(*chosen, values);
+            for (std::size_t i = 0; i < chosen->successor.size(); ++i) {
+                result.push_back(made(chosen->successor[i], values, chance, child_place(word[at].place, i)));
+            }
+            at += chosen->predecessor.size();
+        }
+        return result;
+    }
+
+    const ModuleSystem& system_;
+    std::map<const std::string*, std::uint32_t> draws_;
+    std::uint32_t next_draw_ = 1;
+};
+
+/// What a file with one table states, read by another way.
+inline ModuleSystem module_system_of(const Pattern& pattern) {
+    std::vector<std::string> names;
+    for (std::string rest = pattern.text("symbols"); !rest.empty();) {
+        const std::size_t end = std::min(rest.find(' '), rest.size());
+        if (end > 0) names.push_back(rest.substr(0, end));
+        rest.erase(0, end + 1);
+    }
+    const auto word = [&](std::string_view text) {
+        WrittenWord result;
+        if (text == "*") return result;
+        for (std::size_t at = 0; at < text.size();) {
+            if (text[at] == ' ') {
+                ++at;
+                continue;
+            }
+            std::size_t length = utf8_length(text.substr(at));
+            if (text[at] == '@') length = 2;
+            for (const std::string& name : names) {
+                if (text.substr(at).starts_with(name)) length = std::max(length, name.size());
+            }
+            Written module{std::string(text.substr(at, length)), {}};
+            at += length;
+            if (at < text.size() && text[at] == '(') {
+                int depth = 0;
+                module.parts.emplace_back();
+                do {
+                    const char byte = text[at++];
+                    if (byte == '(' && depth++ == 0) continue;
+                    if (byte == ')' && --depth == 0) break;
+                    if (byte == ',' && depth == 1) {
+                        module.parts.emplace_back();
+                    } else if (byte != ' ') {
+                        module.parts.back() += byte;
+                    }
+                } while (true);
+            }
+            result.push_back(std::move(module));
+        }
+        return result;
+    };
+    const auto text_of_span = [](const std::optional<Span>& span) {
+        return span ? std::string(span->view()) : std::string();
+    };
+    const auto rules = [&](const std::vector<ProductionText>& productions) {
+        std::vector<ModuleRule> result;
+        for (const ProductionText& text : productions) {
+            result.push_back({word(text_of_span(text.left)), word(text.predecessor.view()),
+                              word(text_of_span(text.right)), text_of_span(text.condition),
+                              word(text.successor.view()), text_of_span(text.weight)});
+        }
+        return result;
+    };
+    ModuleSystem system;
+    system.axiom = word(pattern.text("axiom"));
+    system.rules = rules(pattern.common);
+    system.interpretation = rules(pattern.interpret);
+    if (pattern.find("derivation length")) system.steps = std::stoul(pattern.text("derivation length"));
+    if (pattern.find("seed")) system.seed = std::stoull(pattern.text("seed"));
+    for (const Written& module : word(pattern.text("ignore"))) system.ignored.insert(module.letter);
+    while (system.defines.size() < pattern.defines.size()) {
+        for (const Define& define : pattern.defines) {
+            const std::string text(define.value.view());
+            try {
+                system.defines[std::string(define.name.view())] = Calculator(text, system.defines, {}, 0).result();
+            } catch (const std::out_of_range&) {
+                continue;  // one that comes later has to be known first
+            }
+        }
+    }
+    return system;
+}
+
+struct ModuleKind {
+    bool parameters = true;
+    bool chance = false;  ///< weights
+    bool random = false;  ///< in expressions
+    bool contexts = false;
+    bool branches = false;  ///< in contexts
+    bool cuts = false;
+    bool subwords = false;
+    bool interpreted = false;
+    std::size_t most_steps = 6;
+};
+
+inline ModuleSystem random_modules(unsigned seed, const ModuleKind& kind) {
+    Dice dice(seed);
+    const std::vector<std::string> letters = {"A", "B", "F"};
+    const std::vector<std::string> names = {"x", "y", "z", "u", "v", "w", "a", "b", "c", "d"};
+    const auto arity = [&] { return kind.parameters ? dice.below(3) : 0; };
+    const auto expression = [&](const std::vector<std::string>& known) {
+        if (kind.random && dice.once_in(5)) return std::string("random(0, 3)");
+        if (known.empty() || dice.once_in(4)) return dice.one_of(std::vector<std::string>{"1", "2.5", "0.1", "3"});
+        const std::string& x = dice.one_of(known);
+        const std::string& y = dice.one_of(known);
+        switch (dice.below(9)) {
+            case 0:
+                return x;
+            case 1:
+                return x + " + 1";
+            case 2:
+                return x + "*0.7";
+            case 3:
+                return x + " - 1";
+            case 4:
+                return "2 * " + y;
+            case 5:
+                return x + "/3 + " + y + "^2";
+            case 6:
+                return "mod(" + x + " + 1, 4)";
+            case 7:
+                return "-" + x + " * min(" + y + ", 2)";
+            default:
+                return "(" + x + " + " + y + ")/2";
+        }
+    };
+    const auto condition = [&](const std::vector<std::string>& known) -> std::string {
+        if (kind.random && dice.once_in(4)) return "random(0, 1) < 0.6";
+        if (known.empty()) return "";
+        const std::string& x = dice.one_of(known);
+        const std::string& y = dice.one_of(known);
+        switch (dice.below(6)) {
+            case 0:
+                return x + " >= 1";
+            case 1:
+                return x + " < " + y + " || " + x + " > 2";
+            case 2:
+                return x + " + " + y + " > 2 && !(" + x + " == 1)";
+            case 3:
+                return "1 <= " + x;
+            default:
+                return "";
+        }
+    };
+    const auto successor = [&](const std::vector<std::string>& known, std::size_t longest) {
+        WrittenWord word;
+        const std::size_t length = dice.below(longest + 1);
+        const auto some = [&] {
+            if (dice.once_in(4)) return Written{dice.one_of(std::vector<std::string>{"+", "-"}), {}};
+            Written module{dice.one_of(letters), {}};
+            for (std::size_t i = arity(); i > 0; --i) module.parts.push_back(expression(known));
+            return module;
+        };
+        for (std::size_t i = 0; i < length; ++i) {
+            word.push_back(some());
+            if (kind.cuts && dice.once_in(6)) word.push_back({"%", {}});
+            if (dice.once_in(3)) {
+                word.push_back({"[", {}});
+                for (std::size_t k = dice.below(3); k > 0; --k) word.push_back(some());
+                if (kind.cuts && dice.once_in(6)) word.push_back({"%", {}});
+                word.push_back({"]", {}});
+            }
+        }
+        return word;
+    };
+    ModuleSystem system;
+    system.seed = seed * 7;
+    do {
+        system.axiom = successor({}, 5);
+    } while (system.axiom.empty());
+    system.steps = dice.below(kind.most_steps + 1);
+    if (kind.contexts && dice.once_in(2)) system.ignored = {"+", "-"};
+    std::map<std::string, bool> certain;   // shapes with a production that always applies
+    std::map<std::string, bool> weighted;  // shapes whose productions have weights
+    const auto add = [&](std::vector<ModuleRule>& rules, bool homomorphism) {
+        ModuleRule rule;
+        std::vector<std::string> known;
+        const auto shape = [&](const std::string& letter) {
+            Written module{letter, {}};
+            for (std::size_t i = arity(); i > 0 && known.size() < names.size(); --i) {
+                known.push_back(names[known.size()]);
+                module.parts.push_back(known.back());
+            }
+            return module;
+        };
+        const bool context = kind.contexts && !homomorphism && dice.once_in(2);
+        if (context) {
+            for (std::size_t i = dice.below(3); i > 0; --i) rule.left.push_back(shape(dice.one_of(letters)));
+        }
+        rule.predecessor.push_back(shape(dice.one_of(letters)));
+        if (kind.subwords && !homomorphism && dice.once_in(4)) {
+            rule.predecessor.push_back(shape(dice.one_of(letters)));
+        }
+        if (context) {
+            for (std::size_t i = dice.below(3); i > 0; --i) {
+                if (kind.branches && dice.once_in(2)) {
+                    rule.right.push_back({"[", {}});
+                    if (!dice.once_in(3)) rule.right.push_back(shape(dice.one_of(letters)));
+                    if (dice.once_in(5)) {
+                        rule.right.push_back({"[", {}});
+                        rule.right.push_back({"]", {}});
+                    }
+                    rule.right.push_back({"]", {}});
+                } else {
+                    rule.right.push_back(shape(dice.one_of(letters)));
+                }
+            }
+        }
+        rule.condition = condition(known);
+        const std::string key = (homomorphism ? "h" : "") + rule.shape();
+        const auto [found, fresh] = weighted.try_emplace(key, kind.chance && dice.once_in(2));
+        if (found->second) {
+            rule.weight = !known.empty() && dice.once_in(3) ? known.front() + "*" + known.front() + " + 0.5"
+                                                            : dice.one_of(std::vector<std::string>{"1", "0.25", "3"});
+        } else if (certain[key]) {
+            return;
+        } else if (rule.condition.empty()) {
+            certain[key] = true;
+        }
+        rule.successor = successor(known, 3);
+        rules.push_back(std::move(rule));
+    };
+    for (int i = 0; i < 14; ++i) add(system.rules, false);
+    for (int i = 0; kind.interpreted && i < 5; ++i) add(system.interpretation, true);
+    return system;
+}
+
+/// What the engine hands over.
+class ModuleCollector : public SymbolSink {
+public:
+    explicit ModuleCollector(const Grammar& grammar) : grammar_(grammar) {}
+    void symbols(const Run& run) override {
+        EXPECT_FALSE(run.symbols.empty());
+        std::size_t own = 0;
+        for (const Symbol symbol : run.symbols) own += grammar_.symbols()[symbol].arity;
+        EXPECT_EQ(run.arguments.size(), own);
+        word.symbols.insert(word.symbols.end(), run.symbols.begin(), run.symbols.end());
+        word.arguments.insert(word.arguments.end(), run.arguments.begin(), run.arguments.end());
+    }
+    ModuleWord word;
+
+private:
+    const Grammar& grammar_;
+};
+
+inline std::string derived_modules(const Grammar& grammar, bool interpreted = false) {
+    ModuleCollector collector(grammar);
+    DerivationOptions options;
+    options.interpreted = interpreted;
+    derive(grammar, collector, options);
+    return to_text(grammar, collector.word);
+}
+inline std::string derived_modules(const std::string& text, bool interpreted = false) {
+    return derived_modules(grammar_of(text), interpreted);
+}
+
+}  // namespace sikku::reference
