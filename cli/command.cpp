@@ -75,6 +75,16 @@ void add_override_options(CLI::App& command, PatternOptions& options) {
     command.add_option("--seed", options.seed, "Where chance starts, instead of the pattern's seed")->type_name("N");
 }
 
+std::uint64_t seed_of(const PatternOptions& options) {
+    const std::string& text = options.seed;
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (!text.empty() && (error != std::errc() || end != text.data() + text.size())) {
+        throw UsageError(fmt::format("--seed {}: expected a whole number, 0 to 18446744073709551615", text));
+    }
+    return seed;
+}
+
 void add_budget_option(CLI::App& command, double& budget) {
     command.add_option("--budget", budget, "Most nodes of the derivation that are visited")
         ->check([](const std::string& text) {

@@ -88,6 +88,8 @@ struct PatternOptions {
     std::string seed;
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
+/// Of `--seed`; 0 if it was not given. @throws UsageError
+std::uint64_t seed_of(const PatternOptions& options);
 /// The same without PATTERN.
 void add_override_options(CLI::App& command, PatternOptions& options);
 

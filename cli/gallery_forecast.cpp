@@ -55,6 +55,12 @@ void forecast_print(const DrawSettings& settings, const LoadedPattern& loaded, J
             result.seconds += 0.002 + cost.lines * (spline ? 250e-9 : 80e-9);
             result.bytes = 2000 + text + cost.lines * (spline ? 12 : 3);
             return;
+        case PrintFormat::hpgl:
+        case PrintFormat::gcode:
+            result.seconds += cost.lines * 3e-6;
+            result.bytes = 500 + cost.lines * (spline ? 60 : 12);
+            result.memory += cost.lines * 250;
+            return;
         default:
             break;
     }

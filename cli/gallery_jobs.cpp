@@ -63,6 +63,28 @@ const std::vector<KeyFacts>& all_keys() {
              false},
             {{"compression", "Of PNG: 1, quick and large, to 9", false, true}, Use::print, Kind::whole, false, 1, 9},
             {{"dpi", "Pixels an inch of pictures", false, true}, Use::print, Kind::number, false},
+            {{"dot-spacing", "Length between two dots of a kolam", false, true}, Use::print, Kind::text, false},
+            {{"border", "kaavi: a frame of red earth lines", false, true}, Use::print, Kind::text, false},
+            {{"colour-by", "strand: each line in a colour of its own", false, true}, Use::print, Kind::text, false},
+            {{"animate", "SVG that draws itself in so many seconds", false, true}, Use::print, Kind::text, false},
+            {{"plotter", "Nothing twice, few lifts of the pen", true, true}, Use::print, Kind::flag, false},
+            {{"split", "Length of the longest stroke of a plot", false, true}, Use::print, Kind::text, false},
+            {{"travel", "Show the ways of the lifted pen", true, true}, Use::print, Kind::flag, false},
+            {{"pen-speed", "Drawing, mm a second", false, true}, Use::print, Kind::number, false},
+            {{"travel-speed", "Lifted, mm a second", false, true}, Use::print, Kind::number, false},
+            {{"lift-time", "Seconds for lifting and lowering the pen", false, true}, Use::print, Kind::number, false},
+            {{"profile", "Of G-code: grbl or z", false, true}, Use::print, Kind::text, false},
+            {{"gcode-start", "Lines before the first stroke", false, true}, Use::print, Kind::text, false},
+            {{"gcode-end", "Lines after the last", false, true}, Use::print, Kind::text, false},
+            {{"bleed", "How far the ground goes on beyond the page", false, true}, Use::print, Kind::text, false},
+            {{"marks", "Crop marks; PDF", true, true}, Use::print, Kind::flag, false},
+            {{"spot", "NAME=COLOUR: an ink of its own; PDF", false, true}, Use::print, Kind::text, false},
+            {{"cmyk", "Inks by this ICC profile; TIFF", false, true}, Use::print, Kind::text, false},
+            {{"bits", "A channel: 8, or 1; TIFF", false, true}, Use::print, Kind::whole, false, 1, 8},
+            {{"no-icc", "Pictures without the ICC profile of their colours", true, true},
+             Use::print,
+             Kind::flag,
+             false},
             {{"angle", "The pattern's angle: its define of that name, or its angle increment", false, true},
              Use::any,
              Kind::text,
@@ -104,7 +126,8 @@ const KeyFacts* find_key(std::string_view name) {
 }
 
 /// Formats of prints, then of scores.
-constexpr std::array<std::string_view, 8> print_formats = {"svg", "pdf", "png", "tif", "tiff", "jpg", "jpeg", "exr"};
+constexpr std::array<std::string_view, 12> print_formats = {"svg",  "pdf", "png",  "tif", "tiff",  "jpg",
+                                                            "jpeg", "exr", "hpgl", "plt", "gcode", "nc"};
 constexpr std::array<std::string_view, 9> score_formats = {"mid", "midi", "musicxml",  "xml", "ly",
                                                            "wav", "flac", "notes.svg", "html"};
 
@@ -1055,6 +1078,28 @@ DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& 
     if (job.keys.contains("step") && !job.keys.contains("fit")) settings.step = job.keys.at("step");
     if (job.keys.contains("window")) settings.window = job.keys.at("window");
     whole_of(job, "compression", settings.compression);
+    const auto optional = [&](const char* key, std::optional<std::string>& value) {
+        if (job.keys.contains(key)) value = job.keys.at(key);
+    };
+    optional("dot-spacing", settings.dot_spacing);
+    optional("animate", settings.animate);
+    optional("gcode-start", settings.gcode_start);
+    optional("gcode-end", settings.gcode_end);
+    text("border", settings.border);
+    text("colour-by", settings.colour_by);
+    text("split", settings.split);
+    text("profile", settings.profile);
+    text("bleed", settings.bleed);
+    text("cmyk", settings.cmyk);
+    if (job.keys.contains("spot")) settings.spots = {job.keys.at("spot")};
+    whole_of(job, "bits", settings.bits);
+    settings.plotter = job.keys.contains("plotter");
+    settings.travel = job.keys.contains("travel");
+    settings.marks = job.keys.contains("marks");
+    settings.icc = !job.keys.contains("no-icc");
+    settings.speeds.drawing = number_of(job, "pen-speed", settings.speeds.drawing);
+    settings.speeds.travelling = number_of(job, "travel-speed", settings.speeds.travelling);
+    settings.speeds.lift = number_of(job, "lift-time", settings.speeds.lift);
     settings.landscape = job.keys.contains("landscape");
     settings.mirror = job.keys.contains("mirror");
     settings.rotate = number_of(job, "rotate", settings.rotate);

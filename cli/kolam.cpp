@@ -144,6 +144,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
                 throw UsageError("--grid makes a kolam; it goes without PATTERN, -n, --set and --variant");
             }
             grid->as_json = *as_json;
+            grid->seed = seed_of(*options);
             return kolam_grid(*grid, {.quiet = quiet, .listener = {}, .watch = {}});
         }
         if (options->pattern.empty()) throw UsageError("expected PATTERN, or --grid");

@@ -158,7 +158,6 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* grid = command.add_option(
         "--grid", options.grid, "Make a kolam on dots: ROWSxCOLUMNS, as 7x7, or the dots of each row, as 1-3-5-3-1");
-    command.add_option("--seed", options.seed, "Another kolam for each number")->needs(grid)->capture_default_str();
     auto* symmetry = command
                          .add_option("--symmetry", options.symmetry,
                                      "none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), mirror-y "

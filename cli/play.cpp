@@ -188,7 +188,8 @@ std::string made_with(const PlaySettings& options, const std::vector<Player>& pl
     if (options.seconds != 0) text += fmt::format(" --seconds {}", options.seconds);
     if (options.transpose != 0) text += fmt::format(" --transpose {}", options.transpose);
     if (options.tuning != "bend") text += " --tuning " + options.tuning;
-    if (options.humanise != 0) text += fmt::format(" --humanise {} --seed {}", options.humanise, options.seed);
+    if (options.humanise != 0) text += fmt::format(" --humanise {}", options.humanise);
+    if (options.humanise != 0 && options.pattern.seed.empty()) text += fmt::format(" --seed {}", options.seed);
     return text;
 }
 
@@ -570,8 +571,8 @@ void add_play(CLI::App& app, bool& quiet) {
     command->add_option("--bars", options->bars, "So many bars")->check(CLI::Range(std::int64_t{1}, INT64_MAX));
     command->add_option("--seconds", options->seconds, "At most so long");
     command->add_option("--transpose", options->transpose, "Semitones, added to every note");
-    command->add_option("--humanise", options->humanise, "0 to 1: how far from exact a player is");
-    command->add_option("--seed", options->seed, "Of --humanise")->capture_default_str();
+    command->add_option("--humanise", options->humanise,
+                        "0 to 1: how far from exact a player is; another one with another --seed");
     command->add_option("--midi-format", options->format, "1, a track for each voice, or 0")
         ->check(CLI::IsMember({0, 1}))
         ->capture_default_str();
@@ -586,7 +587,10 @@ void add_play(CLI::App& app, bool& quiet) {
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"
         "  sikku play hilbert -n 40 --anchor piece --from-bar 1000000000 --bars 16 -o piece.musicxml");
-    command->callback([options, &quiet] { play_score(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });
+    command->callback([options, &quiet] {
+        options->seed = seed_of(options->pattern);
+        play_score(*options, {.quiet = quiet, .listener = {}, .watch = {}});
+    });
 }
 
 }  // namespace sikku
