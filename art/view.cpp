@@ -364,7 +364,8 @@ std::optional<ViewWindow> parse_window(std::string_view text) {
         while (part.starts_with(' ')) part.remove_prefix(1);
         while (part.ends_with(' ')) part.remove_suffix(1);
         const auto number = parse_decimal(part);
-        if (!number) return std::nullopt;
+        // Beyond that no drawing goes.
+        if (!number || !(*number > -1e300 && *number < 1e300)) return std::nullopt;
         numbers[i] = *number;
         text.remove_prefix(i == 3 ? text.size() : comma + 1);
     }

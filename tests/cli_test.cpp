@@ -218,7 +218,8 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
     expect_failure(run({"patterns", "plant"}), 2, "there are no patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
-    expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2, "there are: curves, kolams, melodies, plants, tilings, words");
+    expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2,
+                   "there are: curves, kolams, melodies, plants, tilings, words");
 }
 
 TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
@@ -736,7 +737,8 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
-    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--set", "--size", "--split", "--spot", "--step", "--steps"}));
+    EXPECT_EQ(completed({"sikku", "draw", "--s"}),
+              (std::set<std::string>{"--seed", "--set", "--size", "--split", "--spot", "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));
