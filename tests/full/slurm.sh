@@ -18,7 +18,8 @@ stop() {
     scontrol shutdown > /dev/null 2>&1 || true
     sleep 1
     for file in "$folder"/run/*.pid; do kill "$(cat "$file")" 2> /dev/null || true; done
-    rm -rf "$folder"
+    # Daemons may still be writing their last lines.
+    rm -rf "$folder" 2> /dev/null || { sleep 2; rm -rf "$folder"; }
 }
 trap stop EXIT
 
