@@ -9,6 +9,8 @@
 #include "art/pdf.h"
 #include "art/picture.h"
 #include "art/raster.h"
+#include "art/solid_raster.h"
+#include "art/solids.h"
 #include "art/svg.h"
 #include "engine/fold.h"
 #include "engine/spline.h"
@@ -179,9 +181,9 @@ public:
         OldColours lines(sink, drawn_);
         if (options_.colours_strokes) {
             StrokeColours coloured(sink, drawn_, stroke_colours_, line_of_stroke_);
-            drawing.read(coloured);
+            drawing.read(print, coloured);
         } else if (!options_.only_dots) {
-            drawing.read(lines);
+            drawing.read(print, lines);
         }
         const double radius = dot_radius(print);
         for (const glm::dvec2 dot : dots_) sink.disc(dot, radius, dot_pen_);
@@ -267,6 +269,22 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 /// Draws into whatever a format takes.
 using Content = std::function<void(PathSink& sink)>;
 
+void write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
+                  const std::filesystem::path& file) {
+    Picture picture(print, options, rendering.channels(), output, file);
+    std::mutex mutex;
+    const auto watch = [&] {
+        const std::scoped_lock lock(mutex);
+        if (options.watch) options.watch(0);
+    };
+    rendering.watch(watch);
+    rendering.render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+        watch();
+        picture.rows(first_row, rows, pixels);
+    });
+    picture.close();
+}
+
 void write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
            const std::filesystem::path& file) {
     // Only PDF knows the sheet from its bleed.
@@ -279,18 +297,7 @@ void write(const Content& content, const Print& given, const DrawOptions& option
     }
     const auto raster = make_raster(print);
     content(*raster);
-    Picture picture(print, options, raster->channels(), output, file);
-    std::mutex mutex;
-    const auto watch = [&] {
-        const std::scoped_lock lock(mutex);
-        if (options.watch) options.watch(0);
-    };
-    raster->watch(watch);
-    raster->render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
-        watch();
-        picture.rows(first_row, rows, pixels);
-    });
-    picture.close();
+    write_pixels(*raster, print, options, output, file);
 }
 
 /// Each sheet is drawn from the whole word again, and keeps what is seen on it.
@@ -355,6 +362,10 @@ std::string image_format(PrintFormat format) {
 Drawing::Drawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
     : grammar_(resolved(grammar, options)), style_(style), options_(options), spline_(style.line == Line::spline) {
     require_affordable(grammar_, true, options.budget);
+    drawn_style_ = grammar_.is_spatial() && is_vector(options.format) && !is_plot() ? with_shades(style) : style;
+    if (grammar_.is_spatial() && spline_) {
+        throw std::runtime_error("'line: spline' is for drawings in the plane; this one pitches, rolls or bends");
+    }
     const std::vector<char> reached = grammar_.reachable();
     for (std::size_t i = 0; i < reached.size(); ++i) {
         if (!reached[i]) continue;
@@ -381,8 +392,27 @@ Drawing::Drawing(const Grammar& grammar, const Style& style, const DrawOptions& 
     }
 }
 
+namespace {
+
+void require_ink(const Box& box) {
+    if (!box.empty()) return;
+    throw std::runtime_error(
+        "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
+        "colour that is seen");
+}
+
+}  // namespace
+
 const DrawnExtent& Drawing::extent() {
     if (extent_) return *extent_;
+    if (grammar_.is_spatial()) {
+        if (options_.begin) options_.begin(1);
+        // Keeping a part takes the memory and time of about ten nodes.
+        scene_ = Scene::of(grammar_, style_, derivation(), options_.budget / 10);
+        const SceneExtent seen = extent_of(*scene_, style_, orientation(options_.placement));
+        require_ink(seen.box);
+        return extent_.emplace(seen.box, seen.widest);
+    }
     // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
     // is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
@@ -405,13 +435,9 @@ const DrawnExtent& Drawing::extent() {
         for (const glm::dvec2 corner : folded->ink_hull) extent.box.add(turned * glm::dvec3(corner, 1.0));
         extent.widest = style_.pen_width({});
     } else {
-        read(extent);
+        read({}, extent);
     }
-    if (extent.box.empty()) {
-        throw std::runtime_error(
-            "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
-            "colour that is seen");
-    }
+    require_ink(extent.box);
     return extent_.emplace(extent.box, extent.widest);
 }
 
@@ -436,7 +462,8 @@ DrawReport Drawing::place(Print& print) {
     return place_print(print, extent(), style_.stroke, placement);
 }
 
-void Drawing::read(PathSink& sink) const {
+void Drawing::read(const Print& print, PathSink& sink) const {
+    if (scene_) return is_plot() ? draw_skeleton(*scene_, print, sink) : draw_solids(*scene_, print, sink);
     if (!spline_) return read_straight(sink);
     SplineSink spline(sink, closed_);
     read_straight(spline);
@@ -444,11 +471,23 @@ void Drawing::read(PathSink& sink) const {
 
 void Drawing::read_straight(PathSink& sink) const {
     const auto turtle = Turtle::drawing(grammar_, sink, spline_);
+    derive(grammar_, *turtle, derivation());
+}
+
+std::unique_ptr<Rendering> Drawing::rendering(const Print& print) const {
+    return scene_ ? make_solid_raster(*scene_, print) : nullptr;
+}
+
+DerivationOptions Drawing::derivation() const {
     DerivationOptions derivation;
     derivation.interpreted = true;
     derivation.limit_whole_words(options_.budget);
     derivation.watch = options_.watch;
-    derive(grammar_, *turtle, derivation);
+    return derivation;
+}
+
+bool Drawing::is_plot() const {
+    return options_.plot || is_for_plotters(options_.format);
 }
 
 /// In every colour that may occur.
@@ -479,12 +518,19 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
     // Once for both roads.
     const Grammar grammar = resolved(given, options);
     if (auto report = draw_view(grammar, print, options, file)) return *report;
+    if (grammar.is_spatial() && (print.style.dots || options.colours_strokes || options.border || print.animation)) {
+        throw std::runtime_error("dots, colours by strand, borders and --animate are for drawings in the plane");
+    }
     Composition composition(grammar, print, options);
     Drawing drawing(grammar, print.style, options);
     DrawReport report = drawing.place(print);
+    print.style = drawing.style();
     const bool is_plot = options.plot || is_for_plotters(options.format);
     if (options.tiles) {
         if (is_plot) throw std::runtime_error("--tile: a plot is not cut into sheets");
+        if (grammar.is_spatial() && !is_vector(options.format)) {
+            throw std::runtime_error("--tile: drawings in space are cut into sheets as SVG or PDF");
+        }
         if (options.placement.step) {
             // The page of the whole is as large as the drawing asks for.
             print.page.width = report.size.x + 2 * print.page.margin;
@@ -502,6 +548,9 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
     check_spots(print.press, print.style);
     if (is_plot) {
         draw_plot(drawing, composition, print, options, output, report);
+    } else if (grammar.is_spatial() && !is_vector(options.format)) {
+        print = as_picture(print);
+        write_pixels(*drawing.rendering(print), print, options, output, file);
     } else {
         const auto content = [&](PathSink& sink) { composition.draw(drawing, print, sink); };
         write(content, print, options, output, file);

@@ -4,6 +4,8 @@
 #include "art/gcode.h"
 #include "art/plot.h"
 #include "art/print.h"
+#include "art/raster.h"
+#include "art/scene.h"
 #include "art/tiles.h"
 #include "art/view.h"
 #include "engine/grammar.h"
@@ -12,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -93,18 +96,28 @@ public:
     const DrawnExtent& extent();
     /// Works out the placement of `print` on its page. @throws as extent(), and if the margins leave no room
     DrawReport place(Print& print);
-    /// One pass over the word into `sink`. To be called after extent() or place().
-    void read(PathSink& sink) const;
+    /// One pass over the word into `sink`; of drawings in space, which are kept, what is behind comes first.
+    /// @param print  placed, in style(); of drawings in the plane its style and placement do not count
+    /// To be called after extent() or place().
+    void read(const Print& print, PathSink& sink) const;
+    /// Drawings in space are pictures of their own; null for those in the plane. `print` is placed, and both must
+    /// outlive it.
+    std::unique_ptr<Rendering> rendering(const Print& print) const;
+    /// The style in which read() draws: that of the constructor, with shades for drawings in space.
+    const Style& style() const { return drawn_style_; }
 
     /// Fraction of the page that a fitted drawing fills.
     double scale() const { return options_.placement.scale * grammar_.scale_percent() / 100; }
 
 private:
     void read_straight(PathSink& sink) const;
+    DerivationOptions derivation() const;
+    bool is_plot() const;
     bool all_lines_are_seen() const;
 
     Grammar grammar_;
     Style style_;
+    Style drawn_style_;
     DrawOptions options_;
     bool spline_;
     bool has_brackets_ = false;
@@ -113,8 +126,10 @@ private:
     bool has_colours_ = false;
     std::vector<bool> closed_;  ///< of a spline's strokes, in their order
     std::optional<DrawnExtent> extent_;
+    std::optional<Scene> scene_;  ///< of a drawing in space, once it was read
 };
 
+/// Drawings in space (Grammar::is_spatial()) are seen as the style's camera sees them.
 /// Draws into `file`, which appears whole or not at all. `print` comes with page, style, dpi and texts; its placement
 /// is worked out here: from the fold where only straight lines are drawn and all are seen, else from one pass over
 /// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count.

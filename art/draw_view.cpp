@@ -282,6 +282,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
         return std::nullopt;
     };
     if (is_vector(options.format) && !options.window) return std::nullopt;
+    if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
     if (is_composed(style, options)) {
         return none("dots, borders, colours by strand, tiles and plots need the whole drawing");
     }

@@ -1097,6 +1097,8 @@ std::vector<std::string> KolamExamination::remarks() const {
 }
 
 KolamExamination examine_kolam(const Grammar& given, const KolamOptions& options) {
+    if (given.is_spatial())
+        throw std::runtime_error("a kolam lies in the plane: this drawing pitches, rolls or bends");
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;

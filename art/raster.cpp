@@ -1,12 +1,9 @@
 #include "art/raster.h"
 
+#include "art/bands.h"
 #include "art/blend.h"
 #include "art/fill.h"
 #include "art/stroke.h"
-#include "art/threads.h"
-
-#include <oneapi/tbb/concurrent_queue.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <array>
@@ -780,56 +777,14 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
 
 void BandRaster::render(int threads, const RowSink& rows) {
     const int channels = this->channels();
-    threads = thread_count(threads);
-    const auto deliver = [&](const Workplace& workplace, int band) {
-        const int top = band * band_rows_;
-        rows(top, std::min(band_rows_, size_.height - top), workplace.canvas.pixels());
-    };
-    if (threads == 1 || bands_ == 1) {
-        Workplace workplace(size_.width, std::min(band_rows_, size_.height), channels);
-        for (int band = 0; band < bands_; ++band) {
-            render_band(workplace, band);
-            deliver(workplace, band);
-        }
-        return;
-    }
-
-    // As many workplaces as bands are under way: one for each thread, and one that waits to be delivered.
-    const int workplaces = std::min(threads + 1, bands_);
-    std::vector<std::unique_ptr<Workplace>> owned;
-    oneapi::tbb::concurrent_queue<Workplace*> idle;
-    for (int i = 0; i < workplaces; ++i) {
-        owned.push_back(std::make_unique<Workplace>(size_.width, band_rows_, channels));
-        idle.push(owned.back().get());
-    }
-    struct Job {
-        Workplace* workplace;
-        int band;
-    };
-    int next = 0;
-    using oneapi::tbb::filter_mode;
-    const auto bands = oneapi::tbb::make_filter<void, Job>(filter_mode::serial_in_order,
-                                                           [&](oneapi::tbb::flow_control& control) -> Job {
-                                                               if (next == bands_) {
-                                                                   control.stop();
-                                                                   return {};
-                                                               }
-                                                               Job job{nullptr, next++};
-                                                               // Never empty: the pipeline has no more bands under
-                                                               // way than there are workplaces.
-                                                               idle.try_pop(job.workplace);
-                                                               return job;
-                                                           });
-    const auto draw = oneapi::tbb::make_filter<Job, Job>(filter_mode::parallel, [&](Job job) {
-        render_band(*job.workplace, job.band);
-        return job;
-    });
-    const auto hand_on = oneapi::tbb::make_filter<Job, void>(filter_mode::serial_in_order, [&](Job job) {
-        deliver(*job.workplace, job.band);
-        idle.push(job.workplace);
-    });
-    on_threads(threads,
-               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), bands & draw & hand_on); });
+    in_bands(
+        bands_, threads,
+        [&] { return std::make_unique<Workplace>(size_.width, std::min(band_rows_, size_.height), channels); },
+        [&](Workplace& workplace, int band) { render_band(workplace, band); },
+        [&](const Workplace& workplace, int band) {
+            const int top = band * band_rows_;
+            rows(top, std::min(band_rows_, size_.height - top), workplace.canvas.pixels());
+        });
 }
 
 void BandRaster::render_rows(int first, int end, int channels, const RowSink& rows) const {

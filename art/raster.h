@@ -22,6 +22,23 @@ PixelSize pixel_size(const Page& page, double dpi);
 /// Receives finished rows, 8 bits a channel, top to bottom; called from one thread at a time, in order.
 using RowSink = std::function<void(int first_row, int rows, std::span<const std::uint8_t> pixels)>;
 
+/// A picture that is complete but for its pixels, which it renders in bands.
+class Rendering {
+public:
+    virtual ~Rendering() = default;
+    /// 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly so): the fewest
+    /// channels that can show the ground and the colours used.
+    virtual int channels() const = 0;
+    /// Called now and then while rows are rendered, also from several threads at a time; may throw to stop.
+    virtual void watch(std::function<void()> watch) = 0;
+    /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number, nor on the
+    /// processor. May be called again. What `rows` throws ends the rendering and is thrown from here.
+    virtual void render(int threads, const RowSink& rows) = 0;
+    /// Renders the rows from `first` up to `end` alone: multiples of 128, or the height of the print. With at least
+    /// as many channels as channels(). May be called from several threads at a time.
+    virtual void render_rows(int first, int end, int channels, const RowSink& rows) const = 0;
+};
+
 /// Collects a drawing in pixel coordinates, then renders it in bands. Its layers, from the ground up: polygons in
 /// the order they came; strokes, one colour after the other in the order of the palette, each colour laid on once
 /// however often its lines cross; discs likewise. Colours mix in 8-bit sRGB.
@@ -32,22 +49,11 @@ using RowSink = std::function<void(int first_row, int rows, std::span<const std:
 /// thread and one more a band of 32 to 128 rows, 2 to 10 bytes a pixel, at most 4 million pixels.
 ///
 /// Blots are spread as evenly as their covariance says, and add up with lines under one pixel; they are for pens of
-/// that width. They take 4 bytes a pixel of the page.
-class Raster : public BlotSink {
+/// that width. They take 4 bytes a pixel of the page. It is to be asked and rendered when the drawing is complete.
+class Raster : public BlotSink, public Rendering {
 public:
     /// The pen counts among the colours used from here on.
     virtual void expect(const Pen& pen) = 0;
-    /// 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly so): the fewest
-    /// channels that can show the ground and the colours used so far. To be asked when the drawing is complete.
-    virtual int channels() const = 0;
-    /// Called now and then while rows are rendered, also from several threads at a time; may throw to stop.
-    virtual void watch(std::function<void()> watch) = 0;
-    /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number, nor on the
-    /// processor. May be called again. What `rows` throws ends the rendering and is thrown from here.
-    virtual void render(int threads, const RowSink& rows) = 0;
-    /// Renders the rows from `first` up to `end` alone: multiples of 128, or the height of the print. With at least
-    /// as many channels as channels(). May be called from several threads at a time when the drawing is complete.
-    virtual void render_rows(int first, int end, int channels, const RowSink& rows) const = 0;
 };
 
 /// `print` is kept by reference and must outlive the raster. @throws std::runtime_error if a side is over 500,000

@@ -413,7 +413,7 @@ const Plan& Sheet::arrange() {
         PlacedCell& cell = plan_.cells[i];
         Print& print = cell.print;
         const double factor = pen_factor(cells_[i], m.width, m.height);
-        print.style = cells_[i].style;
+        print.style = subjects_[i].drawing ? subjects_[i].drawing->style() : cells_[i].style;
         print.title = cells_[i].title;
         print.dpi = options_.dpi;
         print.page = {m.width, m.height, 0.0};
@@ -451,7 +451,7 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
         named(cells_[i], [&] {
-            if (!subjects_[i].seen) return subjects_[i].drawing->read(writer);
+            if (!subjects_[i].seen) return subjects_[i].drawing->read(plan_.cells[i].print, writer);
             // Of the sheet, its cell is seen.
             const Window& window = plan_.cells[i].window;
             Print print = plan_.cells[i].print;
@@ -531,7 +531,7 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
         if (strip.bottom == strip.top) continue;
         std::vector<std::uint8_t> rows_of_pixels(stride * static_cast<std::size_t>(strip.bottom - strip.top));
         /// Renders what was drawn into its place.
-        const auto render = [&](Raster& raster, int left, int top, int end) {
+        const auto render = [&](Rendering& raster, int left, int top, int end) {
             raster.watch([&] { watch(0); });
             raster.render_rows(0, end - top, channels, [&](int first, int rows, std::span<const std::uint8_t> part) {
                 const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
@@ -557,9 +557,12 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
                 Print part = cell.print;
                 part.page = pixel_page(cell.right - cell.left, cell.bottom - cell.top);
                 part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+                if (const auto solid = subject.seen ? nullptr : subject.drawing->rendering(part)) {
+                    return render(*solid, cell.left, cell.top, cell.bottom);
+                }
                 const auto raster = make_raster(part);
                 named(cells_[cell.cell], [&] {
-                    if (!subject.seen) return subject.drawing->read(*raster);
+                    if (!subject.seen) return subject.drawing->read(part, *raster);
                     raster->expect({});
                     subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
                                        [this](std::uint64_t symbols) { watch(symbols); });

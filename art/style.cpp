@@ -331,7 +331,7 @@ double Style::disc_radius(double radius, const Pen& pen, double step) const {
 }
 
 std::vector<std::string_view> style_keys() {
-    return {"line", "stroke", "ground", "fill", "palette", "dots"};
+    return {"line", "stroke", "ground", "fill", "palette", "dots", "view"};
 }
 
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
@@ -343,6 +343,16 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
     if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
+    if (const Key* key = pattern.find("view")) {
+        if (const auto camera = parse_camera(key->value.view())) {
+            style.camera = *camera;
+        } else {
+            diagnostics.error(key->value,
+                              "expected 'view: AZIMUTH ELEVATION', degrees to the right and up to 90 upwards, or "
+                              "front, side or top; and after it, if you like, 'perspective' and from how many radii "
+                              "of the drawing, above 1");
+        }
+    }
     if (const Key* key = pattern.find("palette")) {
         read_palette(*key, style, diagnostics);
     } else if (style.stroke_colour) {

@@ -1,6 +1,7 @@
-// art/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette, dots.
+// art/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette, dots, view.
 #pragma once
 
+#include "art/camera.h"
 #include "art/colour.h"
 #include "engine/path.h"
 #include "engine/pattern.h"
@@ -35,6 +36,7 @@ struct Style {
     std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
     std::vector<Colour> palette;          ///< never empty after read_style
     std::optional<DotStyle> dots;         ///< absent: none are drawn
+    Camera camera;                        ///< of drawings in space
 
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;
@@ -59,7 +61,7 @@ std::vector<Colour> default_palette();
 /// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each
 /// optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
 /// `palette` (a list of colours, separated by blanks or commas; at most 4096), `dots` (a size and a colour as of
-/// `stroke`, or `none`).
+/// `stroke`, or `none`), `view` (parse_camera()).
 std::vector<std::string_view> style_keys();
 
 /// Reads and checks them; what is absent keeps its default: straight, 0.4 mm, black on white, and a palette of

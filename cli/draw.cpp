@@ -52,6 +52,7 @@ Page page_of(const DrawSettings& options) {
 std::string made_with(const DrawSettings& options, const Grammar& grammar) {
     std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, grammar.steps());
     if (options.window) text += " --window " + *options.window;
+    if (!options.view.empty()) text += " --view " + options.view;
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
     if (!options.pattern.seed.empty()) text += " --seed " + options.pattern.seed;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
@@ -285,6 +286,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     DrawSettings options = given;
     auto [print, drawing] = plan_print(options);
     apply_dots(options);
+    if (!options.view.empty()) options.pattern.more.push_back({"--view", "view", options.view});
     LoadedPattern loaded = load(options.pattern, telling);
     Diagnostics diagnostics;
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
@@ -306,6 +308,9 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
             progress.emplace(passes * expected_symbols(loaded.grammar, true), telling.quiet);
         };
         drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
+    }
+    if (!options.view.empty() && !loaded.grammar.is_spatial()) {
+        telling.say("sikku: warning: this drawing lies in the plane, where --view changes nothing\n");
     }
     const bool wants_dots = print.style.dots.has_value();
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
@@ -354,6 +359,11 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->excludes(fit);
     command->add_option("--rotate", options->rotate, "Degrees anticlockwise")->capture_default_str();
     command->add_flag("--mirror", options->mirror, "Left and right exchanged, before --rotate");
+    command
+        ->add_option("--view", options->view,
+                     "Of drawings in space: degrees around and up, or front, side or top; and, if you like, "
+                     "perspective and from how many radii (4)")
+        ->type_name("AZIMUTH,ELEVATION[,perspective[,DISTANCE]]");
     command
         ->add_option("--dots", options->dots,
                      "Draw a kolam's dots: in a size and colour (0.2 step white, 2mm), or only them, to "
@@ -436,6 +446,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
         "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
+        "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { draw_print(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -22,11 +24,43 @@ std::string json(const Quantity& quantity) {
     return quantity.digits.empty() ? number(quantity.value) : json_string(quantity.digits);
 }
 
-template <std::size_t Size>
-std::string json(const std::array<Quantity, Size>& list) {
+std::string json(const std::vector<Quantity>& list) {
     std::string text = "[";
     for (const Quantity& quantity : list) text += (text.size() > 1 ? ", " : "") + json(quantity);
     return text + "]";
+}
+
+/// What the plane and space have in common: numbers of two axes or of three.
+struct Geometry {
+    std::vector<Quantity> box, ink, end;
+    std::optional<double> heading;  ///< of the plane
+    bool closed = false;
+    std::int64_t depth = 0;
+};
+
+std::vector<Quantity> numbers(const SpaceBounds& bounds) {
+    std::vector<Quantity> result;
+    for (const glm::dvec3& corner : {bounds.low, bounds.high}) {
+        for (int axis = 0; axis < 3; ++axis) result.push_back(Quantity::of(corner[axis]));
+    }
+    return result;
+}
+
+std::optional<Geometry> geometry_of(const Measurement& m) {
+    if (m.space) {
+        const SpaceSurvey& s = *m.space;
+        return Geometry{numbers(s.box),
+                        s.ink ? numbers(*s.ink) : std::vector<Quantity>(),
+                        {Quantity::of(s.end.x), Quantity::of(s.end.y), Quantity::of(s.end.z)},
+                        std::nullopt,
+                        s.closed,
+                        s.depth};
+    }
+    if (!m.geometry) return std::nullopt;
+    const Fold& f = *m.geometry;
+    Geometry result{{f.box.begin(), f.box.end()}, {}, {f.end.begin(), f.end.end()}, f.heading, f.closed, f.depth};
+    if (f.ink) result.ink.assign(f.ink->begin(), f.ink->end());
+    return result;
 }
 
 std::string json(const std::string& title, const Measurement& m) {
@@ -36,14 +70,15 @@ std::string json(const std::string& title, const Measurement& m) {
     }
     std::string length = json(m.length);
     if (m.length.digits.empty() && length.find_first_not_of("0123456789") == std::string::npos) length += ".0";
-    const auto& g = m.geometry;
+    const std::optional<Geometry> g = geometry_of(m);
     return fmt::format(
         "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
         "\"length\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, \"depth\": {}, "
         "\"derived\": {}}}\n",
         json_string(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
         json(m.symbols), counts, json(m.drawn), json(m.moves), length, g ? json(g->box) : "null",
-        g && g->ink ? json(*g->ink) : "null", g ? json(g->end) : "null", g ? number(g->heading) : "null",
+        g && !g->ink.empty() ? json(g->ink) : "null", g ? json(g->end) : "null",
+        g && g->heading ? number(*g->heading) : "null",
         !g          ? "null"
         : g->closed ? "true"
                     : "false",
@@ -56,8 +91,7 @@ std::string plain(const Quantity& quantity) {
     return fmt::format("{:.6g}", quantity.value);
 }
 
-template <std::size_t Size>
-std::string plain(const std::array<Quantity, Size>& list) {
+std::string plain(const std::vector<Quantity>& list) {
     std::string text;
     for (const Quantity& quantity : list) text += (text.empty() ? "" : " ") + plain(quantity);
     return text;
@@ -77,13 +111,13 @@ std::string prose(const std::string& title, const Measurement& m) {
     line("drawn", plain(m.drawn));
     line("moves", plain(m.moves));
     line("length", plain(m.length));
-    if (m.geometry) {
-        line("box", plain(m.geometry->box));
-        line("ink", m.geometry->ink ? plain(*m.geometry->ink) : "none");
-        line("end", plain(m.geometry->end));
-        line("heading", fmt::format("{:.6g} degrees", m.geometry->heading));
-        line("closed", m.geometry->closed ? "yes" : "no");
-        line("depth", fmt::format("{}", m.geometry->depth));
+    if (const std::optional<Geometry> g = geometry_of(m)) {
+        line("box", plain(g->box));
+        line("ink", g->ink.empty() ? "none" : plain(g->ink));
+        line("end", plain(g->end));
+        if (g->heading) line("heading", fmt::format("{:.6g} degrees", *g->heading));
+        line("closed", g->closed ? "yes" : "no");
+        line("depth", fmt::format("{}", g->depth));
     } else {
         text += "The word is too long for its box to be worked out.\n";
     }
@@ -102,7 +136,8 @@ void add_measure(CLI::App& app, bool& quiet) {
     command->add_flag("--json", *as_json, "One line of JSON, for programs");
     add_budget_option(*command, *budget);
     command->footer(
-        "In unit steps of the turtle, which starts at 0 0. Systems without contexts are not derived:\n"
+        "In unit steps of the turtle, which starts at 0 0; in space, x y z. Systems without contexts are not "
+        "derived:\n"
         "order 60 costs as little as order 6.\n\n"
         "Examples:\n"
         "  sikku measure snake-kolam\n"

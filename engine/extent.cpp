@@ -101,23 +101,38 @@ private:
     std::vector<std::uint64_t> counts_;
 };
 
+/// The word is walked through, for what only a turtle knows. With `counts_steps`, they are counted, too.
+void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, Measurement& result) {
+    const auto tell = [&](const auto& survey) {
+        if (!counts_steps) return;
+        result.drawn = Quantity::of(Integer(survey.drawn));
+        result.moves = Quantity::of(Integer(survey.moves));
+        result.length = Quantity::of(survey.length);
+    };
+    result.derived = true;
+    options.interpreted = true;
+    if (grammar.is_spatial()) {
+        const auto turtle = SpaceTurtle::make(grammar);
+        derive(grammar, *turtle, options);
+        tell(turtle->survey());
+        result.space = turtle->survey();
+    } else {
+        const auto turtle = Turtle::surveying(grammar);
+        derive(grammar, *turtle, options);
+        tell(turtle->survey());
+        result.geometry = as_fold(turtle->survey());
+    }
+}
+
 /// Of systems that cannot be forecast: both words are walked through.
 Measurement walked(const Grammar& grammar, DerivationOptions options) {
     Measurement result;
     result.n = grammar.steps();
-    result.derived = true;
     options.interpreted = false;
     Census census(grammar);
     derive(grammar, census, options);
     tell_counts(grammar, census.counts(), result);
-    options.interpreted = true;
-    const auto turtle = Turtle::surveying(grammar);
-    derive(grammar, *turtle, options);
-    const Survey survey = turtle->survey();
-    result.drawn = Quantity::of(Integer(survey.drawn));
-    result.moves = Quantity::of(Integer(survey.moves));
-    result.length = Quantity::of(survey.length);
-    result.geometry = as_fold(survey);
+    walk(grammar, options, true, result);
     return result;
 }
 
@@ -149,12 +164,8 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     }
     tell_counts(grammar, *plain.counts, result);
     tell_steps(grammar, *interpreted.counts, result);
-    result.geometry = fold(grammar);
-    if (result.geometry || interpreted.nodes > budget) return result;
-    const auto turtle = Turtle::surveying(grammar);
-    derive(grammar, *turtle, options);
-    result.derived = true;
-    result.geometry = as_fold(turtle->survey());
+    if (!grammar.is_spatial()) result.geometry = fold(grammar);
+    if (!result.geometry && interpreted.nodes <= budget) walk(grammar, options, false, result);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/fold.h"
+#include "engine/space_turtle.h"
 #include "engine/turtle.h"
 
 #include <cstdint>
@@ -21,12 +22,13 @@ struct Measurement {
     Quantity drawn;                                        ///< segments; from here on after `interpret:`
     Quantity moves;                                        ///< steps, drawn or not
     Quantity length;                                       ///< drawn, in steps
-    /// Absent if the word is too long for even the fold (then only counts are told).
+    /// Absent if the word is too long for even the fold (then only counts are told), and in three dimensions.
     std::optional<Fold> geometry;
+    std::optional<SpaceSurvey> space;  ///< in three dimensions: see Grammar::is_spatial()
     bool derived = false;  ///< the word had to be walked, or was kept whole for contexts
 };
 
-/// From the fold where the system allows it, else by one pass over the word; contexts are resolved first.
+/// From the fold where the system allows it, else by one pass over the word, as in three dimensions; contexts are resolved first.
 /// @param budget  most nodes of that pass; above it, a BudgetError
 /// @param watch   as in DerivationOptions
 /// @throws WordError for brackets that do not balance, steps that are not finite; BudgetError for words kept whole

@@ -127,9 +127,11 @@ public:
                 grammar_.scale_percent_ = percent;
             }
         }
+        read_tropism();
         read_commands();
         read_schedule();
         finish_tables();
+        grammar_.is_spatial_ = grammar_.tropism_ || reaches_into_space();
         warn_of_types();
         return std::move(grammar_);
     }
@@ -332,6 +334,52 @@ private:
                 diagnostics_.error(key->value, "expected 'left' or 'right'");
             }
         }
+    }
+
+    // --- space ---------------------------------------------------------------------------------------------
+
+    void read_tropism() {
+        const Key* force = pattern_.find("tropism");
+        const Key* elasticity = pattern_.find("elasticity");
+        if (!force && !elasticity) return;
+        if (!force || !elasticity) {
+            diagnostics_.error((force ? force : elasticity)->name_at,
+                               "'tropism:' says which way branches bend and 'elasticity:' how much: one needs the "
+                               "other");
+            return;
+        }
+        Tropism tropism;
+        int numbers = 0;
+        bool good = true;
+        std::string_view rest = force->value.view();
+        constexpr std::string_view separators = " \t,";
+        for (;;) {
+            rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
+            if (rest.empty()) break;
+            const std::string_view word = rest.substr(0, rest.find_first_of(separators));
+            rest.remove_prefix(word.size());
+            double number = 0;
+            good = good && numbers < 3 && read_number(word, number) && std::fabs(number) <= 1e100;
+            if (good) tropism.force[numbers] = number;
+            ++numbers;
+        }
+        if (!good || (numbers != 2 && numbers != 3)) {
+            diagnostics_.error(force->value, "expected numbers x, y and, if you like, z, such as 0, -1, 0");
+        }
+        if (!read_number(elasticity->value.view(), tropism.elasticity) || std::fabs(tropism.elasticity) > 1e100) {
+            diagnostics_.error(elasticity->value, "expected a number such as 0.22");
+        }
+        grammar_.tropism_ = tropism;
+    }
+
+    bool reaches_into_space() const {
+        const std::vector<char> reached = grammar_.reachable();
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            const Action action = grammar_.symbols_[i].command.action;
+            if (reached[i] && (action == Action::pitch || action == Action::roll || action == Action::level))
+                return true;
+        }
+        return false;
     }
 
     // --- words ---------------------------------------------------------------------------------------------
@@ -955,6 +1003,11 @@ private:
         const auto with_value = [&](Action action, double otherwise) {
             return has_value ? Command{action, value, {}, takes_argument} : with(action, otherwise);
         };
+        const auto by_angle = [&](Action action, bool positive) -> Command {
+            if (takes_argument) return {action, positive ? 1.0 : -1.0, {}, true};
+            const Angle angle = has_value ? angle_of_degrees(value) : increment_;
+            return {action, 0.0, positive ? angle : negated(angle), false};
+        };
         if (forward.contains(letter)) return with_value(Action::draw, 1.0);
         if (move.contains(letter)) return with_value(Action::move, 1.0);
         if (letter.size() == 2 && letter[0] == '@') {
@@ -965,12 +1018,16 @@ private:
         if (letter.size() != 1) return {};
         switch (letter[0]) {
             case '+':
-            case '-': {
-                const bool left = (letter[0] == '+') == plus_turns_left_;
-                if (takes_argument) return {Action::turn, left ? 1.0 : -1.0, {}, true};
-                const Angle angle = has_value ? angle_of_degrees(value) : increment_;
-                return {Action::turn, 0.0, left ? angle : negated(angle), false};
-            }
+            case '-':
+                return by_angle(Action::turn, (letter[0] == '+') == plus_turns_left_);
+            case '&':
+            case '^':
+                return by_angle(Action::pitch, letter[0] == '&');
+            case '\\':
+            case '/':
+                return by_angle(Action::roll, letter[0] == '\\');
+            case '$':
+                return with(Action::level, 0);
             case '|':
                 return {Action::turn, 0.0, Angle{180.0, TurnFraction{1, 2}}, false};
             case '[':
@@ -1299,7 +1356,7 @@ std::optional<Grammar> Grammar::written_out(const ModuleWord& word) const {
         if (command.takes_argument) {
             command.value *= arguments.front();
             command.takes_argument = false;
-            if (command.action == Action::turn) {
+            if (command.action == Action::turn || command.action == Action::pitch || command.action == Action::roll) {
                 command.angle = angle_of_degrees(command.value);
                 command.value = 0;
             }

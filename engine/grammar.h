@@ -5,6 +5,7 @@
 #include "engine/pattern.h"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -43,7 +44,10 @@ enum class Action : std::uint8_t {
     pass,  ///< nothing
     draw,  ///< one step of length `value`, drawing
     move,  ///< one step of length `value`
-    turn,  ///< by `angle`
+    turn,   ///< by `angle`, to the left where that is positive
+    pitch,  ///< by `angle`, down
+    roll,   ///< by `angle`, to the left
+    level,  ///< roll until the turtle's left is level
     push,
     pop,
     polygon_begin,
@@ -58,7 +62,7 @@ struct Command {
     Action action = Action::pass;
     double value = 0.0;
     Angle angle;
-    /// The module's first argument times `value` is the value; of a turn, degrees anticlockwise.
+    /// The module's first argument times `value` is the value; of a turn, pitch or roll, degrees.
     bool takes_argument = false;
 };
 
@@ -124,6 +128,14 @@ struct ScheduleRun {
     std::int64_t steps = 0;
 };
 
+/// Bends branches: after each segment that is drawn the turtle turns about heading x force, by `elasticity` times
+/// the size of segment x force, radians.
+/// Source: Prusinkiewicz & Hanan 1989, section 3.1.
+struct Tropism {
+    glm::dvec3 force{0.0};
+    double elasticity = 0.0;
+};
+
 /// Immutable once compiled. Everything an interpreter needs beside its own keys.
 class Grammar {
 public:
@@ -155,6 +167,9 @@ public:
     std::optional<Symbol> cut() const { return cut_; }
 
     const Angle& heading() const { return heading_; }
+    const std::optional<Tropism>& tropism() const { return tropism_; }
+    /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
+    bool is_spatial() const { return is_spatial_; }
     double scale_percent() const { return scale_percent_; }
     /// Does context matching see that symbol?
     bool ignored(Symbol symbol) const { return ignored_[symbol] != 0; }
@@ -207,6 +222,8 @@ private:
     std::vector<ScheduleRun> schedule_;
     std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
     Angle heading_;
+    std::optional<Tropism> tropism_;
+    bool is_spatial_ = false;
     double scale_percent_ = 100.0;
     std::vector<char> ignored_;
     std::vector<std::string> names_;

@@ -13,10 +13,10 @@ constexpr const char* open_comment_message = "this comment has no end: expected 
 
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
 
-constexpr std::array<std::string_view, 17> engine_keys = {
-    "axiom",      "derivation length", "angle factor", "angle increment", "turn",     "heading", "forward", "move",
-    "ignore",     "consider",          "symbols",      "scale factor",    "schedule", "seed",    "title",   "source",
-    "description"};
+constexpr std::array<std::string_view, 19> engine_keys = {
+    "axiom",       "derivation length", "angle factor", "angle increment", "turn",     "heading", "forward", "move",
+    "ignore",      "consider",          "symbols",      "scale factor",    "schedule", "seed",    "title",   "source",
+    "description", "tropism",           "elasticity"};
 
 bool is_engine_key(std::string_view name) {
     return std::find(engine_keys.begin(), engine_keys.end(), name) != engine_keys.end();

@@ -1,6 +1,7 @@
 #include "engine/turtle.h"
 
 #include "engine/lattice.h"
+#include "engine/turtle_state.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t deepest = std::size_t{1} << 20;
 constexpr std::size_t points_in_block = 1024;
 
 /// Positions in Z[zeta], headings modulo k.
@@ -149,12 +149,8 @@ public:
     }
 
     void finish() override {
-        if (!stack_.empty()) {
-            throw WordError(fmt::format("symbol {} of the word: this '[' is not closed", stack_.back().position));
-        }
-        if (!polygons_.empty()) {
-            throw WordError(fmt::format("symbol {} of the word: this '{{' is not closed", polygons_.back().position));
-        }
+        stack_.finish();
+        polygons_.finish();
         lift();
         survey_.end = walker_.point(state_.place);
         survey_.closed = State().place.same_place(state_.place);
@@ -170,16 +166,6 @@ private:
     struct State {
         Place place;
         Pen pen;
-    };
-    struct Saved {
-        State state;
-        std::uint64_t position;
-    };
-    struct Polygon {
-        std::vector<glm::dvec2> vertices;
-        Place first;
-        Place last;  // of the last vertex
-        std::uint64_t position;
     };
     struct Instruction {
         Action action;
@@ -225,9 +211,7 @@ private:
     }
 
     void require_finite(const Instruction& command) const {
-        if (!command.finite) {
-            throw WordError(fmt::format("symbol {} of the word: its parameter is not finite", position_));
-        }
+        if (!command.finite) throw_at(position_, "its parameter is not finite");
     }
 
     template <bool Own>
@@ -256,10 +240,7 @@ private:
                 walk<Own>(symbol, command);
             }
             if (!polygons_.empty()) {
-                Polygon& polygon = polygons_.back();
-                if (polygon.vertices.empty()) polygon.vertices.push_back(walker_.point(polygon.first));
-                polygon.vertices.push_back(walker_.point(state_.place));
-                polygon.last = state_.place;
+                polygons_.add(state_.place, [this](const Place& place) { return walker_.point(place); });
             }
         }
     }
@@ -276,49 +257,29 @@ private:
     void rare(const Instruction& command) {
         switch (command.action) {
             case Action::push:
-                if (stack_.size() >= deepest) {
-                    throw WordError(
-                        fmt::format("symbol {} of the word: brackets nest deeper than 1,048,576", position_));
-                }
                 if (moves_draw_) lift();
-                stack_.push_back({state_, position_});
-                survey_.depth = std::max(survey_.depth, static_cast<std::int64_t>(stack_.size()));
+                stack_.push(state_, position_);
+                survey_.depth = std::max(survey_.depth, stack_.depth());
                 break;
-            case Action::pop:
-                if (stack_.empty()) {
-                    throw WordError(fmt::format("symbol {} of the word: ']' without '['", position_));
-                }
+            case Action::pop: {
+                State popped = stack_.pop(position_);
                 lift();
-                state_ = stack_.back().state;
-                stack_.pop_back();
+                state_ = popped;
                 break;
+            }
             case Action::polygon_begin:
-                if (polygons_.size() >= deepest) {
-                    throw WordError(
-                        fmt::format("symbol {} of the word: braces nest deeper than 1,048,576", position_));
-                }
-                polygons_.push_back({{}, state_.place, state_.place, position_});
+                polygons_.begin(state_.place, position_);
                 break;
             case Action::polygon_end:
                 end_polygon();
                 break;
             case Action::width_factor:
             case Action::width_set:
-                require_finite(command);
-                if (command.action == Action::width_set) {
-                    state_.pen.width = std::fabs(command.value);
-                    state_.pen.width_set = true;
-                } else {
-                    state_.pen.width = std::min(state_.pen.width * command.value, 1e9);
-                }
-                break;
             case Action::colour_step:
-            case Action::colour_set: {
+            case Action::colour_set:
                 require_finite(command);
-                const double base = command.action == Action::colour_step ? state_.pen.colour : 0;
-                state_.pen.colour = static_cast<int>(std::clamp(std::round(base + command.value), -1e9, 1e9));
+                change_pen(state_.pen, command.action, command.value);
                 break;
-            }
             case Action::disc:
                 require_finite(command);
                 if (sink_) {
@@ -332,11 +293,7 @@ private:
     }
 
     void end_polygon() {
-        if (polygons_.empty()) throw WordError(fmt::format("symbol {} of the word: '}}' without '{{'", position_));
-        Polygon polygon = std::move(polygons_.back());
-        polygons_.pop_back();
-        std::vector<glm::dvec2>& vertices = polygon.vertices;
-        if (vertices.size() > 1 && polygon.first.same_place(polygon.last)) vertices.pop_back();
+        const std::vector<glm::dvec2> vertices = polygons_.end(position_);
         if (sink_ && vertices.size() >= 3) {
             flush();
             sink_->polygon(vertices, state_.pen);
@@ -390,8 +347,8 @@ private:
     bool moves_draw_;
     std::vector<Instruction> commands_;
     State state_;
-    std::vector<Saved> stack_;
-    std::vector<Polygon> polygons_;
+    BracketStack<State> stack_;
+    PolygonStack<Place, glm::dvec2> polygons_;
     std::uint64_t position_ = 0;
     bool down_ = false;
     Pen pen_;

@@ -1,0 +1,46 @@
+// art/stage.h: a scene before its camera and in its light, in the units of who draws it.
+#pragma once
+
+#include "art/camera.h"
+#include "art/print.h"
+#include "art/scene.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x2.hpp>
+#include <glm/vec3.hpp>
+
+namespace sikku {
+
+class Stage {
+public:
+    /// For a print that is placed. What is drawn comes out as x and y times `units`, z towards the eye in the same
+    /// measure; `unit` is that of one step.
+    Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, double unit);
+
+    glm::dvec3 place(const glm::vec3& point) const;
+    /// Half the width of a line there.
+    double radius(const SceneWidth& width, const glm::vec3& at) const;
+    /// Of a sphere; of a dot by the pen.
+    double radius(const SceneSphere& sphere) const;
+    /// How bright a surface with that normal (of any length but 0) is, from 0 to 1; `glm::dvec3(0, 0, 1)` faces the
+    /// eye. The light comes from above on the left of the page, and a little of it from everywhere.
+    double brightness(const glm::dvec3& normal) const;
+    /// Which way the light comes from, in the plane of the page; of length 1.
+    glm::dvec2 towards_light() const { return glm::normalize(glm::dvec2(light_)); }
+
+private:
+    const Style& style_;
+    Projection projection_;
+    glm::dmat3x2 units_;
+    double unit_;
+    double step_;  ///< millimetres
+    glm::dvec3 light_;
+};
+
+/// A colour as bright as that: of white, the brightness itself.
+inline Colour lit(Colour colour, double brightness) {
+    const auto channel = [&](std::uint8_t value) { return static_cast<std::uint8_t>(value * brightness + 0.5); };
+    return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
+}
+
+}  // namespace sikku
