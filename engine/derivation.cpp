@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
@@ -936,8 +936,10 @@ namespace {
 
 /// To the bit: -0 is not 0.
 bool is_same(const ModuleWord& one, const ModuleWord& other) {
-    return one.symbols == other.symbols && one.arguments.size() == other.arguments.size() &&
-           std::memcmp(one.arguments.data(), other.arguments.data(), one.arguments.size() * sizeof(double)) == 0;
+    return one.symbols == other.symbols &&
+           std::equal(
+               one.arguments.begin(), one.arguments.end(), other.arguments.begin(), other.arguments.end(),
+               [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
 }
 
 }  // namespace

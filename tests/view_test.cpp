@@ -29,6 +29,7 @@ namespace {
 using reference::grammar_of;
 
 __extension__ using Whole = __int128;
+__extension__ using Number = unsigned __int128;
 
 const std::string hilbert = "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: ";
 
@@ -71,13 +72,14 @@ private:
 };
 
 /// Number of the point along Hilbert's curve of that order, by bits.
-Whole number_of(int order, Whole x, Whole y) {
-    Whole number = 0;
+Number number_of(int order, Whole x, Whole y) {
+    Number number = 0;  // of orders above 63 what is left of it tells neighbours, too
     for (int bit = order - 1; bit >= 0; --bit) {
         const Whole side = Whole{1} << bit;
+        const auto square = static_cast<Number>(side) * static_cast<Number>(side);
         const bool right = (x & side) != 0;
         const bool up = (y & side) != 0;
-        number += side * side * ((right ? 3 : 0) ^ (up ? 1 : 0));
+        number += square * static_cast<unsigned>((right ? 3 : 0) ^ (up ? 1 : 0));
         x &= side - 1;
         y &= side - 1;
         if (!up) {
@@ -125,7 +127,7 @@ std::set<Edge> edges_seen(int order, Quad x0, Quad y0, int side) {
 /// Edges with both ends within the window, from its lower left corner.
 std::set<Edge> edges_expected(int order, Whole x0, Whole y0, int side, const Attitude& attitude) {
     std::set<Edge> edges;
-    std::vector<Whole> numbers;
+    std::vector<Number> numbers;
     const int points = side + 1;
     for (int i = 0; i < points * points; ++i) {
         const auto [u, v] = attitude(order, x0 + i % points, y0 + i / points);
@@ -136,8 +138,8 @@ std::set<Edge> edges_expected(int order, Whole x0, Whole y0, int side, const Att
         for (int y = 0; y <= side; ++y) {
             for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(0, 1)}) {
                 if (x + dx > side || y + dy > side) continue;
-                const Whole way = number(x + dx, y + dy) - number(x, y);
-                if (way == 1 || way == -1) edges.insert(ordered({x, y}, {x + dx, y + dy}));
+                const Number one = number(x, y), other = number(x + dx, y + dy);
+                if (one + 1 == other || other + 1 == one) edges.insert(ordered({x, y}, {x + dx, y + dy}));
             }
         }
     }

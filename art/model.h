@@ -1,0 +1,29 @@
+// art/model.h: a drawing in space as a model for other programs: Wavefront OBJ and binary glTF 2.0.
+#pragma once
+
+#include "art/print.h"
+#include "art/scene.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace sikku {
+
+enum class ModelFormat { obj, glb };
+
+/// By the file's extension (any case): .obj or .glb; nullopt for any other.
+std::optional<ModelFormat> model_format(const std::filesystem::path& file);
+
+struct ModelReport {
+    std::size_t triangles = 0;
+    std::size_t materials = 0;
+};
+
+/// Writes stems as tubes of eight sides, joined where a line goes on and closed at its ends, spheres, and polygons as
+/// triangles with two sides; a material for each colour. One turtle step is one unit, y up, as glTF has it. Widths in
+/// millimetres are those of `print`, which is placed. Beside NAME.obj its materials are written as NAME.mtl.
+/// Memory: about 400 bytes a segment. @throws std::runtime_error if the file cannot be written, or would be over 4 GB
+ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format,
+                        const std::filesystem::path& file);
+
+}  // namespace sikku
