@@ -331,6 +331,17 @@ void draw_tiles(const Drawing& drawing, const Composition& composition, Print pr
     report.sheets = static_cast<int>(outputs.size());
 }
 
+/// Keeping a part of a scene takes the memory and time of about so many nodes.
+constexpr double nodes_of_kept_part = 10;
+
+DerivationOptions reading(const DrawOptions& options) {
+    DerivationOptions derivation;
+    derivation.interpreted = true;
+    derivation.limit_whole_words(options.budget);
+    derivation.watch = options.watch;
+    return derivation;
+}
+
 Grammar resolved(const Grammar& given, const DrawOptions& options) {
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
@@ -407,8 +418,7 @@ const DrawnExtent& Drawing::extent() {
     if (extent_) return *extent_;
     if (grammar_.is_spatial()) {
         if (options_.begin) options_.begin(1);
-        // Keeping a part takes the memory and time of about ten nodes.
-        scene_ = Scene::of(grammar_, style_, derivation(), options_.budget / 10);
+        scene_ = Scene::of(grammar_, style_, reading(options_), options_.budget / nodes_of_kept_part);
         const SceneExtent seen = extent_of(*scene_, style_, orientation(options_.placement));
         require_ink(seen.box);
         return extent_.emplace(seen.box, seen.widest);
@@ -471,19 +481,11 @@ void Drawing::read(const Print& print, PathSink& sink) const {
 
 void Drawing::read_straight(PathSink& sink) const {
     const auto turtle = Turtle::drawing(grammar_, sink, spline_);
-    derive(grammar_, *turtle, derivation());
+    derive(grammar_, *turtle, reading(options_));
 }
 
 std::unique_ptr<Rendering> Drawing::rendering(const Print& print) const {
     return scene_ ? make_solid_raster(*scene_, print) : nullptr;
-}
-
-DerivationOptions Drawing::derivation() const {
-    DerivationOptions derivation;
-    derivation.interpreted = true;
-    derivation.limit_whole_words(options_.budget);
-    derivation.watch = options_.watch;
-    return derivation;
 }
 
 bool Drawing::is_plot() const {
@@ -560,6 +562,21 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
     }
     output.commit();
     return report;
+}
+
+ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& options, ModelFormat format,
+                       const std::filesystem::path& file) {
+    if (print.style.line == Line::spline) {
+        throw std::runtime_error("a model is of straight lines, and this drawing is of splines");
+    }
+    const Grammar grammar = resolved(given, options);
+    require_affordable(grammar, true, options.budget);
+    if (options.begin) options.begin(1);
+    const Scene scene = Scene::of(grammar, print.style, reading(options), options.budget / nodes_of_kept_part);
+    const SceneExtent seen = extent_of(scene, print.style, orientation(options.placement));
+    require_ink(seen.box);
+    place_print(print, {seen.box, seen.widest}, print.style.stroke, options.placement);
+    return write_model(scene, print, format, file);
 }
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/gcode.h"
+#include "art/model.h"
 #include "art/plot.h"
 #include "art/print.h"
 #include "art/raster.h"
@@ -111,7 +112,6 @@ public:
 
 private:
     void read_straight(PathSink& sink) const;
-    DerivationOptions derivation() const;
     bool is_plot() const;
     bool all_lines_are_seen() const;
 
@@ -135,5 +135,11 @@ private:
 /// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count.
 /// @throws BudgetError, WordError; std::runtime_error if nothing is drawn or the file cannot be written
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file);
+
+/// A model of what is drawn: see write_model(). Widths in millimetres are those that a print would have; of `options`
+/// placement, budget, begin and watch count.
+/// @throws as draw()
+ModelReport draw_model(const Grammar& grammar, Print print, const DrawOptions& options, ModelFormat format,
+                       const std::filesystem::path& file);
 
 }  // namespace sikku

@@ -177,6 +177,47 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
 
 }  // namespace
 
+namespace {
+
+/// The word as it is read, with its progress.
+void watch_drawing(const Grammar& grammar, const Telling& telling, std::optional<Progress>& progress,
+                   DrawOptions& drawing) {
+    if (telling.watch) {
+        drawing.watch = telling.watch;
+        return;
+    }
+    progress.emplace(0, telling.quiet);
+    drawing.begin = [&](int passes) { progress.emplace(passes * expected_symbols(grammar, true), telling.quiet); };
+    drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
+}
+
+void draw_model(const DrawSettings& given, ModelFormat format, const Telling& telling) {
+    DrawSettings options = given;
+    // What a print is asked for, a model is, as far as it goes.
+    options.output = "print.svg";
+    if (options.window || options.plotter || options.tile || options.dots || options.dot_spacing || options.animate ||
+        !options.generations.empty() || !options.border.empty() || !options.colour_by.empty() || options.marks ||
+        !options.spots.empty() || options.bleed != DrawSettings().bleed || !options.view.empty()) {
+        throw UsageError(
+            "a model has no page: --view, --window, --generations, --dots, --border, --colour-by, --animate, --tile, "
+            "--plotter, --bleed, --marks and --spot are for prints");
+    }
+    auto [print, drawing] = plan_print(options);
+    const LoadedPattern loaded = load(options.pattern, telling);
+    Diagnostics diagnostics;
+    print.style = read_style(loaded.pattern, options.dpi, diagnostics);
+    diagnostics.throw_if_errors();
+    print.title = loaded.pattern.text("title");
+    print.made = made_with(options, loaded.grammar);
+    std::optional<Progress> progress;
+    watch_drawing(loaded.grammar, telling, progress, drawing);
+    const ModelReport report = draw_model(loaded.grammar, std::move(print), drawing, format, given.output);
+    progress.reset();
+    telling.say("{}, {}\n", counted(report.triangles, "triangle"), counted(report.materials, "material"));
+}
+
+}  // namespace
+
 PlannedPrint plan_print(const DrawSettings& options) {
     const auto format = print_format(options.output);
     if (!format) {
@@ -186,7 +227,8 @@ PlannedPrint plan_print(const DrawSettings& options) {
                                          (std::filesystem::path(options.output) / "print.svg").string()));
         }
         throw UsageError(fmt::format(
-            "-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg, .exr, .hpgl, .plt, .gcode or .nc",
+            "-o {}: unknown extension; a print is .svg, .pdf, .png, .tif, .jpg, .exr, .hpgl, .plt, .gcode or .nc, a "
+            "model .obj or .glb",
             options.output));
     }
     if (!(options.dpi >= 1 && options.dpi <= 10'000)) throw UsageError("--dpi: between 1 and 10000");
@@ -283,6 +325,7 @@ PlannedPrint plan_print(const DrawSettings& options) {
 }
 
 void draw_print(const DrawSettings& given, const Telling& telling) {
+    if (const auto format = model_format(given.output)) return draw_model(given, *format, telling);
     DrawSettings options = given;
     auto [print, drawing] = plan_print(options);
     apply_dots(options);
@@ -300,15 +343,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
     std::optional<Progress> progress;
-    if (telling.watch) {
-        drawing.watch = telling.watch;
-    } else {
-        progress.emplace(0, telling.quiet);
-        drawing.begin = [&](int passes) {
-            progress.emplace(passes * expected_symbols(loaded.grammar, true), telling.quiet);
-        };
-        drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
-    }
+    watch_drawing(loaded.grammar, telling, progress, drawing);
     if (!options.view.empty() && !loaded.grammar.is_spatial()) {
         telling.say("sikku: warning: this drawing lies in the plane, where --view changes nothing\n");
     }
@@ -336,7 +371,8 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
 }
 
 void add_draw(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code");
+    auto* command = app.add_subcommand(
+        "draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code; or a model: OBJ, glTF");
     auto options = std::make_shared<DrawSettings>();
     constexpr const char* kolams = "Kolams";
     constexpr const char* plotters = "Plotters";
@@ -447,6 +483,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
+        "  sikku draw bush-3d -o bush.glb\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { draw_print(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });
