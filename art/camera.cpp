@@ -76,15 +76,16 @@ std::optional<Camera> parse_camera(std::string_view text) {
     return camera;
 }
 
-Projection::Projection(const Camera& camera, const SpaceBounds& drawing)
-    : middle_((drawing.low + drawing.high) / 2.0) {
+Projection::Projection(const Camera& camera, const SpaceBounds& drawing) {
+    const SpaceBounds aim = camera.aim.value_or(drawing);
+    middle_ = (aim.low + aim.high) / 2.0;
     const glm::dvec2 azimuth = direction(camera.azimuth);
     const glm::dvec2 elevation = direction(camera.elevation);
     const glm::dvec3 right(azimuth.x, 0, -azimuth.y);
     const glm::dvec3 eye(azimuth.y * elevation.x, elevation.y, azimuth.x * elevation.x);
     axes_ = glm::transpose(glm::dmat3(right, glm::cross(eye, right), eye));
     if (camera.distance) {
-        const double radius = glm::distance(drawing.low, drawing.high) / 2;
+        const double radius = glm::distance(aim.low, aim.high) / 2;
         distance_ = *camera.distance * (radius > 0 ? radius : 1.0);
     }
 }

@@ -415,13 +415,22 @@ void require_ink(const Box& box) {
 }  // namespace
 
 const DrawnExtent& Drawing::extent() {
+    require_ink(seen().box);
+    return *extent_;
+}
+
+std::optional<SpaceBounds> Drawing::bounds() const {
+    if (!scene_ || scene_->empty()) return std::nullopt;
+    return scene_->bounds();
+}
+
+const DrawnExtent& Drawing::seen() {
     if (extent_) return *extent_;
     if (grammar_.is_spatial()) {
         if (options_.begin) options_.begin(1);
         scene_ = Scene::of(grammar_, style_, reading(options_), options_.budget / nodes_of_kept_part);
-        const SceneExtent seen = extent_of(*scene_, style_, orientation(options_.placement));
-        require_ink(seen.box);
-        return extent_.emplace(seen.box, seen.widest);
+        const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement));
+        return extent_.emplace(found.box, found.widest);
     }
     // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
     // is folded for whether it closes.
@@ -447,7 +456,6 @@ const DrawnExtent& Drawing::extent() {
     } else {
         read({}, extent);
     }
-    require_ink(extent.box);
     return extent_.emplace(extent.box, extent.widest);
 }
 
@@ -469,7 +477,10 @@ DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth&
 DrawReport Drawing::place(Print& print) {
     PlacementOptions placement = options_.placement;
     placement.scale = scale();
-    return place_print(print, extent(), style_.stroke, placement);
+    const DrawnExtent& placed = options_.frame ? *options_.frame : extent();
+    // Read for what is known of it in any case.
+    seen();
+    return place_print(print, placed, style_.stroke, placement);
 }
 
 void Drawing::read(const Print& print, PathSink& sink) const {

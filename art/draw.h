@@ -34,9 +34,16 @@ bool is_vector(PrintFormat format);
 /// A raster format by the name that ImageSpec has for it.
 std::string image_format(PrintFormat format);
 
+/// What of a drawing is seen, as it will lie on the page: in turtle steps, y up, without the width of its pen.
+struct DrawnExtent {
+    Box box;
+    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
+};
+
 struct DrawOptions {
     PrintFormat format = PrintFormat::svg;
     PlacementOptions placement;
+    std::optional<DrawnExtent> frame;   ///< what is placed on the page instead of what is seen
     std::optional<ViewWindow> window;   ///< of lines in one pen: what fills the page within its margins
     bool only_dots = false;             ///< of a kolam: a sheet to practise on
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
@@ -72,12 +79,6 @@ struct DrawReport {
     bool leaves_pattern_out = false;  ///< its text is too long for the format
 };
 
-/// What of a drawing is seen, as it will lie on the page: in turtle steps, y up, without the width of its pen.
-struct DrawnExtent {
-    Box box;
-    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
-};
-
 /// Works out the placement of `print` on its page, with the pen around what is seen; `stroke` tells its measure.
 /// @throws std::runtime_error if the margins leave no room
 DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
@@ -95,7 +96,12 @@ public:
     /// Worked out when it is first asked for: from the fold where only straight lines are drawn and all are seen,
     /// else from one pass over the word. @throws std::runtime_error if nothing is drawn
     const DrawnExtent& extent();
-    /// Works out the placement of `print` on its page. @throws as extent(), and if the margins leave no room
+    /// The same; its box is empty if nothing is drawn.
+    const DrawnExtent& seen();
+    /// In space, once it was read: of all points, without the width of pens.
+    std::optional<SpaceBounds> bounds() const;
+    /// Works out the placement of `print` on its page. @throws as extent() but with a frame, and if the margins leave
+    /// no room
     DrawReport place(Print& print);
     /// One pass over the word into `sink`; of drawings in space, which are kept, what is behind comes first.
     /// @param print  placed, in style(); of drawings in the plane its style and placement do not count

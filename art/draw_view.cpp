@@ -378,7 +378,7 @@ DrawnExtent SeenDrawing::extent_of(const DrawnPart<double>& whole, const Style& 
 }
 
 DrawReport SeenDrawing::place(Print& print) const {
-    return place_seen(print, extent_, grammar_, options_.placement);
+    return place_seen(print, options_.frame.value_or(extent_), grammar_, options_.placement);
 }
 
 ViewReport SeenDrawing::read(const Print& print, double pixel, BlotSink& sink, double budget,

@@ -48,6 +48,21 @@ public:
     virtual void close() = 0;
 };
 
+/// One picture after the other, as animated GIF: each in up to 256 colours of its own, over and over again.
+class AnimationWriter {
+public:
+    virtual ~AnimationWriter() = default;
+    /// All rows of a picture, 3 channels.
+    virtual void frame(std::span<const std::uint8_t> pixels) = 0;
+    /// Completes the file. Without it the file is of no use.
+    virtual void close() = 0;
+};
+
+/// Loads the module, too. @param seconds  that each picture is shown, rounded to hundredths, at least one of them
+/// @throws std::runtime_error also for sides over 65,535 pixels
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,
+                                                double seconds);
+
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
 /// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);

@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <mutex>
 #include <stdexcept>
 #include <system_error>
@@ -349,10 +350,53 @@ void FileWriter::close() {
     file_.finish();
 }
 
+/// Of the library, which writes GIF by itself and tells nothing of a full disk: its last byte does.
+class GifWriter final : public AnimationWriter {
+public:
+    GifWriter(const std::filesystem::path& path, int width, int height, double seconds)
+        : path_(path), spec_(width, height, 3, OIIO::TypeDesc::UINT8) {
+        if (std::max(width, height) > 65'535) throw std::runtime_error("a GIF has at most 65,535 pixels a side");
+        OIIO::attribute("debug", 0);
+        output_ = OIIO::ImageOutput::create("gif");
+        if (!output_) throw std::runtime_error(OIIO::geterror());
+        spec_.attribute("FramesPerSecond", static_cast<float>(1 / std::max(seconds, 0.01)));
+        spec_.attribute("gif:LoopCount", 0);
+    }
+    void frame(std::span<const std::uint8_t> pixels) override {
+        const auto mode = is_begun_ ? OIIO::ImageOutput::AppendSubimage : OIIO::ImageOutput::Create;
+        is_begun_ = true;
+        if (!output_->open(path_.string(), spec_, mode) ||
+            !output_->write_image(OIIO::TypeDesc::UINT8, pixels.data())) {
+            const std::string message = output_->geterror();
+            throw std::runtime_error(message.empty() ? "the animation could not be written" : message);
+        }
+    }
+    void close() override {
+        if (!output_->close()) throw std::runtime_error(output_->geterror());
+        output_.reset();
+        std::ifstream file(path_, std::ios::binary);
+        file.seekg(-1, std::ios::end);
+        if (file.get() != ';') throw std::runtime_error("the animation could not be written as a whole");
+    }
+
+private:
+    std::filesystem::path path_;
+    OIIO::ImageSpec spec_;
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    bool is_begun_ = false;
+};
+
+/// The library does not bear two who wake it, or set its threads, at once.
+std::mutex opening;
+
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,
+                                                double seconds) {
+    const std::scoped_lock lock(opening);
+    return std::make_unique<GifWriter>(path, width, height, seconds);
+}
+
 std::unique_ptr<ImageWriter> open(const std::filesystem::path& path, const ImageSpec& spec) {
-    // The library does not bear two who wake it, or set its threads, at once.
-    static std::mutex mutex;
-    const std::scoped_lock lock(mutex);
+    const std::scoped_lock lock(opening);
     return std::make_unique<FileWriter>(path, spec);
 }
 
@@ -370,7 +414,8 @@ void check_cmyk_profile(const std::filesystem::path& file) {
     const InkTransform transform(file);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, read_text, check_cmyk_profile};
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, read_text,
+                                check_cmyk_profile};
 
 }  // namespace
 }  // namespace sikku

@@ -1,9 +1,11 @@
 // cli/draw.cpp: `sikku draw`: a print.
 #include "cli/draw.h"
 
+#include "art/growth.h"
 #include "art/image_file.h"
 #include "art/sheet.h"
 #include "engine/forecast.h"
+#include "engine/text.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +13,8 @@
 #include <cmath>
 #include <filesystem>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -126,6 +130,56 @@ void tell_plot(const PlotReport& plot, const PlotSpeeds& speeds, const Telling& 
     if (plot.duplicates > 0) telling.say("{} drawn twice\n", counted(plot.duplicates, "segment"));
 }
 
+/// `A:B`, or `A` alone.
+std::pair<std::int64_t, std::int64_t> parse_generations(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto whole = [&](std::string_view part) -> std::int64_t {
+        std::int64_t value = -1;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc() || end != part.data() + part.size() || value < 0) {
+            throw UsageError(fmt::format("--generations {}: expected two derivation lengths such as 0:4", text));
+        }
+        return value;
+    };
+    const std::int64_t first = whole(std::string_view(text).substr(0, colon));
+    const std::int64_t last = colon == std::string::npos ? first : whole(std::string_view(text).substr(colon + 1));
+    return {first, last};
+}
+
+bool is_gif(const std::string& output) {
+    return lower_case(std::filesystem::path(output).extension().string()) == ".gif";
+}
+
+/// Derivation lengths one after the other, as an animation or in files of their own.
+void draw_growth(const DrawSettings& options, const Print& print, DrawOptions drawing, const LoadedPattern& loaded,
+                 const Telling& telling) {
+    if (drawing.tiles || drawing.window || !options.pattern.steps.empty()) {
+        throw UsageError("--generations: frames go without -n, --window and --tile");
+    }
+    if (is_gif(options.output) && (drawing.border || drawing.colours_strokes || print.style.dots)) {
+        throw UsageError("--generations: of a .gif without --dots, --border and --colour-by");
+    }
+    if (!(options.frame_time >= 0.01 && options.frame_time <= 600)) {
+        throw UsageError("--frame-time: seconds, 0.01 to 600");
+    }
+    GrowthOptions growth;
+    std::tie(growth.first, growth.last) = parse_generations(options.generations);
+    growth.seconds = options.frame_time;
+    if (growth.last < growth.first || growth.last - growth.first >= 10'000) {
+        throw UsageError(fmt::format("--generations {}: up to 10,000 frames, the lowest derivation length first",
+                                     options.generations));
+    }
+    if (print.page.width * print.dpi / 25.4 > 65'535 || print.page.height * print.dpi / 25.4 > 65'535) {
+        if (is_gif(options.output)) throw UsageError("a .gif has at most 65,535 pixels a side");
+    }
+    Progress progress(0, telling.quiet);
+    drawing.watch = telling.watch ? telling.watch : progress.watch();
+    const DrawReport report = draw_growth(loaded.grammar, print, drawing, growth, options.output);
+    if (report.overflows) {
+        telling.say("sikku: warning: the largest generation is larger than the page has room for: it is cut off\n");
+    }
+}
+
 /// Derivation lengths side by side, as the books show them.
 void draw_generations(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
                       const LoadedPattern& loaded, const Telling& telling) {
@@ -135,19 +189,7 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
             "--generations: a sheet of drawings, .svg, .pdf or a picture, goes without -n, --step, --window, --dots, "
             "--border, --colour-by, --tile and what is for plotters");
     }
-    const std::size_t colon = options.generations.find(':');
-    const auto whole = [&](std::string_view text) -> std::int64_t {
-        std::int64_t value = -1;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || value < 0) {
-            throw UsageError(
-                fmt::format("--generations {}: expected two derivation lengths such as 0:4", options.generations));
-        }
-        return value;
-    };
-    const std::string_view text = options.generations;
-    const std::int64_t first = whole(text.substr(0, colon));
-    const std::int64_t last = colon == std::string::npos ? first : whole(text.substr(colon + 1));
+    const auto [first, last] = parse_generations(options.generations);
     if (last < first || last - first >= 100) {
         throw UsageError(
             fmt::format("--generations {}: up to 100 derivation lengths, the lower one first", options.generations));
@@ -327,7 +369,14 @@ PlannedPrint plan_print(const DrawSettings& options) {
 void draw_print(const DrawSettings& given, const Telling& telling) {
     if (const auto format = model_format(given.output)) return draw_model(given, *format, telling);
     DrawSettings options = given;
+    if (is_gif(given.output)) {
+        if (given.generations.empty()) {
+            throw UsageError("a .gif is an animation of growth: --generations A:B says from where to where");
+        }
+        options.output = "print.png";
+    }
     auto [print, drawing] = plan_print(options);
+    options.output = given.output;
     apply_dots(options);
     if (!options.view.empty()) options.pattern.more.push_back({"--view", "view", options.view});
     LoadedPattern loaded = load(options.pattern, telling);
@@ -338,7 +387,11 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
-    if (!options.generations.empty()) return draw_generations(options, print, drawing, loaded, telling);
+    if (!options.generations.empty()) {
+        if (options.frames || is_gif(options.output)) return draw_growth(options, print, drawing, loaded, telling);
+        return draw_generations(options, print, drawing, loaded, telling);
+    }
+    if (options.frames) throw UsageError("--frames: goes with --generations A:B");
     // Before the drawing, which may take long.
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
@@ -374,7 +427,7 @@ void add_draw(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand(
         "draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code; or a model: OBJ, glTF");
     auto options = std::make_shared<DrawSettings>();
-    constexpr const char* kolams = "Kolams";
+    constexpr const char* kolams = "Kolams and growth";
     constexpr const char* plotters = "Plotters";
     constexpr const char* press = "Press";
     add_pattern_options(*command, options->pattern);
@@ -412,8 +465,19 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->group(kolams);
     command->add_option("--border", options->border, "kaavi: a frame of red earth lines")->group(kolams);
     command->add_option("--colour-by", options->colour_by, "strand: each line in a colour of its own")->group(kolams);
-    command->add_option("--generations", options->generations, "Derivation lengths A to B, side by side")
+    command
+        ->add_option("--generations", options->generations,
+                     "Derivation lengths A to B, side by side; one after the other as .gif")
         ->type_name("A:B")
+        ->group(kolams);
+    command
+        ->add_flag("--frames", options->frames,
+                   "Of --generations: each a file of its own, all in the same place (growth-07.png)")
+        ->group(kolams);
+    command
+        ->add_option("--frame-time", options->frame_time,
+                     "Seconds that each generation is shown; of --generations A:B -o growth.gif")
+        ->capture_default_str()
         ->group(kolams);
     command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
         ->expected(0, 1)
@@ -484,6 +548,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw bush-3d -o bush.glb\n"
+        "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { draw_print(*options, {.quiet = quiet, .listener = {}, .watch = {}}); });

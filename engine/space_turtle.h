@@ -33,6 +33,7 @@ public:
 struct SpaceBounds {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
+    bool operator==(const SpaceBounds&) const = default;
 };
 
 /// What a walk through a word tells of it; the turtle starts at 0 0 0, one step is 1.

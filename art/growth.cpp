@@ -1,0 +1,129 @@
+#include "art/growth.h"
+
+#include "art/image_file.h"
+#include "art/output_file.h"
+#include "art/raster.h"
+#include "engine/text.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
+    auto other = grammar.with_steps(steps);
+    if (!other)
+        throw std::runtime_error(fmt::format("the schedule is too short for a derivation length of {}", steps));
+    return std::move(*other);
+}
+
+/// All generations together: what the page has to hold.
+class Frame {
+public:
+    Frame(const Grammar& grammar, Print& print, DrawOptions& options, const GrowthOptions& growth) {
+        DrawOptions looking = options;
+        looking.begin = nullptr;
+        std::optional<SpaceBounds> bounds;
+        const auto look = [&] {
+            DrawnExtent frame;
+            for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+                Drawing drawing(generation_of(grammar, n), print.style, looking);
+                const DrawnExtent& seen = drawing.seen();
+                if (seen.box.empty()) continue;
+                frame.box.add(seen.box.low);
+                frame.box.add(seen.box.high);
+                frame.widest = std::max(frame.widest, seen.widest);
+                if (const auto own = drawing.bounds()) {
+                    if (!bounds) bounds = *own;
+                    bounds->low = glm::min(bounds->low, own->low);
+                    bounds->high = glm::max(bounds->high, own->high);
+                }
+            }
+            return frame;
+        };
+        DrawnExtent frame = look();
+        if (grammar.is_spatial() && print.style.camera.distance && bounds) {
+            // Only now it is known where a camera with perspective stands.
+            print.style.camera.aim = bounds;
+            frame = look();
+        }
+        if (frame.box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+        options.frame = frame;
+    }
+};
+
+void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
+              const std::filesystem::path& file, DrawReport& report) {
+    const PixelSize size = pixel_size(given.page, given.dpi);
+    OutputFile output(file);
+    std::unique_ptr<AnimationWriter> animation;
+    const auto named = [&](auto&& action) {
+        try {
+            return action();
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
+        }
+    };
+    named([&] { animation = open_animation(output.temporary(), size.width, size.height, growth.seconds); });
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        Print print = given;
+        Drawing drawing(generation_of(grammar, n), print.style, options);
+        report = drawing.place(print);
+        print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
+        print.style.ground->alpha = 255;
+        std::unique_ptr<Rendering> rendering = drawing.rendering(print);
+        if (!rendering) {
+            auto raster = make_raster(print);
+            drawing.read(print, *raster);
+            rendering = std::move(raster);
+        }
+        const auto channels = static_cast<std::size_t>(rendering->channels());
+        std::vector<std::uint8_t> pixels;
+        pixels.reserve(std::size_t(size.width) * std::size_t(size.height) * 3);
+        rendering->render(options.threads, [&](int, int, std::span<const std::uint8_t> rows) {
+            if (options.watch) options.watch(0);
+            for (std::size_t i = 0; i + channels <= rows.size(); i += channels) {
+                for (std::size_t channel = 0; channel < 3; ++channel) {
+                    pixels.push_back(rows[i + (channels < 3 ? 0 : channel)]);
+                }
+            }
+        });
+        named([&] { animation->frame(pixels); });
+    }
+    named([&] { animation->close(); });
+    output.commit();
+}
+
+}  // namespace
+
+std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last) {
+    std::filesystem::path named = file;
+    named.replace_filename(fmt::format("{}-{:0{}}{}", file.stem().string(), generation,
+                                       fmt::formatted_size("{}", last), file.extension().string()));
+    return named;
+}
+
+DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOptions& given_options,
+                       const GrowthOptions& growth, const std::filesystem::path& file) {
+    Print print = given;
+    DrawOptions options = given_options;
+    const Frame frame(grammar, print, options, growth);
+    DrawReport report;
+    if (lower_case(file.extension().string()) == ".gif") {
+        draw_gif(grammar, print, options, growth, file, report);
+        return report;
+    }
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        report = draw(generation_of(grammar, n), print, options, frame_file(file, n, growth.last));
+    }
+    return report;
+}
+
+}  // namespace sikku
