@@ -1,0 +1,160 @@
+// tests/growth_test.cpp: generations one after the other, views and models, by running the program.
+#include "art/growth.h"
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <pugixml.hpp>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+const std::string bush =
+    "title: Bush\nangle increment: 22.5\nturn: left\nsymbols: A S L\naxiom: A\nderivation length: 4\n"
+    "stroke: 0.1 step #5a4632\npalette: #5a4632 #2f7d32\n"
+    "A --> [&FL!A]/////[&FL!A]///////[&FL!A]\nF --> S/////F\nS --> FL\nL --> [;^^{-f+f+f-|-f+f+f}]\n";
+
+class Growth : public ::testing::Test {
+protected:
+    Growth() { folder_.write("bush.lsys", bush); }
+    Outcome draw(std::vector<std::string> arguments, const std::string& file) {
+        arguments.insert(arguments.begin(), {"--quiet", "draw"});
+        arguments.insert(arguments.end(), {"-o", file});
+        Surroundings here;
+        here.folder = folder_.path();
+        return run(arguments, here);
+    }
+    void expect_refused(const Outcome& outcome, int status, const std::string& message) {
+        EXPECT_EQ(outcome.status, status) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, message)) << outcome.errors;
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(Growth, FramesAreFilesInTheSamePlace) {
+    ASSERT_EQ(draw({"hilbert", "--generations", "0:10", "--frames"}, "h.svg").status, 0);
+    EXPECT_EQ(frame_file("a/h.svg", 3, 10), std::filesystem::path("a/h-03.svg"));
+    std::set<std::string> paths;
+    for (int n = 1; n <= 10; ++n) {
+        pugi::xml_document document;
+        const std::string name = frame_file("h.svg", n, 10).string();
+        ASSERT_TRUE(document.load_file((folder_ / name).c_str())) << name;
+        paths.insert(document.select_node("//path").node().attribute("d").value());
+    }
+    EXPECT_EQ(paths.size(), 10u);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "h-00.svg")) << "n = 0 draws nothing, and is a page";
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "h.svg"));
+    // A step is as long in all of them: the last fills the page, and the first is as small as it is beside it.
+    const auto length = [&](const std::string& name) {
+        pugi::xml_document document;
+        document.load_file((folder_ / name).c_str());
+        return std::string(document.select_node("//path").node().attribute("d").value()).size();
+    };
+    EXPECT_LT(length("h-01.svg"), length("h-10.svg") / 1000);
+}
+
+TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
+    ASSERT_EQ(draw({"bush.lsys", "--generations", "2:4", "--frames", "--dpi", "40"}, "g.png").status, 0);
+    ASSERT_EQ(draw({"bush.lsys", "-n", "4", "--dpi", "40"}, "alone.png").status, 0);
+    if (!has_program("iinfo")) GTEST_SKIP() << "iinfo is not installed";
+    const auto pixels = [&](const std::string& name) {
+        const std::string told = run("iinfo --hash '" + (folder_ / name).string() + "'").text;
+        const std::size_t hash = told.find("SHA-1: ");
+        return hash == std::string::npos ? std::string() : told.substr(hash);
+    };
+    EXPECT_NE(pixels("alone.png"), "");
+    EXPECT_EQ(pixels("g-4.png"), pixels("alone.png")) << "where the last is the largest";
+    EXPECT_NE(pixels("g-3.png"), pixels("alone.png"));
+}
+
+TEST_F(Growth, GifHoldsAllGenerations) {
+    for (const char* pattern : {"bush.lsys", "dragon"}) {
+        ASSERT_EQ(draw({pattern, "--generations", "1:6", "--size", "40x30mm", "--margin", "2mm", "--dpi", "100",
+                        "--frame-time", "0.25"},
+                       "g.gif")
+                      .status,
+                  0);
+        const std::string bytes = contents(folder_ / "g.gif");
+        EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
+        EXPECT_EQ(bytes.back(), ';');
+        EXPECT_TRUE(has(bytes, "NETSCAPE2.0")) << "over and over";
+        // Graphic control extensions: delays in hundredths of a second.
+        std::size_t frames = 0;
+        for (std::size_t at = 0; (at = bytes.find("\x21\xf9\x04", at)) != std::string::npos; ++at) {
+            ++frames;
+            EXPECT_EQ(bytes[at + 4], 25);
+        }
+        EXPECT_EQ(frames, 6u);
+        const std::string first = bytes;
+        ASSERT_EQ(draw({pattern, "--generations", "1:6", "--size", "40x30mm", "--margin", "2mm", "--dpi", "100",
+                        "--frame-time", "0.25", "-j", "1"},
+                       "g.gif")
+                      .status,
+                  0);
+        EXPECT_EQ(contents(folder_ / "g.gif"), first) << "the same bytes";
+    }
+}
+
+TEST_F(Growth, APerspectiveStandsStill) {
+    ASSERT_EQ(draw({"bush.lsys", "--generations", "1:4", "--frames", "--view", "20,30,perspective,2", "--dpi", "40"},
+                   "p.svg")
+                  .status,
+              0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "p-1.svg"));
+}
+
+TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
+    ASSERT_EQ(draw({"bush.lsys", "--dpi", "40"}, "front.svg").status, 0);
+    ASSERT_EQ(draw({"bush.lsys", "--view", "90,20"}, "side.svg").status, 0);
+    EXPECT_NE(contents(folder_ / "front.svg"), contents(folder_ / "side.svg"));
+    EXPECT_TRUE(has(contents(folder_ / "side.svg"), "--view 90,20"));
+    ASSERT_EQ(draw({"bush.lsys", "--set", "view=90 20"}, "key.svg").status, 0);
+    for (const char* file : {"b.pdf", "b.png", "b.tif", "b.hpgl", "b.gcode"}) {
+        EXPECT_EQ(draw({"bush.lsys", "--view", "top", "--dpi", "30"}, file).status, 0) << file;
+    }
+    expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected 'view: AZIMUTH ELEVATION'");
+    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 1, "for drawings in the plane");
+    expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 1, "seen as a whole");
+    expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 1, "drawings in the plane");
+    expect_refused(draw({"bush.lsys", "-n", "30"}, "x.png"), 1, "budget");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "x.svg"));
+    expect_refused(run({"kolam", (folder_ / "bush.lsys").string()}), 1, "a kolam lies in the plane");
+}
+
+TEST_F(Growth, MeasureTellsThreeAxes) {
+    const Outcome outcome = run({"measure", (folder_ / "bush.lsys").string(), "--json"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(has(outcome.output, "\"end\": [0, 0, 0], \"heading\": null, \"closed\": true, \"depth\": 4"))
+        << outcome.output;
+    const auto box = outcome.output.find("\"box\": [");
+    ASSERT_NE(box, std::string::npos);
+    const std::string numbers = outcome.output.substr(box, outcome.output.find(']', box) - box);
+    EXPECT_EQ(std::count(numbers.begin(), numbers.end(), ','), 5);
+}
+
+TEST_F(Growth, ModelsAreMade) {
+    for (const char* file : {"b.obj", "b.glb"}) EXPECT_EQ(draw({"bush.lsys"}, file).status, 0) << file;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "b.mtl"));
+    EXPECT_EQ(draw({"dragon"}, "d.glb").status, 0) << "of the plane, too";
+    expect_refused(draw({"snake-kolam"}, "s.glb"), 1, "of splines");
+    expect_refused(draw({"bush.lsys", "--view", "top"}, "v.glb"), 2, "a model has no page");
+    expect_refused(draw({"bush.lsys"}, "missing/v.glb"), 1, "missing");
+    expect_refused(draw({"fibonacci-words"}, "w.obj"), 1, "nothing to draw");
+}
+
+TEST_F(Growth, BadGenerationsAreRefused) {
+    expect_refused(draw({"dragon"}, "d.gif"), 2, "--generations A:B");
+    expect_refused(draw({"dragon", "--frames"}, "d.png"), 2, "goes with --generations");
+    expect_refused(draw({"dragon", "--generations", "4:1"}, "d.gif"), 2, "the lowest derivation length first");
+    expect_refused(draw({"dragon", "--generations", "1:x"}, "d.gif"), 2, "expected two derivation lengths");
+    expect_refused(draw({"dragon", "--generations", "1:3", "--frame-time", "0"}, "d.gif"), 2, "--frame-time");
+    expect_refused(draw({"dragon", "--generations", "1:60"}, "d.gif"), 1, "budget");
+    expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "nothing to draw in any");
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});
+}
+
+}  // namespace
+}  // namespace sikku
