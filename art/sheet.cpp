@@ -610,6 +610,35 @@ std::string word_text(const Grammar& grammar, const Word& word) {
     return word.size() > most ? result + "…" : result;
 }
 
+/// As the file states them, where words alone do not tell: with parameters, conditions and weights.
+std::string productions_as_written(const Pattern& pattern, std::size_t most) {
+    std::string text;
+    const auto add = [&](const std::vector<ProductionText>& productions) {
+        for (const ProductionText& production : productions) {
+            if (text.size() > most) return;
+            if (!text.empty()) text += "  ";
+            bool was_blank = true;
+            const std::string_view whole = production.whole.view();
+            for (std::size_t i = 0; i < whole.size(); ++i) {
+                if (whole.substr(i, 3) == "-->") {
+                    text += "→";
+                    i += 2;
+                } else if (whole[i] == '-') {
+                    text += "−";
+                } else if (whole[i] != ' ' && whole[i] != '\t') {
+                    text += whole[i];
+                } else if (!was_blank) {
+                    text += "\u00A0";
+                }
+                was_blank = whole[i] == ' ' || whole[i] == '\t';
+            }
+        }
+    };
+    add(pattern.common);
+    for (const TableText& table : pattern.tables) add(table.productions);
+    return text;
+}
+
 }  // namespace
 
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
@@ -630,14 +659,15 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
     });
 }
 
-std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title) {
+std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern) {
     std::vector<std::string> caption = {title};
     const std::string angle = angle_of(grammar);
     caption.push_back(fmt::format("n = {}{}{}", grammar.steps(), angle.empty() ? "" : " · ", angle));
     // Lines break between productions.
-    std::string productions;
     constexpr std::size_t most = 2000;
+    std::string productions = grammar.is_plain() ? "" : productions_as_written(pattern, most);
     for (const Table& table : grammar.tables()) {
+        if (!grammar.is_plain()) break;
         for (const Production& production : table.productions()) {
             if (production.predecessor == production.successor || productions.size() > most) continue;
             if (!productions.empty()) productions += "  ";

@@ -69,8 +69,9 @@ struct SheetLayout {
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file);
 
-/// What a caption tells of a pattern: its title, the derivation length and angle, and its productions.
-std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title);
+/// What a caption tells of a pattern: its title, the derivation length and angle, and its productions; as the file
+/// states them where they have parameters, conditions or weights.
+std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern);
 
 /// The cells of rows that show derivation lengths from `first` to `last`, captions `n = 2`, the first one with the
 /// heading. `cell` is one of them. @throws std::runtime_error if the schedule is too short

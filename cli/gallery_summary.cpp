@@ -216,7 +216,7 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
             if (job->pattern.get() != row) cell.heading = cell.title;
             row = job->pattern.get();
         } else if (request.is_poster) {
-            cell.caption = caption_of(*cell.grammar, cell.title);
+            cell.caption = caption_of(*cell.grammar, cell.title, loaded.pattern);
         } else {
             cell.caption = {job->name};
         }

@@ -39,7 +39,7 @@ protected:
         result.style = read_style(pattern, 300.0, diagnostics);
         diagnostics.throw_if_errors();
         result.title = title;
-        result.caption = caption_of(*result.grammar, title);
+        result.caption = caption_of(*result.grammar, title, pattern);
         return result;
     }
     static std::vector<SheetCell> four() {
@@ -281,12 +281,16 @@ TEST_F(Sheets, GenerationsAreRowsWithHeadings) {
 }
 
 TEST_F(Sheets, CaptionsTellWhatAPatternIs) {
-    const auto caption = caption_of(*cell(kolam).grammar, "Koch's kolam");
+    const auto caption = cell(kolam, "Koch's kolam").caption;
     ASSERT_EQ(caption.size(), 3u);
     EXPECT_EQ(caption[0], "Koch's kolam");
     EXPECT_EQ(caption[1], "n = 2 · 90°");
     EXPECT_EQ(caption[2], "F\u00A0→\u00A0F+F−F−FF+F+F−F");
     for (const std::string& line : caption) EXPECT_TRUE(has_letters(line));
+    const auto written = cell("axiom: A(1)\nA(x) : x<9  -->  F(x)-A(x*2) : 0.5\nA(x) --> F : 1\n").caption;
+    ASSERT_EQ(written.size(), 3u);
+    EXPECT_EQ(written[2],
+              "A(x)\u00A0:\u00A0x<9\u00A0→\u00A0F(x)−A(x*2)\u00A0:\u00A00.5  A(x)\u00A0→\u00A0F\u00A0:\u00A01");
 }
 
 TEST_F(Sheets, FailuresNameTheCellOrTheFile) {
