@@ -22,6 +22,9 @@ public:
             texts_.push_back(symbol.arity > 0 ? std::string() : symbol_text(symbol));
         }
         has_names_ = !grammar.names().empty();
+        are_bytes_ = !has_names_ && std::all_of(texts_.begin(), texts_.end(),
+                                                [](const std::string& text) { return text.size() == 1; });
+        for (const std::string& text : texts_) bytes_ += text.substr(0, 1);
         buffer_.reserve(buffer_size + 4096);
 #ifdef F_SETPIPE_SZ
         // A larger pipe means fewer turns between writer and reader; where it is refused, the old size serves.
@@ -56,6 +59,13 @@ private:
     static constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
     void append(std::span<const Symbol> symbols, std::string& text) const {
+        if (are_bytes_) {
+            const std::size_t before = text.size();
+            text.resize(before + symbols.size());
+            std::transform(symbols.begin(), symbols.end(), text.begin() + static_cast<std::ptrdiff_t>(before),
+                           [this](Symbol symbol) { return bytes_[symbol]; });
+            return;
+        }
         for (std::size_t i = 0; i < symbols.size(); ++i) {
             if (i > 0 && has_names_ && needs_blank(grammar_, symbols[i - 1], symbols[i])) text += ' ';
             text += texts_[symbols[i]];
@@ -71,7 +81,7 @@ private:
             if (info.arity == 0) {
                 buffer_ += texts_[symbol];
             } else {
-                buffer_ += symbol_text(info, {next, info.arity});
+                append_symbol(info, {next, info.arity}, buffer_);
                 next += info.arity;
             }
         }
@@ -96,6 +106,8 @@ private:
     const Grammar& grammar_;
     int descriptor_;
     std::vector<std::string> texts_;
+    bool are_bytes_ = false;
+    std::string bytes_;  ///< if they are, that of each symbol
     bool has_names_ = false;
     bool has_last_ = false;
     Symbol last_ = 0;

@@ -28,11 +28,13 @@ struct Chance {
     std::uint64_t place = 0;
     std::int64_t step = 0;  ///< from 1; 0 for the axiom itself
 
-    /// Uniform in [0, 1), in steps of 2^-53: the same for the same draw, and unrelated for others.
-    constexpr double uniform(std::uint32_t draw) const {
+    /// 53 bits: the same for the same draw, and unrelated for others.
+    constexpr std::uint64_t bits(std::uint32_t draw) const {
         const std::uint64_t here = scrambled((place ^ 0xD1B54A32D192ED03U) + static_cast<std::uint64_t>(step));
-        return static_cast<double>(scrambled(here + 0x9E3779B97F4A7C15U * (std::uint64_t{draw} + 1)) >> 11) * 0x1p-53;
+        return scrambled(here + 0x9E3779B97F4A7C15U * (std::uint64_t{draw} + 1)) >> 11;
     }
+    /// Uniform in [0, 1), in steps of 2^-53.
+    constexpr double uniform(std::uint32_t draw) const { return static_cast<double>(bits(draw)) * 0x1p-53; }
 };
 
 }  // namespace sikku

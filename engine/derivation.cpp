@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -633,6 +636,142 @@ private:
     std::vector<double> gathered_;
 };
 
+/// What a table makes of symbols without parameters, where it draws among constant weights. It chooses as choose()
+/// does.
+class Choices {
+public:
+    static constexpr std::size_t longest = 16;  // of successors
+    static constexpr std::size_t longest_tail = 8;
+    static constexpr std::size_t most_written = longest + longest * (longest + longest_tail);  // by write()
+
+    struct Successor {
+        std::array<Symbol, longest> symbols{};
+        std::uint32_t size = 0;
+        // The same for another step by this table: its symbols that are drawn for, and what lies between them, in
+        // which nothing is drawn.
+        bool is_cut = false;
+        struct Drawn {
+            std::uint32_t child = 0;  ///< which of the symbols
+            std::uint32_t choice = 0;
+            std::uint32_t tail_size = 0;
+            std::array<Symbol, longest_tail> tail{};  ///< what follows it
+        };
+        std::array<Symbol, longest> lead{};
+        std::uint32_t lead_size = 0;
+        std::vector<Drawn> drawn;
+    };
+
+    /// Of no use (is_usable()) where weights or conditions are to be computed, or successors are long.
+    Choices(const Grammar& grammar, const Table& table) {
+        is_usable_ = !grammar.is_parametric() && grammar.is_stochastic();
+        const std::size_t symbols = grammar.symbols().size();
+        for (Symbol symbol = 0; symbol < symbols && is_usable_; ++symbol) add(symbol, table);
+        for (std::size_t i = 0; i < successors_.size() && is_usable_; ++i) cut(successors_[i]);
+    }
+    bool is_usable() const { return is_usable_; }
+
+    const Successor& of(Symbol symbol, const Chance& chance) const { return drawn(choices_[symbol], chance); }
+
+    /// Writes what becomes of the symbols of a successor that is cut, in that place, and at most `longest` more.
+    /// @return how many there are
+    std::size_t write(const Successor& parent, std::uint64_t place, std::int64_t step, Symbol* out) const {
+        Symbol* const begin = out;
+        std::memcpy(out, parent.lead.data(), sizeof(parent.lead));
+        out += parent.lead_size;
+        for (const Successor::Drawn& child : parent.drawn) {
+            const Successor& successor = drawn(choices_[child.choice], {child_place(place, child.child), step});
+            std::memcpy(out, successor.symbols.data(), sizeof(successor.symbols));
+            out += successor.size;
+            std::memcpy(out, child.tail.data(), sizeof(child.tail));
+            out += child.tail_size;
+        }
+        return static_cast<std::size_t>(out - begin);
+    }
+
+private:
+    struct Choice {
+        std::uint32_t first = 0, count = 0;
+    };
+
+    const Successor& drawn(const Choice& choice, const Chance& chance) const {
+        std::size_t chosen = choice.first;
+        if (choice.count > 1) {
+            const std::uint64_t bits = chance.bits(0);
+            // Without branches, as nobody can foretell them.
+            for (std::size_t k = 0; k + 1 < choice.count; ++k) chosen += bits >= begins_[choice.first + k] ? 1 : 0;
+        }
+        return successors_[chosen];
+    }
+
+    void add(Symbol symbol, const Table& table) {
+        Choice choice;
+        choice.first = static_cast<std::uint32_t>(successors_.size());
+        const auto candidates = table.candidates(symbol);
+        std::vector<double> weights;
+        const auto take = [&](std::span<const Symbol> word, double weight) {
+            is_usable_ = is_usable_ && word.size() <= longest;
+            if (!is_usable_) return;
+            Successor& successor = successors_.emplace_back();
+            std::copy(word.begin(), word.end(), successor.symbols.begin());
+            successor.size = static_cast<std::uint32_t>(word.size());
+            weights.push_back(weight);
+        };
+        for (const std::uint32_t index : candidates) {
+            const Production& production = table.production(index);
+            // Of several groups the first one applies.
+            if (production.group != table.production(candidates.front()).group) break;
+            const auto weight = production.weight ? production.weight->constant() : std::optional(1.0);
+            is_usable_ = is_usable_ && !production.condition && weight && *weight >= 0 && !production.has_context() &&
+                         production.predecessor.size() == 1;
+            if (!is_usable_) return;
+            if (*weight > 0) take(production.successor, *weight);
+            if (!production.weight) break;
+        }
+        if (candidates.empty()) take(std::span(&symbol, 1), 1.0);
+        choice.count = static_cast<std::uint32_t>(weights.size());
+        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+        is_usable_ = is_usable_ && choice.count > 0 && std::isfinite(sum);
+        choices_.push_back(choice);
+        // What is drawn grows with the bits: the least for which weighted_choice() passes over the first k + 1.
+        for (std::size_t k = 0; k < weights.size() && is_usable_; ++k) {
+            std::uint64_t low = 0, high = std::uint64_t{1} << 53;
+            while (low < high) {
+                const std::uint64_t middle = (low + high) / 2;
+                double left = static_cast<double>(middle) * 0x1p-53 * sum;
+                for (std::size_t i = 0; i <= k && left >= 0; ++i) left -= weights[i];
+                (left < 0 ? low : high) = left < 0 ? middle + 1 : middle;
+            }
+            begins_.push_back(low);
+        }
+    }
+
+    void cut(Successor& successor) const {
+        Symbol* out = successor.lead.data();
+        std::uint32_t* size = &successor.lead_size;
+        std::size_t room = longest;
+        for (std::uint32_t child = 0; child < successor.size; ++child) {
+            const Choice& choice = choices_[successor.symbols[child]];
+            if (choice.count > 1) {
+                successor.drawn.push_back({child, successor.symbols[child], 0, {}});
+                out = successor.drawn.back().tail.data();
+                size = &successor.drawn.back().tail_size;
+                room = longest_tail;
+                continue;
+            }
+            const Successor& stays = successors_[choice.first];
+            if (*size + stays.size > room) return;
+            std::copy_n(stays.symbols.begin(), stays.size, out + *size);
+            *size += stays.size;
+        }
+        successor.is_cut = true;
+    }
+
+    bool is_usable_ = false;
+    std::vector<Choice> choices_;  // by symbol
+    std::vector<Successor> successors_;
+    std::vector<std::uint64_t> begins_;  // of the next of these, in what is drawn
+};
+
 /// Depth-first expansion through `levels` where each module is another: parameters, chance.
 class ModuleStreamer {
 public:
@@ -650,7 +789,12 @@ public:
                 if (!levels.table(level).candidates(symbol).empty()) active_[symbol] = 1;
             }
         }
-        symbols_.resize(longest_run);
+        for (const Table& each : grammar.tables()) choices_of_.emplace_back(&each, Choices(grammar, each));
+        if (grammar.interpretation()) {
+            choices_of_.emplace_back(grammar.interpretation(), Choices(grammar, *grammar.interpretation()));
+        }
+        // The last step writes beyond what it counts.
+        symbols_.resize(longest_run + Choices::longest);
         const auto largest = std::max_element(arity_.begin(), arity_.end());
         arguments_.resize(longest_run * (largest == arity_.end() ? 0 : *largest));
     }
@@ -704,6 +848,9 @@ private:
     const Table& table(std::int64_t level) {
         if (level <= table_begin_ || level > table_end_) {
             table_ = &levels_.table(level);
+            choices_ = &std::find_if(choices_of_.begin(), choices_of_.end(), [this](const auto& each) {
+                            return each.first == table_;
+                        })->second;
             table_begin_ = levels_.stretch_begin(level);
             table_end_ = level;
         }
@@ -739,22 +886,40 @@ private:
             const Table& rules = table(level);
             const Chance chance{place, first_step_ + levels_.count() - level};
             const auto candidates = rules.candidates(symbol);
-            const Production* production = nullptr;
-            if (!candidates.empty()) {
-                visit(1);
-                std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
-                production = choose(
-                    rules, candidates, chance, [&](const char* message) { tell(symbol, argument, chance, message); },
-                    formals, [](const Production&) { return true; });
-            }
-            if (!production) {
+            if (candidates.empty()) {
                 // What stays once stays under the same table.
                 level = rules.has_random_conditions() ? level - 1 : table_begin_;
                 continue;
             }
+            visit(1);
+            std::span<const Symbol> successor;
+            std::span<const Expression> own;
+            if (choices_->is_usable()) {
+                const Choices::Successor& chosen = choices_->of(symbol, chance);
+                // The last two steps at once.
+                if (level == 2 && chosen.is_cut && table_begin_ == 0) {
+                    if (count_ + Choices::most_written > longest_run) flush();
+                    const std::size_t written =
+                        choices_->write(chosen, place, chance.step + 1, symbols_.data() + count_);
+                    visit(written);
+                    count_ += written;
+                    top_ = top;
+                    return;
+                }
+                successor = std::span(chosen.symbols).first(chosen.size);
+            } else {
+                std::span<const double> formals(stack_.data() + argument, arity_[symbol]);
+                const Production* const production = choose(
+                    rules, candidates, chance, [&](const char* message) { tell(symbol, argument, chance, message); },
+                    formals, [](const Production&) { return true; });
+                if (!production) {
+                    level = rules.has_random_conditions() ? level - 1 : table_begin_;
+                    continue;
+                }
+                successor = production->successor;
+                own = production->arguments;
+            }
             --level;
-            const Word& successor = production->successor;
-            const std::vector<Expression>& own = production->arguments;
             if (level == 0 && successor.size() <= longest_run) {
                 // The last step goes into the run at once.
                 if (count_ + successor.size() > longest_run) flush();
@@ -855,8 +1020,10 @@ private:
     std::uint64_t visited_ = 0;
     std::uint64_t next_look_ = between_watches;
     std::uint64_t handed_over_ = 0;
+    std::vector<std::pair<const Table*, Choices>> choices_of_;
     // The table that rewrites at the level last asked for, and at those above table_begin_.
     const Table* table_ = nullptr;
+    const Choices* choices_ = nullptr;
     std::int64_t table_begin_ = 0;
     std::int64_t table_end_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "engine/grammar.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -1379,20 +1380,27 @@ std::int64_t Grammar::whole_word_steps() const {
     return last;
 }
 
-std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments) {
-    std::string text = symbol.letter;
+void append_symbol(const SymbolInfo& symbol, std::span<const double> arguments, std::string& text) {
+    text += symbol.letter;
     if (symbol.arity == 0) arguments = symbol.arguments;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const double value = arguments[i];
         text += i == 0 ? '(' : ',';
         // What no number can say is said by what gives it.
         if (std::isfinite(value)) {
-            fmt::format_to(std::back_inserter(text), "{}", value);
+            std::array<char, 32> digits;
+            const char* const end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), value);
+            text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
         } else {
             text += std::isnan(value) ? "0/0" : value > 0 ? "1/0" : "-1/0";
         }
     }
     if (!arguments.empty()) text += ')';
+}
+
+std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments) {
+    std::string text;
+    append_symbol(symbol, arguments, text);
     return text;
 }
 

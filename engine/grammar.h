@@ -243,5 +243,7 @@ bool needs_blank(const Grammar& grammar, Symbol before, Symbol after);
 /// One symbol as it is printed, parameters in the shortest digits that read back the same.
 /// @param arguments  those of the module, if its symbol has none of its own
 std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments = {});
+/// The same at the end of `text`.
+void append_symbol(const SymbolInfo& symbol, std::span<const double> arguments, std::string& text);
 
 }  // namespace sikku
