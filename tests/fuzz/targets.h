@@ -7,6 +7,7 @@
 #include "engine/fold.h"
 #include "engine/forecast.h"
 #include "engine/grammar.h"
+#include "engine/import.h"
 #include "engine/lattice.h"
 #include "engine/spline.h"
 #include "engine/turtle.h"
@@ -323,6 +324,29 @@ inline void try_derivation(std::string_view bytes) {
         }
     } catch (const BudgetError&) {
     } catch (const WordError&) {
+    }
+}
+
+/// Both importers on any bytes: what they say is readable and has a place, what they write is a pattern.
+inline void try_import(std::string_view bytes) {
+    const auto source = std::make_shared<const Source>("fuzz.l", std::string(bytes));
+    import_format(bytes);
+    for (const bool as_cpfg : {true, false}) {
+        Diagnostics diagnostics;
+        const auto systems =
+            as_cpfg ? import_cpfg(source, source, diagnostics) : import_fractint(source, diagnostics);
+        for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+            require(is_utf8(diagnostic.text()), "a diagnostic is no valid UTF-8");
+            require(diagnostic.where.line >= 1 && diagnostic.where.column >= 1, "a place is counted from 1");
+        }
+        for (const ImportedSystem& system : systems) {
+            require(!system.pattern.empty() || diagnostics.has_errors(), "a system is lost without a word");
+            if (system.pattern.empty()) continue;
+            const Compiled compiled = compile_bytes(system.pattern);
+            std::string mistakes;
+            for (const Diagnostic& diagnostic : compiled.diagnostics.list()) mistakes += diagnostic.text() + '\n';
+            require(compiled.grammar.has_value(), "an imported pattern has mistakes: " + mistakes);
+        }
     }
 }
 
