@@ -164,6 +164,7 @@ void add_kolam(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);
 void add_gallery(CLI::App& app, bool& quiet);
 void add_scales(CLI::App& app);
+void add_import(CLI::App& app, bool& quiet);
 void add_patterns(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);

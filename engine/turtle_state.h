@@ -4,8 +4,6 @@
 #include "engine/derivation.h"
 #include "engine/path.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,9 +14,7 @@
 namespace sikku {
 
 /// @throws WordError that names the symbol, counted from 1
-[[noreturn]] inline void throw_at(std::uint64_t position, std::string_view what) {
-    throw WordError(fmt::format("symbol {} of the word: {}", position, what));
-}
+[[noreturn]] void throw_at(std::uint64_t position, std::string_view what);
 
 /// What `action` does to the pen; `value` is finite. Nothing, if it is none of width and colour.
 inline void change_pen(Pen& pen, Action action, double value) {

@@ -7,7 +7,9 @@
 #include "engine/fold.h"
 #include "engine/forecast.h"
 #include "engine/grammar.h"
+#include "engine/import.h"
 #include "engine/lattice.h"
+#include "engine/space_turtle.h"
 #include "engine/spline.h"
 #include "engine/turtle.h"
 
@@ -108,6 +110,26 @@ public:
     void finish() override { ++finished; }
     Word word;
     int finished = 0;
+};
+
+/// Coordinates are finite, polygons have corners.
+class StrictSpaceSink : public SpaceSink {
+public:
+    void segment(const glm::dvec3& from, const Pen&, const glm::dvec3& to, const Pen&, bool) override {
+        require(is_finite(from) && is_finite(to), "a segment in space is not finite");
+    }
+    void polygon(std::span<const glm::dvec3> vertices, const Pen&) override {
+        require(vertices.size() >= 3, "a polygon in space has fewer than three corners");
+        for (const glm::dvec3& vertex : vertices) require(is_finite(vertex), "a corner in space is not finite");
+    }
+    void sphere(const glm::dvec3& centre, double radius, const Pen&) override {
+        require(is_finite(centre) && std::isfinite(radius) && radius >= 0, "a sphere is not finite");
+    }
+
+private:
+    static bool is_finite(const glm::dvec3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    }
 };
 
 /// Checks that strokes are begun and ended in turn and that points are where the last one ended.
@@ -308,6 +330,18 @@ inline void try_derivation(std::string_view bytes) {
         if (!survey) return;
 
         measure(grammar, most_nodes);
+        StrictSpaceSink strict_space;
+        const auto space = SpaceTurtle::make(grammar, &strict_space);
+        space->symbols({interpreted, -1});
+        space->finish();
+        require(space->survey().drawn == survey->drawn && space->survey().moves == survey->moves &&
+                    space->survey().depth == survey->depth,
+                "the turtles of plane and space count otherwise");
+        if (!grammar.is_spatial() && scale < 1e9) {
+            require(std::hypot(space->survey().end.x - survey->end.x, space->survey().end.y - survey->end.y) <=
+                        1e-6 * std::max(1.0, scale),
+                    "in the plane the turtle of space ends elsewhere");
+        }
         for (const bool moves_draw : {false, true}) {
             StrokeCensus census;
             const auto counting = Turtle::drawing(grammar, census, moves_draw);
@@ -323,6 +357,29 @@ inline void try_derivation(std::string_view bytes) {
         }
     } catch (const BudgetError&) {
     } catch (const WordError&) {
+    }
+}
+
+/// Both importers on any bytes: what they say is readable and has a place, what they write is a pattern.
+inline void try_import(std::string_view bytes) {
+    const auto source = std::make_shared<const Source>("fuzz.l", std::string(bytes));
+    import_format(bytes);
+    for (const bool as_cpfg : {true, false}) {
+        Diagnostics diagnostics;
+        const auto systems =
+            as_cpfg ? import_cpfg(source, source, diagnostics) : import_fractint(source, diagnostics);
+        for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+            require(is_utf8(diagnostic.text()), "a diagnostic is no valid UTF-8");
+            require(diagnostic.where.line >= 1 && diagnostic.where.column >= 1, "a place is counted from 1");
+        }
+        for (const ImportedSystem& system : systems) {
+            require(!system.pattern.empty() || diagnostics.has_errors(), "a system is lost without a word");
+            if (system.pattern.empty()) continue;
+            const Compiled compiled = compile_bytes(system.pattern);
+            std::string mistakes;
+            for (const Diagnostic& diagnostic : compiled.diagnostics.list()) mistakes += diagnostic.text() + '\n';
+            require(compiled.grammar.has_value(), "an imported pattern has mistakes: " + mistakes);
+        }
     }
 }
 

@@ -1,0 +1,190 @@
+// cli/import.cpp: `sikku import`: systems that other programs keep become pattern files.
+#include "engine/import.h"
+
+#include "art/output_file.h"
+#include "cli/command.h"
+#include "engine/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace sikku {
+namespace {
+
+struct ImportOptions {
+    std::string file;
+    std::vector<std::string> names;
+    std::string output;
+    std::string view;
+    bool list = false;
+};
+
+SourcePointer read_source(const std::string& file) {
+    std::error_code error;
+    if (file != "-" && !std::filesystem::exists(file, error)) {
+        throw UsageError(file + ": No such file or directory");
+    }
+    PatternText text = read_pattern_text(file);
+    return std::make_shared<const Source>(std::move(text.name), std::move(text.text));
+}
+
+/// The view file that was named, or that beside a cpfg file.
+SourcePointer view_of(const ImportOptions& options) {
+    if (!options.view.empty()) return read_source(options.view);
+    std::error_code error;
+    const auto beside = std::filesystem::path(options.file).replace_extension(".v");
+    if (options.file == "-" || !std::filesystem::is_regular_file(beside, error)) return nullptr;
+    return read_source(beside.string());
+}
+
+/// Those that the command line names, in the order of the file; all if it names none.
+std::vector<std::size_t> chosen(const std::vector<ImportedSystem>& systems, const ImportOptions& options) {
+    std::vector<std::size_t> indices;
+    std::set<std::string> wanted;
+    for (const std::string& name : options.names) wanted.insert(lower_case(name));
+    std::vector<std::string_view> known;
+    std::set<std::string> found;
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+        known.push_back(systems[i].name);
+        if (!wanted.empty() && !wanted.contains(lower_case(systems[i].name))) continue;
+        found.insert(lower_case(systems[i].name));
+        indices.push_back(i);
+    }
+    for (const std::string& name : options.names) {
+        if (found.contains(lower_case(name))) continue;
+        const std::string_view near = nearest(name, known);
+        throw UsageError(
+            fmt::format("{} holds no system '{}'{}", options.file, name,
+                        near.empty() ? "; --list tells those it holds" : fmt::format("; did you mean '{}'?", near)));
+    }
+    return indices;
+}
+
+void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices) {
+    for (const std::size_t i : indices) {
+        const ImportedSystem& system = systems[i];
+        fmt::print("{:<24} line {:<6} {}\n", system.name, system.line,
+                   system.pattern.empty() ? "has mistakes"
+                   : system.losses.empty()
+                       ? "exact"
+                       : fmt::format("{} not carried over", counted(system.losses.size(), "thing")));
+    }
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+/// Each into a file of its own name; a name that is taken gets a number.
+void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices,
+                  const std::string& folder, const Telling& telling) {
+    std::filesystem::create_directories(folder);
+    std::set<std::string> taken;
+    std::size_t written = 0;
+    std::size_t lossy = 0;
+    for (const std::size_t i : indices) {
+        const ImportedSystem& system = systems[i];
+        if (system.pattern.empty()) continue;
+        if (interrupted()) throw Interrupted("interrupted");
+        const std::string plain = import_file_name(system.name);
+        std::string name = plain;
+        for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}-{}", plain, number);
+        if (name != plain) {
+            telling.say("sikku: there is a {}.lsys already: '{}' of line {} is {}.lsys\n", plain, system.name,
+                        system.line, name);
+        }
+        write_file(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
+        ++written;
+        if (!system.losses.empty()) ++lossy;
+    }
+    telling.say("sikku: {} in {}{}\n", counted(written, "pattern"), folder,
+                lossy > 0 ? fmt::format(", {} of them without all that they had", lossy) : "");
+}
+
+/// Is that message about one of the systems chosen? What stands before the first belongs to all.
+bool concerns(const Diagnostic& diagnostic, const SourcePointer& file, const std::vector<ImportedSystem>& systems,
+              const std::vector<std::size_t>& indices) {
+    if (indices.size() == systems.size() || diagnostic.file != printable(file->name())) return true;
+    const auto after = std::upper_bound(systems.begin(), systems.end(), diagnostic.where.line,
+                                        [](int line, const ImportedSystem& system) { return line < system.line; });
+    if (after == systems.begin()) return true;
+    return std::binary_search(indices.begin(), indices.end(), static_cast<std::size_t>(after - systems.begin()) - 1);
+}
+
+void import_file(const ImportOptions& options, const Telling& telling) {
+    const SourcePointer file = read_source(options.file);
+    const auto format = import_format(file->text());
+    if (!format) {
+        throw UsageError(
+            fmt::format("{} is neither a file of cpfg, which has a line 'Lsystem:', nor a collection of Fractint, "
+                        "which has entries 'NAME {{'",
+                        options.file));
+    }
+    if (*format != ImportFormat::cpfg && !options.view.empty()) {
+        throw UsageError("--view-file: a collection of Fractint has no view file");
+    }
+    Diagnostics diagnostics;
+    const SourcePointer view = *format == ImportFormat::cpfg ? view_of(options) : nullptr;
+    const std::vector<ImportedSystem> systems =
+        *format == ImportFormat::cpfg ? import_cpfg(file, view, diagnostics) : import_fractint(file, diagnostics);
+    if (systems.empty()) diagnostics.throw_if_errors();
+    const std::vector<std::size_t> indices = chosen(systems, options);
+    if (options.list) return list_systems(systems, indices);
+    const bool to_folder = !options.output.empty() && !options.output.ends_with(".lsys");
+    if (!to_folder && indices.size() != 1) {
+        throw UsageError(fmt::format("{} holds {}: name one of them, or give a folder with -o; --list tells them",
+                                     options.file, counted(systems.size(), "system")));
+    }
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+        if (!concerns(diagnostic, file, systems, indices)) continue;
+        if (diagnostic.warning) {
+            telling.say("{}\n", diagnostic.text());
+        } else {
+            tell("{}\n", diagnostic.text());
+        }
+    }
+    const ImportedSystem& first = systems[indices.front()];
+    if (to_folder) {
+        write_folder(systems, indices, options.output, telling);
+    } else if (first.pattern.empty()) {
+    } else if (options.output.empty()) {
+        fmt::print("{}", first.pattern);
+    } else {
+        write_file(options.output, first.pattern);
+    }
+    const bool all_good =
+        std::none_of(indices.begin(), indices.end(), [&](std::size_t i) { return systems[i].pattern.empty(); });
+    if (!all_good) throw CLI::RuntimeError(2);
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, bool& quiet) {
+    auto* command = app.add_subcommand("import", "Make pattern files of L-systems of cpfg and Fractint");
+    auto options = std::make_shared<ImportOptions>();
+    command->add_option("FILE", options->file, "A cpfg file, a Fractint collection, or - for standard input")
+        ->required();
+    command->add_option("NAMES", options->names, "Only these entries of a collection");
+    command->add_option("-o,--output", options->output,
+                        "A folder, or a file NAME.lsys for a single system; standard output if absent");
+    command
+        ->add_option("--view-file", options->view,
+                     "View file of a cpfg file, for the angle (default: that beside it, NAME.v)")
+        ->type_name("FILE");
+    command->add_flag("--list", options->list, "Tell what the file holds");
+    command->footer(
+        "What cannot be carried over is told with its place, and in the pattern's description.\n\n"
+        "Examples:\n"
+        "  sikku import fractint.l -o imported\n"
+        "  sikku import fractint.l Dragon | sikku draw - -n 10 -o dragon.svg\n"
+        "  sikku import plant.l --view-file plant.v -o plant.lsys");
+    command->callback(
+        [options, &quiet] { import_file(*options, Telling{.quiet = quiet, .listener = {}, .watch = {}}); });
+}
+
+}  // namespace sikku

@@ -1,0 +1,930 @@
+// tests/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the patterns that
+// come along.
+#include "engine/import.h"
+
+#include "tests/fuzz/targets.h"
+#include "tests/module_reference.h"
+#include "tests/program.h"
+#include "tests/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+
+namespace sikku {
+namespace {
+
+using reference::derived_modules;
+using reference::grammar_of;
+
+std::string repeated_text(std::string_view text, int times) {
+    std::string result;
+    for (int i = 0; i < times; ++i) result += text;
+    return result;
+}
+
+SourcePointer source_of(const std::string& text, const std::string& name = "test.l") {
+    return std::make_shared<const Source>(name, text);
+}
+
+std::string all_of(const Diagnostics& diagnostics) {
+    std::string text;
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) text += diagnostic.text() + '\n';
+    return text;
+}
+
+std::vector<ImportedSystem> fractint(const std::string& text) {
+    Diagnostics diagnostics;
+    const auto systems = import_fractint(source_of(text), diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors()) << all_of(diagnostics);
+    return systems;
+}
+
+ImportedSystem cpfg(const std::string& text, const std::string& view = "") {
+    Diagnostics diagnostics;
+    const auto systems =
+        import_cpfg(source_of(text), view.empty() ? nullptr : source_of(view, "test.v"), diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors()) << all_of(diagnostics);
+    EXPECT_EQ(systems.size(), 1U);
+    return systems.front();
+}
+
+/// The word after n steps, or after those that the pattern states.
+std::string word_of(const std::string& pattern, int n = -1, bool interpreted = false) {
+    std::vector<Setting> settings;
+    if (n >= 0) settings.push_back({"-n", "derivation length", std::to_string(n)});
+    return derived_modules(grammar_of(pattern, settings), interpreted);
+}
+
+void expect_errors(const Diagnostics& diagnostics, const std::vector<reference::Expected>& expected) {
+    std::vector<Diagnostic> errors;
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+        if (!diagnostic.warning) errors.push_back(diagnostic);
+    }
+    ASSERT_EQ(errors.size(), expected.size()) << all_of(diagnostics);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        EXPECT_EQ(errors[i].where, expected[i].where) << errors[i].text();
+        EXPECT_TRUE(has(errors[i].message, expected[i].essence));
+    }
+}
+
+// --- Fractint: the second algorithm --------------------------------------------------------------------------------
+
+struct Segment {
+    double x0, y0, x1, y1;
+    int colour;
+};
+
+/// Obeys an entry as its text stands, depth first, as Fractint's documentation and sources tell: nothing is derived.
+class FractintTurtle {
+public:
+    FractintTurtle(const std::string& entry, int order) {
+        std::istringstream lines(entry.substr(entry.find('{') + 1));
+        std::string axiom;
+        for (std::string line; std::getline(lines, line);) {
+            line = line.substr(0, line.find_first_of(";}"));
+            for (char& byte : line) byte = static_cast<char>(std::tolower(byte));
+            std::istringstream words(line);
+            std::string first;
+            std::string second;
+            words >> first >> second;
+            if (first == "axiom") {
+                axiom = second;
+            } else if (first == "angle") {
+                angles_ = std::stoi(second);
+            } else if (first.size() > 1) {
+                rules_.emplace_back(first[0], first.substr(2));
+            }
+        }
+        std::size_t at = 0;
+        obey(axiom, at, order);
+    }
+
+    std::vector<Segment> segments;
+
+private:
+    struct State {
+        double x = 0;
+        double y = 0;
+        int angle = 0;
+        double degrees = 0;
+        double size = 1;
+        bool reverse = false;
+        int colour = 15;
+    };
+
+    static double number(const std::string& word, std::size_t& at) {
+        bool root = false;
+        bool inverse = false;
+        while (at < word.size() && (word[at] == 'q' || word[at] == 'i')) (word[at++] == 'q' ? root : inverse) = true;
+        std::string digits;
+        while (at < word.size() && (std::isdigit(word[at]) || word[at] == '.')) digits += word[at++];
+        double value = digits.empty() ? 0 : std::stod(digits);
+        if (root) value = std::sqrt(value);
+        return inverse ? 1 / value : value;
+    }
+
+    void step(double heading, bool drawn) {
+        const double x = state_.x + state_.size * std::cos(heading);
+        const double y = state_.y + state_.size * std::sin(heading);
+        if (drawn) segments.push_back({state_.x, state_.y, x, y, state_.colour});
+        state_.x = x;
+        state_.y = y;
+    }
+
+    /// Up to the end of the word or of the branch.
+    void obey(const std::string& word, std::size_t& at, int depth) {
+        const double pi = std::acos(-1.0);
+        while (at < word.size() && word[at] != ']') {
+            const char command = word[at++];
+            const bool numbered = std::string("@\\/c<>").find(command) != std::string::npos;
+            const double value = numbered ? number(word, at) : 0;
+            bool replaced = false;
+            for (const auto& [letter, body] : rules_) {
+                if (depth == 0 || letter != command) continue;
+                replaced = true;
+                std::size_t begin = 0;
+                obey(body, begin, depth - 1);
+            }
+            if (replaced) continue;
+            const int side = state_.reverse ? -1 : 1;
+            switch (command) {
+                case '+':
+                    state_.angle += side;
+                    break;
+                case '-':
+                    state_.angle -= side;
+                    break;
+                case '|':
+                    state_.angle -= angles_ / 2;
+                    break;
+                case '\\':
+                    state_.degrees += side * value;
+                    break;
+                case '/':
+                    state_.degrees -= side * value;
+                    break;
+                case '@':
+                    state_.size *= value;
+                    break;
+                case '!':
+                    state_.reverse = !state_.reverse;
+                    break;
+                case 'f':
+                case 'g':
+                    step(2 * pi * state_.angle / angles_, command == 'f');
+                    break;
+                case 'd':
+                case 'm':
+                    step(pi / 180 * state_.degrees, command == 'd');
+                    break;
+                case 'c':
+                    state_.colour = static_cast<int>(value);
+                    break;
+                case '<':
+                    state_.colour += static_cast<int>(value);
+                    break;
+                case '>':
+                    state_.colour -= static_cast<int>(value);
+                    break;
+                case '[': {
+                    const State saved = state_;
+                    obey(word, at, depth);
+                    ++at;
+                    state_ = saved;
+                    break;
+                }
+                default:
+                    break;
+            }
+        }
+    }
+
+    int angles_ = 0;
+    std::vector<std::pair<char, std::string>> rules_;
+    State state_;
+};
+
+/// The pattern's picture of that order.
+std::vector<Segment> picture(const std::string& pattern, int order) {
+    const Grammar made = grammar_of(pattern);
+    const auto grammar = made.with_steps(made.steps() - 2 + order);
+    EXPECT_TRUE(grammar);
+    reference::Recorder recorder;
+    const auto turtle = Turtle::drawing(*grammar, recorder, false);
+    DerivationOptions options;
+    options.interpreted = true;
+    derive(*grammar, *turtle, options);
+    std::vector<Segment> segments;
+    for (const auto& stroke : recorder.strokes) {
+        for (std::size_t i = 0; i + 1 < stroke.points.size(); ++i) {
+            segments.push_back({stroke.points[i].x, stroke.points[i].y, stroke.points[i + 1].x,
+                                stroke.points[i + 1].y, stroke.pens[i].colour});
+        }
+    }
+    return segments;
+}
+
+/// Segment for segment the same, in the same order.
+void expect_same_picture(const std::string& entry, const std::string& pattern, int order, bool with_colours = false) {
+    const std::vector<Segment> expected = FractintTurtle(entry, order).segments;
+    const std::vector<Segment> found = picture(pattern, order);
+    ASSERT_EQ(found.size(), expected.size()) << "order " << order << " of\n" << entry << '\n' << pattern;
+    double scale = 1;
+    for (const Segment& segment : expected) {
+        scale = std::max({scale, std::fabs(segment.x1), std::fabs(segment.y1)});
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double gap =
+            std::max({std::fabs(found[i].x0 - expected[i].x0), std::fabs(found[i].y0 - expected[i].y0),
+                      std::fabs(found[i].x1 - expected[i].x1), std::fabs(found[i].y1 - expected[i].y1)});
+        ASSERT_LT(gap, 1e-9 * scale) << "segment " << i << ", order " << order << " of\n" << entry << '\n' << pattern;
+        if (with_colours) {
+            ASSERT_EQ(found[i].colour, expected[i].colour) << i << "\n" << pattern;
+        }
+    }
+}
+
+std::string imported(const std::string& entry) {
+    const auto systems = fractint(entry);
+    EXPECT_EQ(systems.size(), 1U);
+    return systems.empty() ? "" : systems.front().pattern;
+}
+
+struct Published {
+    const char* entry;
+    int most_order;
+};
+
+// From Mandelbrot 1982 and Prusinkiewicz & Lindenmayer 1990, as Fractint's users write them.
+const std::vector<Published> published = {
+    {"Koch1 {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n", 4},
+    {"Dragon {\n Angle 8\n Axiom FX\n F=\n y=+FX--FY+\n x=-FX++FY-\n}\n", 8},
+    {"Peano1 {\n Angle 4\n Axiom F-F-F-F\n F=F-F+F+F+F-F-F-F+F\n}\n", 3},
+    {"Bush {\n Angle 16\n Axiom ++++F\n F=FF-[-F+F+F]+[+F-F-F]\n}\n", 4},
+    {"Penrose1 {\n Angle 10\n Axiom +WF--XF---YF--ZF\n W=YF++ZF----XF[-YF----WF]++\n X=+YF--ZF[---WF--XF]+\n"
+     " Y=-WF++XF[+++YF++ZF]-\n Z=--YF++++WF[+ZF++++XF]--XF\n F=\n}\n",
+     5},
+    {"SnowFlake1 {\n Angle 12\n Axiom FR\n R=++!FRFU++FU++FU!---@Q3FU|-@IQ3!FRFU!\n"
+     " U=!FRFU!|+@Q3FR@IQ3+++!FR--FR--FRFU!--\n F=\n}\n",
+     4},
+    {"Snowflake2 {\n angle 12\n axiom F\n F=++!F!F--F--F@IQ3|+F!F--\n F=F--F!+++@Q3F@QI3|+F!F@Q3|+F!F\n}\n", 3},
+    {"Cesaro {\n Angle 34\n Axiom FX\n F=\n X=----F!X!++++++++F!X!----\n}\n", 6},
+    {"DoubleCesaro {\n Angle 4\n axiom D\\90D\\90D\\90D\\90\n D=\\42!D!/84!D!\\42\n}\n", 5},
+    {"Island1 {\n angle 4\n axiom F+F+F+F\n F=FFFF-F+F+F-F[-GFF+F+FF+F]FF\n G=@8G@I8\n}\n", 3},
+    {"Tree1 {\n angle 12\n axiom +++FX\n X=@.6[-FX]+FX\n}\n", 8},
+    {"Peano2 {\n Angle 8\n Axiom FXY++F++FXY++F\n X=XY@Q2-F@IQ2-FXY++F++FXY\n Y=-@Q2F-@IQ2FXY\n}\n", 4},
+    {"PentaPlexity {\n Angle 10\n Axiom F++F++F++F++F\n F=F++F++F|F-F++F\n}\n", 4},
+    {"Sierpinski1 {\n angle 3\n axiom F\n F=FXF\n X=+FXF-FXF-FXF+\n}\n", 4},
+};
+
+TEST(ImportFractint, PublishedEntriesAreDrawnAsFractintDrawsThem) {
+    for (const auto& [entry, most] : published) {
+        const std::string pattern = imported(entry);
+        for (int order = 0; order <= most; ++order) expect_same_picture(entry, pattern, order);
+    }
+}
+
+TEST(ImportFractint, WordsStayWhatTheyAreWhereNothingHasToChange) {
+    const std::string koch = imported(published[0].entry);
+    EXPECT_EQ(word_of(koch, 1), "F+F--F+F--F+F--F+F--F+F--F+F");
+    EXPECT_TRUE(has(koch, "angle factor: 6\nturn: left\nheading: 0\n"));
+    EXPECT_TRUE(has(koch, "title: Koch1\nsource: test.l, line 1\n"));
+    EXPECT_EQ(word_of(imported(published[1].entry), 2), "--FX++FY-+++FX--FY+-");
+    // The pattern that comes along is the same island.
+    EXPECT_EQ(word_of(imported("K {\nAngle 4\nAxiom f+f+f+f\nF=F+F-F-FF+F+F-F\n}\n"), 3),
+              word_of(imported("K {\nangle=4\naxiom=F+F+F+F\nf = F+F-F-FF+F+F-F\n}"), 3));
+}
+
+TEST(ImportFractint, ATurnAroundOfAnOddNumberIsTheLargestBelowHalf) {
+    // 360 * 2 / 5 degrees to the right, also where ! has exchanged the sides.
+    const std::string entry = "A {\nangle 5\naxiom F|F+F!F|F+F\nF=F|+F\n}\n";
+    const std::string pattern = imported(entry);
+    EXPECT_TRUE(has(pattern, "interpret:\n| --> --\n"));
+    for (int order = 0; order < 4; ++order) expect_same_picture(entry, pattern, order);
+    const Survey survey = reference::survey_of(grammar_of(imported("A {\nangle 5\naxiom !F|\n}\n")));
+    EXPECT_NEAR(survey.heading, 360 - 144, 1e-9);
+}
+
+TEST(ImportFractint, EffectsThatDependOnTheStepsLeft) {
+    // The length after X is 2 but for X itself, so that the last step has a table of its own.
+    const std::string transient = "A {\nangle 4\naxiom FXF+F\nX=@2+\nF=F-F\n}\n";
+    EXPECT_TRUE(has(imported(transient), "schedule: grow*(n-1) last1\n"));
+    // Here it never settles: 2^k.
+    const std::string growing = "A {\nangle 6\naxiom X\nX=F+X@2XF\n}\n";
+    EXPECT_TRUE(has(imported(growing), "table last10:\n"));
+    // And sides are exchanged every second time.
+    const std::string alternating = "A {\nangle 6\naxiom XF+F\nX=+F!XF\n}\n";
+    for (const std::string& entry : {transient, growing, alternating}) {
+        for (int order = 0; order < 7; ++order) expect_same_picture(entry, imported(entry), order);
+    }
+    // Beyond the tables nothing is drawn wrongly: it is refused.
+    const Grammar grammar = grammar_of(imported(growing));
+    EXPECT_TRUE(grammar.with_steps(10));
+    EXPECT_FALSE(grammar.with_steps(11));
+}
+
+TEST(ImportFractint, Colours) {
+    const std::string entry = "A {\nangle 6\naxiom FC4F+C12F\nF=F[c2F]F\n}\n";
+    for (int order = 0; order < 4; ++order) expect_same_picture(entry, imported(entry), order, true);
+    // Rules for colours, as older Fractints have them: those of earlier steps are gone.
+    const std::string erased = "A {\nangle 6\naxiom C3XC10FC11F\nX=FC12FX\nC=\n}\n";
+    const std::string pattern = imported(erased);
+    EXPECT_EQ(word_of(pattern, 1), ";(15)F C12 FXFF");
+    for (int order = 0; order < 4; ++order) expect_same_picture(erased, pattern, order, true);
+    const auto stepped = fractint("A {\nangle 6\naxiom F<1F>2F\n}\n");
+    ASSERT_EQ(stepped[0].losses.size(), 1U);
+    EXPECT_TRUE(has(stepped[0].losses[0], "line 3: that stepping through the colours passes over colour 0"));
+    EXPECT_TRUE(has(stepped[0].pattern, "Not carried over: line 3: that stepping"));
+}
+
+TEST(ImportFractint, OneHeadingForTwoIsTold) {
+    const auto systems = fractint("A {\nangle 6\naxiom F+D\\20\n}\n");
+    ASSERT_EQ(systems[0].losses.size(), 1U);
+    EXPECT_TRUE(has(systems[0].losses[0], "line 3: F and G go one way and D and M another"));
+    // Turns of the heading that no step takes do nothing in either program.
+    for (const char* entry :
+         {"A {\nangle 6\naxiom F+F\\20F/3F\nF=F+F\\5F\n}\n", "A {\nangle 6\naxiom D+D\\20|DM/3D\nD=D\\5M-D\n}\n"}) {
+        EXPECT_TRUE(fractint(entry)[0].losses.empty());
+        for (int order = 0; order < 4; ++order) expect_same_picture(entry, imported(entry), order);
+    }
+}
+
+TEST(ImportFractint, CharactersThatWordsOfPatternsDoNotHold) {
+    const std::string entry = "A {\nangle 6\naxiom #F+&F\",\n#=F!&+#F@2\n&=-F:#\n%=F\n}\n";
+    const std::string pattern = imported(entry);
+    EXPECT_TRUE(has(pattern, "// p23 is Fractint's #"));
+    for (int order = 0; order < 5; ++order) expect_same_picture(entry, pattern, order);
+}
+
+TEST(ImportFractint, RandomSystems) {
+    for (unsigned seed = 0; seed < 400; ++seed) {
+        std::mt19937 random(seed);
+        const auto pick = [&](const std::vector<std::string>& list) { return list[random() % list.size()]; };
+        const bool other = random() % 3 == 0;  // D and M
+        const auto word = [&] {
+            std::string text;
+            int open = 0;
+            for (std::size_t i = random() % 9 + 1; i > 0; --i) {
+                const std::string step = other ? pick({"D", "M", "\\30", "/45.5"}) : pick({"F", "G", "+", "-", "|"});
+                text += pick({step, step, "X", "Y", "!", pick({"@2", "@I2", "@q2", "@iq2", "@1.5"}), "[", "C3"});
+                if (text.back() == '[') ++open;
+                if (open > 0 && random() % 3 == 0) {
+                    text += ']';
+                    --open;
+                }
+            }
+            return text + std::string(static_cast<std::size_t>(open), ']');
+        };
+        std::string entry =
+            fmt::format("R {{\nangle {}\naxiom {}\nX={}\nY={}\n", 3 + random() % 12, word(), word(), word());
+        if (random() % 2 == 0) entry += fmt::format("{}={}\n", other ? "D" : "F", word());
+        if (random() % 3 == 0) entry += "X=" + word() + "\n";
+        entry += "}\n";
+        const std::string pattern = imported(entry);
+        ASSERT_FALSE(pattern.empty()) << entry;
+        for (int order = 0; order < 4; ++order) {
+            if (FractintTurtle(entry, order).segments.size() > 3000) break;
+            expect_same_picture(entry, pattern, order, pattern.find("palette:") != std::string::npos);
+            if (::testing::Test::HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST(ImportFractint, Collections) {
+    const auto systems = fractint(
+        "; of others { no }\ncomment {\n Angle 1 }\n{ nobody's }\n"
+        "Kites&Darts(x) { ; by somebody; else\n ; after a book\n ANGLE 10\n AXIOM f ; }\n}\n"
+        "plain text\nkites&darts {\nangle 3\naxiom F\n}  Third{\nangle 4\naxiom F}\n");
+    ASSERT_EQ(systems.size(), 3U);
+    EXPECT_EQ(systems[0].name, "Kites&Darts");
+    EXPECT_EQ(systems[0].line, 5);
+    EXPECT_TRUE(has(systems[0].pattern, "source: test.l, line 5: by somebody; else after a book }"));
+    EXPECT_EQ(systems[1].line, 11);
+    EXPECT_EQ(systems[2].name, "Third");
+    EXPECT_EQ(import_file_name(systems[0].name), "kites-darts");
+    EXPECT_EQ(import_file_name("../../Etc/Passwd "), "etc-passwd");
+    EXPECT_EQ(import_file_name("\xE4\xF6"), "system");
+    EXPECT_EQ(import_file_name(std::string(1000, 'x')).size(), 80U);
+}
+
+TEST(ImportFractint, MistakesAreTold) {
+    const auto expect = [](const std::string& text, const std::vector<reference::Expected>& expected) {
+        Diagnostics diagnostics;
+        const auto systems = import_fractint(source_of(text), diagnostics);
+        expect_errors(diagnostics, expected);
+        for (const ImportedSystem& system : systems) EXPECT_EQ(system.pattern, "") << text;
+    };
+    expect("A {\nangle 4\n}\n", {{{1, 1}, "the entry 'A' has no axiom"}});
+    expect("A {\naxiom F\n}\n", {{{1, 1}, "the entry 'A' has no angle"}});
+    expect("A {\naxiom F\nangle 2\n}\n", {{{3, 7}, "a whole number from 3 to 50"}});
+    expect("A {\naxiom F\nangle 8.5\n}\n", {{{3, 7}, "a whole number from 3 to 50"}});
+    expect("A {\naxiom F\nangle\n}\n", {{{3, 5}, "a whole number from 3 to 50"}});
+    expect("A {\naxiom F\nangle 8\nF=F [F]\n}\n", {{{4, 5}, "text after the word"}});
+    expect("A {\naxiom F\nangle 8\n+=F\n}\n", {{{4, 1}, "a rule for the command '+' is not allowed"}});
+    expect("A {\naxiom F\nangle 8\nFF=F\n}\n", {{{4, 1}, "expected 'Angle n', 'Axiom word' or a rule"}});
+    expect("A {\naxiom F[+F\nangle 8\n}\n", {{{2, 8}, "this '[' is not closed"}});
+    expect("A {\naxiom F@F\nangle 8\n}\n", {{{2, 8}, "a number above 0 after '@'"}});
+    expect("A {\naxiom F@1.2.3F\nangle 8\n}\n", {{{2, 9}, "no decimal number"}});
+    expect("A {\naxiom F\xC3\xA4\nangle 8\n}\n", {{{2, 8}, "ASCII"}});
+    expect("A {\naxiom F\nangle 8\n", {{{1, 3}, "the entry 'A' has no end: expected '}'"}});
+    expect("A {\n}\nB {\naxiom F\n}\n", {{{1, 1}, "no axiom"}, {{3, 1}, "no angle"}});
+    expect("nothing at all\n", {{{1, 1}, "there is no entry"}});
+    expect(std::string("A {\n\0}", 6), {{{2, 1}, "a NUL byte"}});
+    // What Fractint itself does not read is not read here.
+    Diagnostics diagnostics;
+    const auto cut = import_fractint(source_of("A {\naxiom F+F]-F\nangle 8\n}\n"), diagnostics);
+    EXPECT_EQ(word_of(cut[0].pattern, 0), "F+F");
+    EXPECT_TRUE(has(all_of(diagnostics), "test.l:2:10: warning: ']' without '['"));
+}
+
+// --- cpfg ----------------------------------------------------------------------------------------------------------
+
+/// A pattern that comes along.
+std::string along(const std::string& name) {
+    return contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns" / (name + ".lsys"));
+}
+
+/// The same words after each number of steps.
+void expect_same_words(const std::string& imported, const std::string& pattern, int most) {
+    for (int n = 0; n <= most; ++n) ASSERT_EQ(word_of(imported, n), word_of(pattern, n)) << n << '\n' << imported;
+}
+
+TEST(ImportCpfg, ParametersAndDefines) {
+    const ImportedSystem honda = cpfg(
+        "/* Honda's trees, table 1 */\n#define r1 0.75 // first\n#define r2 .77\n#define alpha1 35\n#define alpha2 "
+        "-35\n"
+        "#define w0 30\n#define q 0.50\n#define e (0.40)\n#define min 0.0\n\nLsystem: 1\nderivation length: 10\n"
+        "Axiom: A(100, w0)\n\nA(s,w) : s >= min --> !(w)F(s)\n\t[+(alpha1)/(0)A(s*r1,w*q^e)]\n"
+        "\t[+(alpha2)/(0)A(s*r2,w*(1-q)^e)]\nendlsystem\n",
+        "angle increment: 18\nline style: polygon\n");
+    expect_same_words(honda.pattern, along("plants/honda-trees"), 8);
+    EXPECT_TRUE(has(honda.pattern, "define alpha2 = -35\n"));
+    EXPECT_TRUE(has(honda.pattern, "angle increment: 18\n"));
+    EXPECT_TRUE(has(honda.pattern, "title: test\nsource: test.l\n"));
+    ASSERT_EQ(honda.losses.size(), 2U);
+    EXPECT_EQ(honda.losses[0], "test.v, line 2: 'line style:' of the view");
+    EXPECT_TRUE(has(honda.losses[1], "line 16: the third dimension"));
+
+    const ImportedSystem words = cpfg(
+        "Lsystem: words\nderivation length: 5\nAxiom: B(2)A(4,4)\nA(x,y) : y <= 3 --> A(x*2,x+y)\n"
+        "A(x,y) : y > 3 --> B(x)A(x/y,0)\nB(x) : x < 1 --> C\nB(x) : x >= 1 --> B(x-1)\nendlsystem\n");
+    expect_same_words(words.pattern, along("words/parametric-example"), 9);
+    EXPECT_TRUE(has(words.pattern, "title: words\n"));
+    EXPECT_TRUE(has(words.pattern, "angle increment: 45\nturn: left\n"));
+    EXPECT_TRUE(words.losses.empty());
+
+    const ImportedSystem leaf = cpfg(
+        "Lsystem: 0\nderivation length: 5\nAxiom: !(1)F(1)\nF(s) --> G(s)[-!(1)F(s)][+!(1)F(s)]G(s)!(1)F(s)\n"
+        "G(s) --> G(2*s)\n!(w) --> !(3)\nendlsystem\n");
+    expect_same_words(leaf.pattern, along("plants/compound-leaf"), 6);
+}
+
+TEST(ImportCpfg, ContextsAndCuts) {
+    const ImportedSystem hogeweg = cpfg(
+        "Lsystem: 1\nderivation length: 30\nignore: +-F\nAxiom: F1F1F1\n0 < 0 > 0 --> 1\n0 < 0 > 1 --> 1[-F1F1]\n"
+        "0 < 1 > 0 --> 1\n0 < 1 > 1 --> 1\n1 < 0 > 0 --> 0\n1 < 0 > 1 --> 1F1\n1 < 1 > 0 --> 1\n1 < 1 > 1 --> 0\n"
+        "* < - > * --> +\n* < + > * --> -\nendlsystem\n",
+        "angle factor: 16\n");
+    expect_same_words(hogeweg.pattern, along("plants/hogeweg-hesper-b"), 24);
+    EXPECT_TRUE(has(hogeweg.pattern, "angle factor: 16\n"));
+
+    const ImportedSystem considered = cpfg(
+        "Lsystem: 1\nderivation length: 30\nconsider: [01]\nAxiom: F1F1F1\n0 < 0 > 0 --> 1\n0 < 0 > 1 --> 1[-F1F1]\n"
+        "0 < 1 > 0 --> 1\n0 < 1 > 1 --> 1\n1 < 0 > 0 --> 0\n1 < 0 > 1 --> 1F1\n1 < 1 > 0 --> 1\n1 < 1 > 1 --> 0\n"
+        "- --> +\n+ --> -\nendlsystem\n");
+    expect_same_words(considered.pattern, along("plants/hogeweg-hesper-b"), 20);
+    EXPECT_TRUE(has(considered.pattern, "consider: 0 1 [ ]\n"));
+    // cpfg passes through brackets that it is not told to consider.
+    const ImportedSystem through = cpfg(
+        "Lsystem: 1\nconsider: ab\nderivation length: 1\nAxiom: a[b]\na > b --> c\n"
+        "endlsystem\n");
+    EXPECT_EQ(word_of(through.pattern), "c[b]");
+
+    const ImportedSystem shedding = cpfg(
+        "Lsystem: 1\nderivation length: 9\nAxiom: A\nA --> F(1)[-X(3)B][+X(3)B]A\nB --> F(1)B\nX(d) : d > 0 --> "
+        "X(d-1)\n"
+        "X(d) : d == 0 --> U%\nU --> F(0.3)\nendlsystem\n");
+    expect_same_words(shedding.pattern, along("plants/branch-shedding"), 9);
+
+    // `=` lets a branch go on.
+    const ImportedSystem flux = cpfg(
+        "#define a1 10 /* branching angle */\n#define a2 32\n#define sigma0 17\n#define eta 0.89\n#define lambda "
+        "0.7\n"
+        "#define v_th 5.0\nLsystem: 1\nderivation length: 35\nignore: +-/\nAxiom: N(1)I(0,2,0,1)A(1)\n"
+        "N(k) < I(b,m,v,c) : b==0 && m==2 --> I(b,1,sigma0*2^((k-1)*(eta^k)),c)\n"
+        "N(k) > I(b,m,v,c) : b==0 && m==2 --> N(k+1)\n"
+        "I(bl,ml,vl,cl) < I(b,m,v,c) : ml==1 && b==1 --> I(b,ml,vl-vl*(1-lambda)*((cl-c)/c),c)\n"
+        "I(bl,ml,vl,cl) < I(b,m,v,c) : ml==1 && b==2 --> I(b,ml,vl*(1-lambda)*(c/(cl-c)),c)\n"
+        "I(b,m,v,c) < A(s) : m==1 && v>v_th "
+        "-->\n\t[-(s*a2)I(2,2,v*(1-lambda),1)A(-s)]\n\t+(s*a1)I(1,2,v*lambda,1)A(-s)\n"
+        "I(b,m,v,c) > A(s) : m==1 && v<=v_th --> I(b,2,v,c)\n"
+        "I(b,m,v,c) > [I(b2,m2,v2,c2)=]I(b1,m1,v1,c1) : m==0 && m1==2 && m2==2 --> I(b,2,v,c1+c2)\n"
+        "I(b,m,v,c) : m==1 --> I(b,0,v,c)\nI(bl,ml,vl,cl) < I(b,m,v,c) : ml==2 && m==2 --> I(b,0,v,c)\n"
+        "homomorphism\nI(b,m,v,c) --> F\nendlsystem\n");
+    // cpfg tries them in the order of the file: the last never overtakes the one before it.
+    const std::string ordered = flux.pattern;
+    EXPECT_TRUE(has(ordered, "ml==2&&m==2&&!(m==1) --> I(b,0,v,c)\n"));
+    expect_same_words(ordered, along("plants/borchert-honda"), 35);
+    EXPECT_EQ(word_of(ordered, 20, true), word_of(along("plants/borchert-honda"), 20, true));
+}
+
+TEST(ImportCpfg, Chance) {
+    const std::string text =
+        "seed: 0\nderivation length: 5\nAxiom: F\nF --> F[+F]F[-F]F : 0.33\nF --> F[+F]F : 0.33\nF --> F[-F]F : "
+        "0.34\n"
+        "endlsystem\n";
+    const ImportedSystem chance = cpfg("Lsystem: 1\n" + text);
+    expect_same_words(chance.pattern, along("plants/stochastic-branches"), 5);
+    // Without a weight it is 1; without a seed there is no chance at all.
+    EXPECT_TRUE(has(cpfg("Lsystem: 1\nseed: 3\nAxiom: A\nA --> B\nA --> C : 2\nB --> D : 0.5\nendlsystem\n").pattern,
+                    "seed: 3\naxiom: A\nA --> B : 1\nA --> C : 2\nB --> D\n"));
+    const ImportedSystem certain = cpfg("Lsystem: 1\n" + text.substr(8));
+    EXPECT_EQ(word_of(certain.pattern, 1), "F[+F]F[-F]F");
+    EXPECT_EQ(certain.losses.size(), 3U);
+    EXPECT_TRUE(has(certain.losses[0], "probabilities"));
+    const ImportedSystem mixed = cpfg("Lsystem: 1\nseed: 3\nAxiom: AB\nA > B --> C\nA --> D\nendlsystem\n");
+    ASSERT_EQ(mixed.losses.size(), 1U);
+    EXPECT_TRUE(has(mixed.losses[0], "whatever their contexts"));
+    EXPECT_TRUE(has(cpfg("Lsystem: 1\nderivation length: 1\nAxiom: A\nA --> F(ran(2)+1)\nendlsystem\n").pattern,
+                    "A --> F(random(0,2)+1)\n"));
+}
+
+TEST(ImportCpfg, Expressions) {
+    const auto value = [](const std::string& expression) {
+        const ImportedSystem system =
+            cpfg("Lsystem: 1\nderivation length: 1\nAxiom: A(7,3)\nA(x,y) --> B(" + expression + ")\nendlsystem\n");
+        const std::string word = word_of(system.pattern);
+        return std::stod(word.substr(2));
+    };
+    // Powers associate to the left, signs bind tightest.
+    EXPECT_EQ(value("2^3^2"), 64);
+    EXPECT_EQ(value("-2^2"), 4);
+    EXPECT_EQ(value("-(2^2)"), -4);
+    EXPECT_EQ(value("2^(3^2)"), 512);
+    EXPECT_EQ(value("2^-1"), 0.5);
+    EXPECT_EQ(value("!x+1"), 1);
+    EXPECT_EQ(value("!(x>7)*5"), 5);
+    EXPECT_EQ(value("10-3-2"), 5);
+    EXPECT_EQ(value("10-(3-2)"), 9);
+    EXPECT_EQ(value("x-(-y)"), 10);
+    EXPECT_EQ(value("x--y"), 10);
+    EXPECT_EQ(value("24/4/2"), 3);
+    EXPECT_EQ(value("24/(4/2)"), 12);
+    EXPECT_EQ(value("x%4"), 3);
+    EXPECT_EQ(value("-7.9%4"), -3);
+    EXPECT_EQ(value("(x+0.9)%(y+.5)"), 1);
+    EXPECT_EQ(value("x<>y"), 1);
+    EXPECT_EQ(value("x<y||y<x&&0"), 0);
+    EXPECT_NEAR(value("sin(30)+cos(x*0+60)"), 1, 1e-15);
+    EXPECT_NEAR(value("asin(1)-atan(1)"), 45, 1e-12);
+    EXPECT_EQ(value("trunc(2.5)+floor(2.9)+ceil(0.1)"), 6);
+    EXPECT_EQ(value("sign(-x)+fabs(0-2)"), 1);
+    EXPECT_EQ(value("sqrt(x+2)"), 3);
+    EXPECT_EQ(value("log(exp(2))"), 2);
+}
+
+TEST(ImportCpfg, DefinesAreExpandedAsByAPreprocessor) {
+    const auto word = [](const std::string& head, const std::string& successor) {
+        return word_of(
+            cpfg(head + "Lsystem: 1\nderivation length: 1\nAxiom: A\nA --> " + successor + "\nendlsystem\n").pattern);
+    };
+    EXPECT_EQ(word("#define STEP(a, b) F(a*b)\n", "STEP(2,1+2)[STEP((1),4)]"), "F(4)[F(4)]");
+    EXPECT_EQ(word("#define leaf [+ stalk]\n#define stalk FF\n", "X leaf leaf"), "X[+FF][+FF]");
+    EXPECT_EQ(word("#define F G\n", "F FF[F]"), "GFF[G]");
+    EXPECT_EQ(word("#define SUM 1+2\n", "F(SUM*3)"), "F(7)") << "what is no number by itself is text";
+    EXPECT_EQ(word("#define SUM (1+2)\n", "F(SUM*3)"), "F(9)");
+    EXPECT_EQ(word("#define LEN -2\n", "F(3-LEN)"), "F(5)");
+    EXPECT_EQ(word("#define L 2 \\\n + 3\n", "F(L)"), "F(5)");
+    EXPECT_EQ(word("#define L 2\n#undef L\n#define L 3\n", "F(L)"), "F(3)");
+    EXPECT_EQ(word("#ifdef BIG\n#define L 9\n#else\n#define L 3\n#endif\n#if L\n#define M 1\n#endif\n", "F(L+M)"),
+              "F(4)");
+    EXPECT_EQ(word("#if 0\nnonsense ((\n#ifdef X\n#endif\n#endif\n", "F"), "F");
+    // Numbers stay names.
+    const ImportedSystem named = cpfg(
+        "#define STEPS 4\n#define LEN 2.50\n#define TWICE (LEN*2)\n#define UNUSED 1\nLsystem: 1\n"
+        "derivation length: STEPS+1\nAxiom: F(TWICE)\nF(a) : a<LEN --> F(TWICE)\nendlsystem\n");
+    EXPECT_TRUE(has(named.pattern, "\n\ndefine LEN = 2.5\ndefine TWICE = LEN*2\n\n"));
+    EXPECT_TRUE(has(named.pattern, "derivation length: 5\n"));
+    EXPECT_EQ(word_of(named.pattern, 0), "F(5)");
+}
+
+/// First production of the file that matches, letter by letter; a module is a letter with a number.
+struct OrderedRule {
+    char left = 0, predecessor = 0, right = 0;
+    int least = 0;  ///< condition: the number is at least that
+    std::string letters;
+};
+
+TEST(ImportCpfg, TheFirstProductionThatMatchesApplies) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const auto letter = [&] { return static_cast<char>('a' + random() % 3); };
+        std::vector<OrderedRule> rules;
+        std::string text = "Lsystem: 1\nderivation length: 5\nAxiom: a(1)b(2)c(0)a(3)\n";
+        for (std::size_t i = random() % 8 + 1; i > 0; --i) {
+            OrderedRule rule;
+            rule.predecessor = letter();
+            if (random() % 2 == 0) rule.left = letter();
+            if (random() % 3 == 0) rule.right = letter();
+            rule.least = random() % 2 == 0 ? static_cast<int>(random() % 4) : -100;
+            for (std::size_t k = random() % 3; k > 0; --k) rule.letters += letter();
+            const char name = "pqst"[random() % 4];
+            if (rule.left != 0) text += fmt::format("{}(l) < ", rule.left);
+            text += fmt::format("{}({})", rule.predecessor, name);
+            if (rule.right != 0) text += fmt::format(" > {}(r)", rule.right);
+            if (rule.least > -100) text += fmt::format(" : {} >= {}", name, rule.least);
+            text += " -->";
+            if (rule.letters.empty()) text += " *";
+            for (std::size_t k = 0; k < rule.letters.size(); ++k) {
+                text += fmt::format(" {}({}{})", rule.letters[k], name, k % 2 == 0 ? "+1" : "-1");
+            }
+            text += '\n';
+            rules.push_back(rule);
+        }
+        std::vector<std::pair<char, int>> word = {{'a', 1}, {'b', 2}, {'c', 0}, {'a', 3}};
+        const ImportedSystem system = cpfg(text + "endlsystem\n");
+        for (int step = 0; step <= 5; ++step) {
+            std::string expected;
+            for (const auto& [symbol, value] : word) expected += fmt::format("{}({})", symbol, value);
+            ASSERT_EQ(word_of(system.pattern, step), expected) << text << '\n' << system.pattern;
+            std::vector<std::pair<char, int>> next;
+            for (std::size_t at = 0; at < word.size(); ++at) {
+                const auto rule = std::find_if(rules.begin(), rules.end(), [&](const OrderedRule& one) {
+                    return one.predecessor == word[at].first && word[at].second >= one.least &&
+                           (one.left == 0 || (at > 0 && word[at - 1].first == one.left)) &&
+                           (one.right == 0 || (at + 1 < word.size() && word[at + 1].first == one.right));
+                });
+                if (rule == rules.end()) {
+                    next.push_back(word[at]);
+                    continue;
+                }
+                for (std::size_t k = 0; k < rule->letters.size(); ++k) {
+                    next.emplace_back(rule->letters[k], word[at].second + (k % 2 == 0 ? 1 : -1));
+                }
+            }
+            word = std::move(next);
+        }
+    }
+}
+
+TEST(ImportCpfg, WhatTheTurtleDoesOtherwise) {
+    const auto drawn = [](const std::string& axiom, const std::string& homomorphism = "",
+                          const std::string& view = "") {
+        return word_of(cpfg("Lsystem: 1\nAxiom: " + axiom + "\n" + homomorphism + "endlsystem\n", view).pattern, 0,
+                       true);
+    };
+    // Without an increment ! and # do nothing; ' means nothing; circles have diameters; tubes are no polygons.
+    EXPECT_EQ(drawn("!F#(2)G#f'g"), "F#(2)Gfg");
+    EXPECT_EQ(drawn("!F", "", "line width increment: 0.5\n"), "!F");
+    EXPECT_EQ(drawn("@O(3)@c(1)@o(4,1)F@v@O"), "@O(1.5)@O(0.5)@O(2)F@v");
+    EXPECT_EQ(drawn("{(4)F}(4){(0)F}{F}"), "F{(0)F}{F}");
+    EXPECT_EQ(drawn("A!'", "homomorphism: no warnings\nA --> F!'@O(2)%{(3)[B]}(3)\nB --> FF\n"), "F@O(1)[B]");
+    const Survey survey =
+        reference::survey_of(grammar_of(cpfg("Lsystem: 1\nAxiom: F+(90)G(2)f-(90)g\nendlsystem\n").pattern));
+    EXPECT_NEAR(survey.end.x, -3, 1e-12);
+    EXPECT_NEAR(survey.end.y, 2, 1e-12);
+    EXPECT_EQ(survey.drawn, 2U);
+    // A surface called f does not move the turtle.
+    const ImportedSystem surface =
+        cpfg("Lsystem: 1\nderivation length: 1\nAxiom: F~f(1)\n~f(s) --> ~f(s*2)~p(1)\nendlsystem\n");
+    EXPECT_EQ(word_of(surface.pattern), "F~\xCE\x91(2)~p(1)");
+    EXPECT_TRUE(has(surface.pattern, "// The surface ~f is ~\xCE\x91 here"));
+}
+
+TEST(ImportCpfg, ViewFiles) {
+    const auto made = [](const std::string& view) { return cpfg("Lsystem: 1\nAxiom: F\nendlsystem\n", view); };
+    EXPECT_TRUE(has(made("angle factor: 7\n").pattern, "angle factor: 7\n"));
+    EXPECT_TRUE(has(made("angle factor: 7.5\n").pattern, "angle increment: 360/7.5\n"));
+    EXPECT_TRUE(has(made("/* angle factor: 7\n */\n\tangle increment:  25.7 // degrees\n").pattern,
+                    "angle increment: 25.7\n"));
+    const ImportedSystem wide = made("initial line width: 2 pixels\nscale factor: .9\nz buffer: on\n");
+    EXPECT_TRUE(has(wide.pattern, "scale factor: 90\nstroke: 2 px\n"));
+    ASSERT_EQ(wide.losses.size(), 1U);
+    EXPECT_EQ(wide.losses[0], "test.v, line 3: 'z buffer:' of the view");
+    EXPECT_TRUE(has(made("initial line width: 0.1\n").pattern, "stroke: 0.1 step\n"));
+    Diagnostics diagnostics;
+    import_cpfg(source_of("Lsystem: 1\nAxiom: F\nendlsystem\n"), source_of("\nangle factor: many\n", "test.v"),
+                diagnostics);
+    expect_errors(diagnostics, {{{2, 13}, "expected a number other than 0"}});
+}
+
+TEST(ImportCpfg, LossesAreTold) {
+    const auto losses = [](const std::string& text) {
+        const ImportedSystem system = cpfg(text);
+        for (const std::string& loss : system.losses) EXPECT_TRUE(has(system.pattern, import_text(loss, 200)));
+        return fmt::format("{}", fmt::join(system.losses, "\n"));
+    };
+    const std::string head = "Lsystem: 1\nAxiom: A(1)\n";
+    EXPECT_TRUE(has(losses(head + "A(x) --> B(nran(x,1))\nendlsystem\n"),
+                    "line 3: this production: the pattern language has no function 'nran'"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B(x>1?2:3)\nendlsystem\n"), "'?:' chooses between values"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B(y)\nendlsystem\n"), "line 3: this production: 'y' is not defined"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B(t[x])\nendlsystem\n"), "'t' is an array"));
+    EXPECT_TRUE(
+        has(losses(head + "A(x) : {x=1;} 1 {\nx=2;\n} --> B(x)\nendlsystem\n"), "the C statements of a production"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B\ndecomposition\nB --> (\nendlsystem\n"), "line 4: the decomposition"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B\nhomomorphism\nmaximum depth: 3\nB --> BC\nendlsystem\n"),
+                    "line 5: that the homomorphism is applied to its own successors"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B\nendlsystem\nLsystem: 2\n"), "line 5: the sub-L-systems"));
+    EXPECT_TRUE(
+        has(losses("#include <stdio.h>\n" + head + "A(x) --> B\nendlsystem\n"), "line 1: what #include would bring"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nring Lsystem\nAxiom: F\nendlsystem\n"), "line 2: that the word is a ring"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nStartEach: {\n a=1;\n}\nAxiom: F\nendlsystem\n"),
+                    "line 2: the C statements of 'starteach:'"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA --> C\nA > B --> D\nendlsystem\n"),
+                    "line 4: a production that can never apply"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA > =]B --> D\nendlsystem\n"),
+                    "line 3: this production: a right context"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: [AB]\nA > [B]C --> D\nendlsystem\n"),
+                    "that a branch in a right context ends"));
+    // Constants that are set once, when all begins, are defines.
+    const ImportedSystem start = cpfg(
+        "#define SI 1.5\nLsystem: 0\nStart: {c=SI+2*0.25;n = c;}\nderivation length: 1\nAxiom: A\nA --> F(c)F(n+1)\n"
+        "endlsystem\n");
+    EXPECT_TRUE(start.losses.empty());
+    EXPECT_EQ(word_of(start.pattern), "F(2)F(3)");
+    EXPECT_TRUE(has(losses("Lsystem: 0\nStart: {c=1;}\nEndEach: {c=c+1;}\nAxiom: A\nA --> F(c)\nendlsystem\n"),
+                    "this production: 'c' is not defined"));
+}
+
+TEST(ImportCpfg, MistakesAreTold) {
+    const auto expect = [](const std::string& text, const std::vector<reference::Expected>& expected) {
+        SCOPED_TRACE(text.substr(0, 100));
+        Diagnostics diagnostics;
+        const auto systems = import_cpfg(source_of(text), nullptr, diagnostics);
+        expect_errors(diagnostics, expected);
+        for (const ImportedSystem& system : systems) EXPECT_EQ(system.pattern, "");
+    };
+    const std::string head = "Lsystem: 1\nAxiom: A(1)\n";
+    expect("Axiom: A\n", {{{1, 1}, "expected 'Lsystem:'"}, {{1, 1}, "there is no line 'Lsystem:'"}});
+    expect("Lsystem: 1\nendlsystem\n", {{{2, 1}, "there is no 'Axiom:' before"}});
+    expect("Lsystem: 1\nderivation length: 3\n", {{{1, 1}, "there is no 'Axiom:'"}});
+    expect("Lsystem: 1\nderivation length: x\nAxiom: F\nendlsystem\n", {{{2, 20}, "'x' is not defined"}});
+    expect("Lsystem: 1\nA --> B\nAxiom: F\nendlsystem\n", {{{2, 1}, "expected an item"}});
+    expect("Lsystem: 1\nAxiom: F(x)\nendlsystem\n", {{{2, 10}, "'x' is not defined"}});
+    expect("Lsystem: 1\nAxiom: F*F\nendlsystem\n", {{{2, 9}, "'*' is the empty word"}});
+    expect("Lsystem: 1\nAxiom: F\xC3\xA4\nendlsystem\n", {{{2, 9}, "one character of ASCII"}});
+    expect(head + "A(x) B\nendlsystem\n", {{{3, 7}, "expected '-->' after the predecessor"}});
+    expect(head + "A(x) -->\nendlsystem\n", {{{3, 1}, "expected a successor"}});
+    expect(head + "A(1) --> B\nendlsystem\n", {{{3, 3}, "the name of a parameter"}});
+    expect(head + "A(x,x) --> B\nendlsystem\n", {{{3, 6}, "'x' is named twice"}});
+    expect(head + "A(x --> B\nendlsystem\n", {{{3, 5}, "expected ',' or ')'"}});
+    expect(head + "A(x) --> B(x\nendlsystem\n", {{{3, 13}, "expected ',' or ')'"}});
+    expect(head + "A(x) : x = 1 --> B\nendlsystem\n", {{{3, 10}, "expected '=='"}});
+    expect(head + "A(x) : --> B(x+)\nendlsystem\n", {{{3, 16}, "expected a number, a name or '('"}});
+    expect(head + "A(x) : (x --> B\n\nA(y) --> B)\nendlsystem\n",
+           {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is no symbol"}});
+    expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "no number that a double holds"}});
+    expect(head + "A(x) --> B : 1 2\nendlsystem\n", {{{3, 16}, "expected the end of the line"}});
+    expect("/* no end\n", {{{1, 1}, "this comment has no end"}, {{1, 1}, "there is no line 'Lsystem:'"}});
+    // The preprocessor.
+    expect("#define A A B\n#define B A\nLsystem: 1\nAxiom: A\nendlsystem\n", {{{4, 8}, "'A' is defined by itself"}});
+    expect("#define a b+1\n#define b a\nLsystem: 1\nAxiom: F(a)\nendlsystem\n",
+           {{{4, 10}, "'a' is defined by itself"}});
+    expect("#define S(a,b) a\nLsystem: 1\nAxiom: S(F)\nendlsystem\n", {{{3, 8}, "'S' takes 2 arguments, not 1"}});
+    expect("#define S(a F\nLsystem: 1\nAxiom: F\nendlsystem\n", {{{1, 13}, "expected names"}});
+    expect("#define x 1\n" + head + "A(x) --> B\nendlsystem\n", {{{4, 4}, "the parameter 'x' is a define"}});
+    expect("#if x > 1\n#endif\n" + head + "endlsystem\n", {{{1, 6}, "more than one word"}, {{2, 1}, "has no #if"}});
+    expect("#ifdef x\n" + head + "endlsystem\n",
+           {{{1, 1}, "has no #endif"}, {{1, 1}, "there is no line 'Lsystem:'"}});
+    expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "nobody knows this directive"}});
+    std::string laughs = "#define l0 FF\n";
+    for (int i = 1; i < 40; ++i) laughs += fmt::format("#define l{0} l{1} l{1}\n", i, i - 1);
+    expect(laughs + "Lsystem: 1\nAxiom: l39\nendlsystem\n", {{{42, 8}, "expand to more than 64 MB"}});
+    std::string chain = "#define l0 1\n";
+    for (int i = 1; i < 5000; ++i) chain += fmt::format("#define l{} (l{})\n", i, i - 1);
+    expect(chain + "Lsystem: 1\nAxiom: F(l4999)\nendlsystem\n", {{{5002, 10}, "more than 200 deep"}});
+    const std::string deep(300, '(');
+    expect("Lsystem: 1\nAxiom: F(" + deep + "1\nendlsystem\n", {{{2, 266}, "nest at most 256 deep"}});
+    expect("Lsystem: 1\nAxiom: F(1" + repeated_text("%1.5", 40) + ")\nendlsystem\n", {{{2, 71}, "longer than 1 MB"}});
+}
+
+// --- the program ---------------------------------------------------------------------------------------------------
+
+const char* const collection =
+    "Koch {\n angle 6\n axiom F--F--F\n F=F+F--F+F\n}\nKites&Darts {\n angle 10\n axiom F\n}\n"
+    "kites-DARTS {\n angle 10\n axiom F<1F\n}\nBad {\n angle 6\n}\n";
+
+TEST(ImportProgram, CollectionsBecomeFolders) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("some.l", collection);
+    Outcome outcome = run({"import", file, "-o", folder.file("out")});
+    EXPECT_EQ(outcome.status, 2) << "one entry is bad";
+    EXPECT_TRUE(has(outcome.errors, "some.l:14:1: the entry 'Bad' has no axiom\n"));
+    EXPECT_TRUE(
+        has(outcome.errors, "there is a kites-darts.lsys already: 'kites-DARTS' of line 10 is kites-darts-2.lsys"));
+    EXPECT_TRUE(has(outcome.errors, "3 patterns in "));
+    EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: that stepping through the colours"));
+    const std::vector<std::string> files = {"kites-darts-2.lsys", "kites-darts.lsys", "koch.lsys"};
+    for (const std::string& name : files) {
+        const Outcome checked = run({"check", folder.file("out/" + name)});
+        EXPECT_EQ(checked.status, 0) << checked.output;
+        EXPECT_EQ(checked.output, "");
+        EXPECT_EQ(run({"draw", folder.file("out/" + name), "-o", folder.file("x.svg")}).status, 0);
+    }
+    EXPECT_EQ(run({"derive", folder.file("out/koch.lsys"), "-n", "0"}).output, "F--F--F\n");
+    // The same bytes every time.
+    const std::string before = contents(folder / "out/koch.lsys");
+    EXPECT_EQ(run({"import", file, "Koch", "-o", folder.file("out")}).status, 0);
+    EXPECT_EQ(contents(folder / "out/koch.lsys"), before);
+}
+
+TEST(ImportProgram, OneSystemGoesToOneFileOrOut) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("some.l", collection);
+    const Outcome printed = run({"import", file, "KOCH"});
+    EXPECT_EQ(printed.status, 0);
+    EXPECT_EQ(printed.errors, "") << "others' mistakes are not told";
+    EXPECT_TRUE(printed.output.starts_with("title: Koch\nsource: some.l, line 1\n"));
+    EXPECT_EQ(run({"import", file, "Koch", "-o", folder.file("k.lsys")}).status, 0);
+    EXPECT_EQ(contents(folder / "k.lsys"), printed.output);
+    EXPECT_EQ(run({"import", "-", "Koch"}, {.input = collection}).status, 0);
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"-o", folder.file("all.lsys")}}) {
+        std::vector<std::string> arguments = {"import", file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome many = run(arguments);
+        EXPECT_EQ(many.status, 2);
+        EXPECT_TRUE(has(many.errors, "holds 4 systems: name one of them"));
+    }
+    const Outcome unknown = run({"import", file, "Kock"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_TRUE(has(unknown.errors, "holds no system 'Kock'; did you mean 'Koch'?"));
+    const Outcome list = run({"import", file, "--list"});
+    EXPECT_EQ(list.status, 0);
+    EXPECT_TRUE(has(list.output, "Koch                     line 1      exact\n"));
+    EXPECT_TRUE(has(list.output, "kites-DARTS              line 10     1 thing not carried over\n"));
+    EXPECT_TRUE(has(list.output, "Bad                      line 14     has mistakes\n"));
+}
+
+TEST(ImportProgram, ViewFilesBesideAreRead) {
+    const ScratchFolder folder;
+    const std::string file =
+        folder.write("plant.l", "Lsystem: 1\nderivation length: 1\nAxiom: F\nF --> F+F\nendlsystem\n");
+    EXPECT_TRUE(has(run({"import", file}).output, "angle increment: 45\n"));
+    folder.write("plant.v", "angle factor: 16\n");
+    EXPECT_TRUE(has(run({"import", file}).output, "title: plant\nsource: plant.l\n"));
+    EXPECT_TRUE(has(run({"import", file}).output, "angle factor: 16\n"));
+    const std::string other = folder.write("other.v", "angle increment: 20\n");
+    EXPECT_TRUE(has(run({"import", file, "--view-file", other}).output, "angle increment: 20\n"));
+    const std::string fractal = folder.write("some.l", collection);
+    EXPECT_EQ(run({"import", fractal, "Koch", "--view-file", other}).status, 2);
+    EXPECT_EQ(run({"import", file, "--view-file", folder.file("none.v")}).status, 2);
+}
+
+TEST(ImportProgram, BadInput) {
+    const auto refused = [](const Outcome& outcome, std::string_view message) {
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_TRUE(has(outcome.errors, message));
+        EXPECT_EQ(outcome.output, "");
+        EXPECT_LT(outcome.seconds, sanitized ? 120 : 12);
+        EXPECT_LT(outcome.peak, sanitized ? 8'000'000 : 1'000'000);
+        EXPECT_LT(outcome.errors.size(), 30'000U);
+    };
+    const auto fed = [](std::string_view head, std::string_view block, std::size_t bytes) {
+        return run({"import", "-"}, {.feed = [=](const Feed& feed) {
+                       feed(head);
+                       std::string many;
+                       while (many.size() < 65'536) many += block;
+                       for (std::size_t sent = 0; sent < bytes; sent += many.size()) {
+                           if (!feed(many)) return;
+                       }
+                   }});
+    };
+    refused(run({"import", "-"}), "neither a file of cpfg");
+    refused(run({"import", "/nowhere/at.all"}), "/nowhere/at.all: No such file or directory");
+    refused(run({"import", "/tmp"}), "is a folder");
+    refused(fed("Lsystem: 1\n", "a", 65 << 20), "64 MB");
+    refused(fed("A {\naxiom ", "F", 16 << 20), "the entry 'A' has no end");
+    refused(fed("", "A {}\n", 8 << 20), "has no axiom");
+    refused(fed("", "A{axiom F\nangle 4\n}\n", 8 << 20), "more than 10,000 entries");
+    refused(fed("", "A {\n", 16 << 20), "has no end");
+    refused(fed("Lsystem: 1\nAxiom: ", "(", 16 << 20), "'(' is no symbol");
+    refused(fed("Lsystem: 1\nAxiom: F(1", "+1", 16 << 20), "longer than 1 MB");
+    refused(fed("Lsystem: 1\nAxiom: F\n", "A --> B\n", 8 << 20), "more than 10,000 productions");
+    refused(fed("Lsystem: 1\nStart: {", "\n", 16 << 20), "");
+    refused(fed("Lsystem: 1\nAxiom: F\nA", "\n\t", 16 << 20), "expected '-->'");
+    refused(fed("Lsystem: 1\n", "#if 1\n", 16 << 20), "nest more than 200 deep");
+    refused(fed("Lsystem: 1\n", "#define a b\n", 16 << 20), "no 'Axiom:'");
+}
+
+TEST(ImportCorpus, EveryFileGoesThroughTheFuzzTarget) {
+    std::size_t files = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / "tests/corpus/import")) {
+        SCOPED_TRACE(entry.path().string());
+        EXPECT_NO_THROW(try_import(contents(entry.path())));
+        ++files;
+    }
+    EXPECT_GT(files, 4U);
+    for (const auto& file : pattern_files("tests/corpus")) {
+        SCOPED_TRACE(file.string());
+        EXPECT_NO_THROW(try_import(contents(file)));
+    }
+}
+
+}  // namespace
+}  // namespace sikku
