@@ -220,6 +220,8 @@ struct ModuleRule {
 struct ModuleSystem {
     WrittenWord axiom;
     std::vector<ModuleRule> rules;
+    std::vector<std::vector<ModuleRule>> tables{};  ///< added to `rules`; not written by text()
+    std::vector<std::size_t> schedule{};            ///< the table of each step, if there are any
     std::vector<ModuleRule> interpretation;
     std::size_t steps = 0;
     std::uint64_t seed = 0;
@@ -269,13 +271,16 @@ public:
             }
         };
         count_word(system.axiom);
-        for (const auto* rules : {&system.rules, &system.interpretation}) {
-            for (const ModuleRule& rule : *rules) {
+        const auto count_rules = [&](const std::vector<ModuleRule>& rules) {
+            for (const ModuleRule& rule : rules) {
                 count(rule.condition);
                 count_word(rule.successor);
                 count(rule.weight);
             }
-        }
+        };
+        count_rules(system.rules);
+        for (const auto& table : system.tables) count_rules(table);
+        count_rules(system.interpretation);
     }
 
     /// Empty if a word on the way is too long.
@@ -287,14 +292,25 @@ public:
         }
         std::int64_t step = 0;
         while (step < static_cast<std::int64_t>(system_.steps)) {
-            word = rewritten(system_.rules, system_.ignored, without_cuts(word), ++step);
+            std::vector<const ModuleRule*> rules = pointers(system_.rules);
+            if (!system_.tables.empty()) {
+                const auto table = system_.schedule.at(static_cast<std::size_t>(step));
+                for (const ModuleRule& rule : system_.tables.at(table)) rules.push_back(&rule);
+            }
+            word = rewritten(rules, system_.ignored, without_cuts(word), ++step);
             if (word.size() > most) return std::nullopt;
         }
-        if (interpreted) word = rewritten(system_.interpretation, {}, word, ++step);
+        if (interpreted) word = rewritten(pointers(system_.interpretation), {}, word, ++step);
         return word;
     }
 
 private:
+    static std::vector<const ModuleRule*> pointers(const std::vector<ModuleRule>& rules) {
+        std::vector<const ModuleRule*> result;
+        for (const ModuleRule& rule : rules) result.push_back(&rule);
+        return result;
+    }
+
     double value(const std::string& text, const Values& values, const Chance& chance) const {
         if (system_.defines.empty()) return Calculator(text, values, chance, draws_.at(&text)).result();
         Values all = values;  // formal parameters come first
@@ -390,7 +406,7 @@ private:
         return true;
     }
 
-    Modules rewritten(const std::vector<ModuleRule>& rules, const std::set<std::string>& ignored, const Modules& word,
+    Modules rewritten(const std::vector<const ModuleRule*>& rules, const std::set<std::string>& ignored, const Modules& word,
                       std::int64_t step) const {
         Modules result;
         for (std::size_t at = 0; at < word.size();) {
@@ -406,10 +422,10 @@ private:
             };
             const ModuleRule* chosen = nullptr;
             for (const bool with_context : {true, false}) {
-                for (const ModuleRule& rule : rules) {
+                for (const ModuleRule* rule : rules) {
                     Values values;
-                    if (chosen || (rule.left.empty() && rule.right.empty()) == with_context) continue;
-                    if (fits(rule, values)) chosen = &rule;
+                    if (chosen || (rule->left.empty() && rule->right.empty()) == with_context) continue;
+                    if (fits(*rule, values)) chosen = rule;
                 }
             }
             if (!chosen) {
@@ -419,10 +435,10 @@ private:
             if (!chosen->weight.empty()) {
                 std::vector<std::pair<const ModuleRule*, double>> weighted;
                 double sum = 0;
-                for (const ModuleRule& rule : rules) {
+                for (const ModuleRule* rule : rules) {
                     Values values;
-                    if (rule.shape() != chosen->shape() || !fits(rule, values)) continue;
-                    weighted.emplace_back(&rule, value(rule.weight, values, chance));
+                    if (rule->shape() != chosen->shape() || !fits(*rule, values)) continue;
+                    weighted.emplace_back(rule, value(rule->weight, values, chance));
                     sum += weighted.back().second;
                 }
                 double left = chance.uniform(0) * sum;
@@ -447,7 +463,7 @@ private:
     std::uint32_t next_draw_ = 1;
 };
 
-/// What a file with one table states, read by another way.
+/// What a file states, read by another way; which table applies when is left to the caller.
 inline ModuleSystem module_system_of(const Pattern& pattern) {
     std::vector<std::string> names;
     for (std::string rest = pattern.text("symbols"); !rest.empty();) {
@@ -503,6 +519,7 @@ inline ModuleSystem module_system_of(const Pattern& pattern) {
     ModuleSystem system;
     system.axiom = word(pattern.text("axiom"));
     system.rules = rules(pattern.common);
+    for (const TableText& table : pattern.tables) system.tables.push_back(rules(table.productions));
     system.interpretation = rules(pattern.interpret);
     if (pattern.find("derivation length")) system.steps = std::stoul(pattern.text("derivation length"));
     if (pattern.find("seed")) system.seed = std::stoull(pattern.text("seed"));
