@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -44,9 +44,32 @@ class Facts : public ::testing::TestWithParam<std::filesystem::path> {};
 
 struct Told {
     double symbols, drawn, moves;
-    std::array<double, 4> box;
+    std::vector<double> box;  ///< four numbers, six in space
     bool closed;
 };
+
+/// What a walk through the interpreted word tells, without the number of symbols.
+Told walked(const Grammar& grammar) {
+    if (!grammar.is_spatial()) {
+        const Survey survey = reference::survey_of(grammar);
+        return {0,
+                static_cast<double>(survey.drawn),
+                static_cast<double>(survey.moves),
+                {survey.box.low.x, survey.box.low.y, survey.box.high.x, survey.box.high.y},
+                survey.closed};
+    }
+    const auto turtle = SpaceTurtle::make(grammar);
+    DerivationOptions options;
+    options.interpreted = true;
+    derive(grammar, *turtle, options);
+    const SpaceSurvey& survey = turtle->survey();
+    const auto& [low, high] = survey.box;
+    return {0,
+            static_cast<double>(survey.drawn),
+            static_cast<double>(survey.moves),
+            {low.x, low.y, low.z, high.x, high.y, high.z},
+            survey.closed};
+}
 
 void expect_told(const std::map<std::string, std::vector<std::string>>& expected, const Told& found,
                  const std::string& road) {
@@ -58,8 +81,8 @@ void expect_told(const std::map<std::string, std::vector<std::string>>& expected
         } else if (name == "moves") {
             EXPECT_EQ(found.moves, number(words.at(0))) << road;
         } else if (name == "box") {
-            ASSERT_EQ(words.size(), 4u);
-            for (std::size_t i = 0; i < 4; ++i) {
+            ASSERT_EQ(words.size(), found.box.size());
+            for (std::size_t i = 0; i < words.size(); ++i) {
                 const double value = number(words[i]);  // printed to six digits
                 EXPECT_NEAR(found.box[i], value, std::max(5.1e-6 * std::fabs(value), 1e-9)) << road << ' ' << i;
             }
@@ -85,29 +108,28 @@ TEST_P(Facts, AreWhatEveryRoadMeasures) {
     ASSERT_FALSE(diagnostics.has_errors());
 
     const Measurement measured = measure(grammar, 2e8);
-    ASSERT_TRUE(measured.geometry);
-    EXPECT_EQ(measured.derived, !grammar.is_plain() || grammar.whole_word_steps() > 0);
-    const auto& box = measured.geometry->box;
-    expect_told(expected,
-                {measured.symbols.value,
-                 measured.drawn.value,
-                 measured.moves.value,
-                 {box[0].value, box[1].value, box[2].value, box[3].value},
-                 measured.geometry->closed},
-                "measured");
+    Told told{measured.symbols.value, measured.drawn.value, measured.moves.value, {}, false};
+    if (grammar.is_spatial()) {
+        ASSERT_TRUE(measured.space);
+        const auto& [low, high] = measured.space->box;
+        told.box = {low.x, low.y, low.z, high.x, high.y, high.z};
+        told.closed = measured.space->closed;
+    } else {
+        ASSERT_TRUE(measured.geometry);
+        EXPECT_EQ(measured.derived, !grammar.is_plain() || grammar.whole_word_steps() > 0);
+        for (const Quantity& side : measured.geometry->box) told.box.push_back(side.value);
+        told.closed = measured.geometry->closed;
+        const Survey survey = reference::survey_of(grammar);
+        EXPECT_TRUE(reference::same_heading(survey.heading, measured.geometry->heading));
+        EXPECT_EQ(survey.depth, measured.geometry->depth);
+    }
+    expect_told(expected, told, "measured");
 
     reference::ModuleCollector plain(grammar);
     derive(grammar, plain);
-    const Survey survey = reference::survey_of(grammar);
-    expect_told(expected,
-                {static_cast<double>(plain.word.symbols.size()),
-                 static_cast<double>(survey.drawn),
-                 static_cast<double>(survey.moves),
-                 {survey.box.low.x, survey.box.low.y, survey.box.high.x, survey.box.high.y},
-                 survey.closed},
-                "walked");
-    EXPECT_TRUE(reference::same_heading(survey.heading, measured.geometry->heading));
-    EXPECT_EQ(survey.depth, measured.geometry->depth);
+    told = walked(grammar);
+    told.symbols = static_cast<double>(plain.word.symbols.size());
+    expect_told(expected, told, "walked");
 
     // The slow way, symbol by symbol.
     if (grammar.is_plain() && !grammar.cut()) {

@@ -406,8 +406,8 @@ private:
         return true;
     }
 
-    Modules rewritten(const std::vector<const ModuleRule*>& rules, const std::set<std::string>& ignored, const Modules& word,
-                      std::int64_t step) const {
+    Modules rewritten(const std::vector<const ModuleRule*>& rules, const std::set<std::string>& ignored,
+                      const Modules& word, std::int64_t step) const {
         Modules result;
         for (std::size_t at = 0; at < word.size();) {
             const Chance chance{word[at].place, step};
