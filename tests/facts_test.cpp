@@ -144,9 +144,9 @@ TEST_P(Facts, AreWhatEveryRoadMeasures) {
         }
         const auto word = reference::ModuleReference(system).word(false, 1'000'000);
         ASSERT_TRUE(word);
-        std::string told = to_text(grammar, plain.word);
-        std::erase(told, ' ');
-        EXPECT_EQ(told, reference::text_of(*word));
+        std::string text_of_word = to_text(grammar, plain.word);
+        std::erase(text_of_word, ' ');
+        EXPECT_EQ(text_of_word, reference::text_of(*word));
     }
 }
 
