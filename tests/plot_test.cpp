@@ -365,10 +365,10 @@ TEST(Plot, PointsThatAddUpDifferentlyAreOne) {
     Drawing drawing(grammar, print.style, {});
     drawing.place(print);
     Recorder recorder;
-    drawing.read(recorder);
+    drawing.read(print, recorder);
     const double length = 1.7;
     const auto plan = arranged(print, [&](PathSink& sink) {
-        drawing.read(sink);
+        drawing.read(print, sink);
         for (Line line : recorder.strokes) {
             for (glm::dvec2& point : line.points) point = (point * length + 0.1) / length - 0.1 / length;
             std::reverse(line.points.begin(), line.points.end());

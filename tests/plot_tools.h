@@ -34,7 +34,7 @@ struct PlacedPattern {
         drawing = std::make_unique<Drawing>(grammar, print.style, DrawOptions{});
         drawing->place(print);
     }
-    void read(PathSink& sink) const { drawing->read(sink); }
+    void read(PathSink& sink) const { drawing->read(print, sink); }
 
     Print print;
     std::unique_ptr<Drawing> drawing;

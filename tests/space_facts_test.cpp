@@ -160,11 +160,12 @@ TEST_P(SpaceFacts, AreMeasured) {
     EXPECT_EQ(survey.depth, fact.depth);
 }
 
-INSTANTIATE_TEST_SUITE_P(Patterns, SpaceFacts, ::testing::ValuesIn(facts), [](const auto& info) {
-    std::string name = std::filesystem::path(info.param.pattern).filename().string() + "_" + info.param.variant;
+std::string name_of(const ::testing::TestParamInfo<Fact>& fact) {
+    std::string name = std::filesystem::path(fact.param.pattern).filename().string() + "_" + fact.param.variant;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Patterns, SpaceFacts, ::testing::ValuesIn(facts), name_of);
 
 // --- words ---------------------------------------------------------------------------------------------------------
 
