@@ -316,11 +316,11 @@ TEST(Keys, TurtleSymbolsMeanWhatTheLanguageSays) {
                                  {"'(5)", Action::colour_set, 5},
                                  {"@O(2)", Action::disc, 2},
                                  {"@.", Action::disc, 0},
-                                 {"&", Action::pass, 0},
-                                 {"^", Action::pass, 0},
-                                 {"\\F", Action::pass, 0},
-                                 {"/", Action::pass, 0},
-                                 {"$", Action::pass, 0},
+                                 {"&", Action::pitch, 0},
+                                 {"^", Action::pitch, 0},
+                                 {"\\F", Action::roll, 0},
+                                 {"/", Action::roll, 0},
+                                 {"$", Action::level, 0},
                                  {"@x", Action::pass, 0},
                                  {"A", Action::pass, 0}}) {
         EXPECT_EQ(command(expected.word).action, expected.action) << expected.word;
