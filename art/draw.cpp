@@ -333,6 +333,8 @@ void draw_tiles(const Drawing& drawing, const Composition& composition, Print pr
 
 /// Keeping a part of a scene takes the memory and time of about so many nodes.
 constexpr double nodes_of_kept_part = 10;
+/// Of a model, whose tubes have sides: of about so many.
+constexpr double nodes_of_modelled_part = 100;
 
 DerivationOptions reading(const DrawOptions& options) {
     DerivationOptions derivation;
@@ -583,7 +585,7 @@ ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& opt
     const Grammar grammar = resolved(given, options);
     require_affordable(grammar, true, options.budget);
     if (options.begin) options.begin(1);
-    const Scene scene = Scene::of(grammar, print.style, reading(options), options.budget / nodes_of_kept_part);
+    const Scene scene = Scene::of(grammar, print.style, reading(options), options.budget / nodes_of_modelled_part);
     const SceneExtent seen = extent_of(scene, print.style, orientation(options.placement));
     require_ink(seen.box);
     place_print(print, {seen.box, seen.widest}, print.style.stroke, options.placement);
