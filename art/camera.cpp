@@ -1,11 +1,12 @@
 #include "art/camera.h"
 
+#include "engine/diagnostic.h"
 #include "engine/text.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -17,10 +18,8 @@ namespace {
 constexpr double usual_distance = 4.0;
 
 std::optional<double> number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (!read_number(text, value) || !std::isfinite(value)) return std::nullopt;
     return value;
 }
 
@@ -69,7 +68,7 @@ std::optional<Camera> parse_camera(std::string_view text) {
     camera.distance = usual_distance;
     if (++next < words.size()) {
         const auto distance = number(words[next++]);
-        if (!distance || !(*distance > 1.01) || *distance > 1e6) return std::nullopt;
+        if (!distance || !(*distance >= 1.01) || *distance > 1e6) return std::nullopt;
         camera.distance = *distance;
     }
     if (next != words.size()) return std::nullopt;

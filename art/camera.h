@@ -12,9 +12,10 @@ namespace sikku {
 
 /// The eye. At 0 0 it stands in front of the drawing, on the side of z: x lies to the right, y upwards.
 struct Camera {
-    double azimuth = 0.0;              ///< degrees to the right around the drawing
-    double elevation = 0.0;            ///< degrees upwards, -90 to 90
-    std::optional<double> distance;    ///< of a perspective, in radii of the drawing, above 1; absent: orthographic
+    double azimuth = 0.0;    ///< degrees to the right around the drawing
+    double elevation = 0.0;  ///< degrees upwards, -90 to 90
+    std::optional<double>
+        distance;  ///< of a perspective, in radii of the drawing, 1.01 to 10^6; absent: orthographic
     std::optional<SpaceBounds> aim{};  ///< what a perspective is arranged for; absent: the drawing itself
     bool operator==(const Camera&) const = default;
 };

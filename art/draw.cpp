@@ -13,10 +13,12 @@
 #include "art/solids.h"
 #include "art/svg.h"
 #include "engine/fold.h"
+#include "engine/forecast.h"
 #include "engine/spline.h"
 #include "engine/text.h"
 #include "engine/turtle.h"
 
+#include <fmt/format.h>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
@@ -334,7 +336,7 @@ void draw_tiles(const Drawing& drawing, const Composition& composition, Print pr
 /// Keeping a part of a scene takes the memory and time of about so many nodes.
 constexpr double nodes_of_kept_part = 10;
 /// Of a model, whose tubes have sides: of about so many.
-constexpr double nodes_of_modelled_part = 100;
+constexpr double nodes_of_modelled_part = 200;
 
 DerivationOptions reading(const DrawOptions& options) {
     DerivationOptions derivation;
@@ -342,6 +344,33 @@ DerivationOptions reading(const DrawOptions& options) {
     derivation.limit_whole_words(options.budget);
     derivation.watch = options.watch;
     return derivation;
+}
+
+/// Stems and spheres that are kept, as far as they are known beforehand.
+double parts_of(const Grammar& grammar) {
+    const auto known = estimate(grammar, true);
+    if (!known) return 0;
+    double parts = 0;
+    for (std::size_t i = 0; i < std::min(known->rough_counts.size(), grammar.symbols().size()); ++i) {
+        const Action action = grammar.symbols()[i].command.action;
+        if (action == Action::draw || action == Action::disc) parts += known->rough_counts[i];
+    }
+    return parts;
+}
+
+/// @throws BudgetError, if there are more parts of a scene than `most`, before they are read
+void require_room(const Grammar& grammar, double most) {
+    const double parts = parts_of(grammar);
+    if (parts <= most) return;
+    std::int64_t fits = grammar.steps();
+    for (bool is_found = false; !is_found && fits > 0;) {
+        const auto other = grammar.with_steps(--fits);
+        is_found = other && parts_of(*other) <= most;
+    }
+    throw BudgetError(fmt::format(
+        "drawings in space are kept whole, and this one has {:.3g} segments and spheres (n = {}); the budget allows "
+        "{:.0f}, up to n = {}",
+        parts, grammar.steps(), most, fits));
 }
 
 Grammar resolved(const Grammar& given, const DrawOptions& options) {
@@ -430,6 +459,7 @@ const DrawnExtent& Drawing::seen() {
     if (extent_) return *extent_;
     if (grammar_.is_spatial()) {
         if (options_.begin) options_.begin(1);
+        require_room(grammar_, options_.budget / nodes_of_kept_part);
         scene_ = Scene::of(grammar_, style_, reading(options_), options_.budget / nodes_of_kept_part);
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement));
         return extent_.emplace(found.box, found.widest);
@@ -584,11 +614,14 @@ ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& opt
     }
     const Grammar grammar = resolved(given, options);
     require_affordable(grammar, true, options.budget);
+    require_room(grammar, options.budget / nodes_of_modelled_part);
     if (options.begin) options.begin(1);
     const Scene scene = Scene::of(grammar, print.style, reading(options), options.budget / nodes_of_modelled_part);
     const SceneExtent seen = extent_of(scene, print.style, orientation(options.placement));
     require_ink(seen.box);
-    place_print(print, {seen.box, seen.widest}, print.style.stroke, options.placement);
+    PlacementOptions placement = options.placement;
+    placement.scale *= grammar.scale_percent() / 100;
+    place_print(print, {seen.box, seen.widest}, print.style.stroke, placement);
     return write_model(scene, print, format, file);
 }
 

@@ -135,10 +135,10 @@ private:
     std::optional<Scene> scene_;  ///< of a drawing in space, once it was read
 };
 
-/// Drawings in space (Grammar::is_spatial()) are seen as the style's camera sees them.
 /// Draws into `file`, which appears whole or not at all. `print` comes with page, style, dpi and texts; its placement
 /// is worked out here: from the fold where only straight lines are drawn and all are seen, else from one pass over
-/// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count.
+/// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count. Drawings in space
+/// (Grammar::is_spatial()) are seen as the style's camera sees them.
 /// @throws BudgetError, WordError; std::runtime_error if nothing is drawn or the file cannot be written
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file);
 

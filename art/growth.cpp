@@ -1,5 +1,6 @@
 #include "art/growth.h"
 
+#include "art/draw_view.h"
 #include "art/image_file.h"
 #include "art/output_file.h"
 #include "art/raster.h"
@@ -24,40 +25,33 @@ Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
     return std::move(*other);
 }
 
-/// All generations together: what the page has to hold.
-class Frame {
-public:
-    Frame(const Grammar& grammar, Print& print, DrawOptions& options, const GrowthOptions& growth) {
-        DrawOptions looking = options;
-        looking.begin = nullptr;
-        std::optional<SpaceBounds> bounds;
-        const auto look = [&] {
-            DrawnExtent frame;
-            for (std::int64_t n = growth.first; n <= growth.last; ++n) {
-                Drawing drawing(generation_of(grammar, n), print.style, looking);
-                const DrawnExtent& seen = drawing.seen();
-                if (seen.box.empty()) continue;
-                frame.box.add(seen.box.low);
-                frame.box.add(seen.box.high);
-                frame.widest = std::max(frame.widest, seen.widest);
-                if (const auto own = drawing.bounds()) {
-                    if (!bounds) bounds = *own;
-                    bounds->low = glm::min(bounds->low, own->low);
-                    bounds->high = glm::max(bounds->high, own->high);
-                }
-            }
-            return frame;
-        };
-        DrawnExtent frame = look();
-        if (grammar.is_spatial() && print.style.camera.distance && bounds) {
-            // Only now it is known where a camera with perspective stands.
-            print.style.camera.aim = bounds;
-            frame = look();
+/// What the page has to hold of all generations; `bounds` grows by what they fill in space.
+DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions options, const GrowthOptions& growth,
+                     std::optional<SpaceBounds>& bounds) {
+    options.begin = nullptr;
+    DrawnExtent frame;
+    const auto add = [&](const DrawnExtent& seen) {
+        if (seen.box.empty()) return;
+        frame.box.add(seen.box.low);
+        frame.box.add(seen.box.high);
+        frame.widest = std::max(frame.widest, seen.widest);
+    };
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        const Grammar generation = generation_of(grammar, n);
+        if (const auto parts = seen_parts(generation, style, options)) {
+            add(SeenDrawing::extent_of(parts->whole(), style, options));
+            continue;
         }
-        if (frame.box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
-        options.frame = frame;
+        Drawing drawing(generation, style, options);
+        add(drawing.seen());
+        if (const auto own = drawing.bounds()) {
+            if (!bounds) bounds = *own;
+            bounds->low = glm::min(bounds->low, own->low);
+            bounds->high = glm::max(bounds->high, own->high);
+        }
     }
-};
+    return frame;
+}
 
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, DrawReport& report) {
@@ -114,14 +108,23 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                        const GrowthOptions& growth, const std::filesystem::path& file) {
     Print print = given;
     DrawOptions options = given_options;
-    const Frame frame(grammar, print, options, growth);
+    std::optional<SpaceBounds> bounds;
+    options.frame = frame_of(grammar, print.style, options, growth, bounds);
+    if (options.frame->box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+    if (print.style.camera.distance && bounds) {
+        // Only now it is known where a camera with perspective stands.
+        print.style.camera.aim = bounds;
+        options.frame = frame_of(grammar, print.style, options, growth, bounds);
+    }
     DrawReport report;
     if (lower_case(file.extension().string()) == ".gif") {
         draw_gif(grammar, print, options, growth, file, report);
         return report;
     }
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
-        report = draw(generation_of(grammar, n), print, options, frame_file(file, n, growth.last));
+        const Grammar generation = generation_of(grammar, n);
+        if (growth.made) print.made = growth.made(generation);
+        report = draw(generation, print, options, frame_file(file, n, growth.last));
     }
     return report;
 }

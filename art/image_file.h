@@ -59,7 +59,7 @@ public:
 };
 
 /// Loads the module, too. @param seconds  that each picture is shown, rounded to hundredths, at least one of them
-/// @throws std::runtime_error also for sides over 65,535 pixels
+/// @throws std::runtime_error also for sides over 65,535 pixels, and over 100 million of them
 std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,
                                                 double seconds);
 

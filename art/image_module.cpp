@@ -355,7 +355,10 @@ class GifWriter final : public AnimationWriter {
 public:
     GifWriter(const std::filesystem::path& path, int width, int height, double seconds)
         : path_(path), spec_(width, height, 3, OIIO::TypeDesc::UINT8) {
-        if (std::max(width, height) > 65'535) throw std::runtime_error("a GIF has at most 65,535 pixels a side");
+        // The library counts bytes in 31 bits.
+        if (std::max(width, height) > 65'535 || std::int64_t{width} * height > 100'000'000) {
+            throw std::runtime_error("a GIF has at most 65,535 pixels a side and 100 million in all");
+        }
         OIIO::attribute("debug", 0);
         output_ = OIIO::ImageOutput::create("gif");
         if (!output_) throw std::runtime_error(OIIO::geterror());

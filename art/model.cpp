@@ -13,7 +13,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -37,6 +36,7 @@ struct Mesh {
     std::vector<std::uint32_t> corners;  // three for each triangle, anticlockwise from outside
 
     std::uint32_t add(const glm::dvec3& position, const glm::dvec3& normal) {
+        if (!(glm::length(position) < 1e30)) throw std::runtime_error("the model has corners that are not finite");
         if (positions.size() >= UINT32_MAX - 1) throw std::runtime_error("the model has over 2^32 corners");
         positions.emplace_back(position);
         normals.emplace_back(glm::normalize(normal));
@@ -79,6 +79,7 @@ public:
     }
 
     const std::vector<Mesh>& meshes() const { return meshes_; }
+    glm::dvec3 origin() const { return scene_.at(glm::vec3(0)); }
 
 private:
     Mesh& lines(int colour) {
@@ -162,7 +163,7 @@ private:
             const std::uint32_t corner = mesh.add(vertices[i], normal);
             if (i == 0) first = corner;
         }
-        for (const auto& [a, b, c] : triangles_of(vertices)) mesh.triangle(first + a, first + b, first + c);
+        for (const auto& [a, b, c] : triangulate(vertices).triangles) mesh.triangle(first + a, first + b, first + c);
     }
 
     void add_sphere(const SceneSphere& sphere) {
@@ -216,21 +217,27 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void write_obj(const std::vector<Mesh>& meshes, const Print& print, const std::filesystem::path& file) {
+void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
+               const std::filesystem::path& file) {
     std::filesystem::path materials_file = file;
     materials_file.replace_extension(".mtl");
+    const std::string name = materials_file.filename().string();
+    if (std::any_of(name.begin(), name.end(), [](char byte) { return byte >= 0 && byte < ' '; })) {
+        throw std::runtime_error("the name of an OBJ file, which stands in it, has no control characters");
+    }
     OutputFile materials(materials_file), output(file);
-    output.write(
-        fmt::format("# {}, {}\nmtllib {}\n", one_line(print.title), print.made, materials_file.filename().string()));
-    std::string text;
+    output.write(fmt::format("# {}, {}\nmtllib {}\n", one_line(print.title), one_line(print.made), name));
     std::size_t first = 1;
     for (const Mesh& mesh : meshes) {
-        const std::string name = material_name(mesh);
-        materials.write(fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nd {:.4f}\nillum 1\n", name,
+        const std::string material = material_name(mesh);
+        materials.write(fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\nd {:.4f}\nillum 1\n", material,
                                     mesh.colour.red / 255.0, mesh.colour.green / 255.0, mesh.colour.blue / 255.0,
                                     mesh.colour.alpha / 255.0));
-        output.write(fmt::format("o {}\nusemtl {}\n", name, name));
-        for (const glm::vec3& at : mesh.positions) output.write(fmt::format("v {} {} {}\n", at.x, at.y, at.z));
+        output.write(fmt::format("o {}\nusemtl {}\n", material, material));
+        for (const glm::vec3& local : mesh.positions) {
+            const glm::dvec3 at = origin + glm::dvec3(local);
+            output.write(fmt::format("v {:.9g} {:.9g} {:.9g}\n", at.x, at.y, at.z));
+        }
         for (const glm::vec3& n : mesh.normals) output.write(fmt::format("vn {:.4f} {:.4f} {:.4f}\n", n.x, n.y, n.z));
         for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3) {
             const std::size_t a = first + mesh.corners[i], b = first + mesh.corners[i + 1],
@@ -262,7 +269,8 @@ void write_raw(OutputFile& output, const std::vector<Element>& elements) {
     output.write({reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element)});
 }
 
-void write_glb(const std::vector<Mesh>& meshes, const Print& print, const std::filesystem::path& file) {
+void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
+               const std::filesystem::path& file) {
     std::string accessors, views, materials, primitives;
     std::uint64_t offset = 0;
     int next = 0;
@@ -303,11 +311,12 @@ void write_glb(const std::vector<Mesh>& meshes, const Print& print, const std::f
         next += 3;
     }
     const std::string name = json_string(print.title.empty() ? "drawing" : print.title);
-    std::string json =
-        fmt::format(R"({{"asset":{{"version":"2.0","generator":{}}},"scene":0,"scenes":[{{"name":{},"nodes":[0]}}],)"
-                    R"("nodes":[{{"name":{},"mesh":0}}],"meshes":[{{"name":{},"primitives":[{}]}}],"materials":[{}],)"
-                    R"("accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-                    json_string(print.made), name, name, name, primitives, materials, accessors, views, offset);
+    std::string json = fmt::format(
+        R"({{"asset":{{"version":"2.0","generator":{}}},"scene":0,"scenes":[{{"name":{},"nodes":[0]}}],)"
+        R"("nodes":[{{"name":{},"mesh":0,"translation":[{},{},{}]}}],"meshes":[{{"name":{},"primitives":[{}]}}],"materials":[{}],)"
+        R"("accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
+        json_string(print.made), name, name, origin.x, origin.y, origin.z, name, primitives, materials, accessors,
+        views, offset);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::uint64_t size = 12 + 8 + json.size() + 8 + offset;
     if (size > UINT32_MAX) throw std::runtime_error("the model is larger than the 4 GB that a .glb file holds");
@@ -338,9 +347,9 @@ ModelReport write_model(const Scene& scene, const Print& print, ModelFormat form
     const std::vector<Mesh>& meshes = modeller.meshes();
     if (meshes.empty()) throw std::runtime_error("there is nothing to model: everything is without width and area");
     if (format == ModelFormat::obj) {
-        write_obj(meshes, print, file);
+        write_obj(meshes, modeller.origin(), print, file);
     } else {
-        write_glb(meshes, print, file);
+        write_glb(meshes, modeller.origin(), print, file);
     }
     ModelReport report;
     report.materials = meshes.size();

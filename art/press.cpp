@@ -129,6 +129,7 @@ void check_press(const Press& press, PrintFormat format) {
 }
 
 void check_spots(const Press& press, const Style& style) {
+    if (press.spots.empty()) return;
     std::vector<Colour> used;
     const auto use = [&](const std::optional<Colour>& colour) {
         if (!colour || colour->alpha == 0) return;

@@ -21,7 +21,7 @@ public:
         add(to);
         count(1);
         scene.segments_.push_back(
-            {from, to, SceneWidth(before), SceneWidth(pen), style_.index(pen), goes_on && is_joined_});
+            {local(from), local(to), SceneWidth(before), SceneWidth(pen), style_.index(pen), goes_on && is_joined_});
         is_joined_ = true;
     }
     void polygon(std::span<const glm::dvec3> vertices, const Pen& pen) override {
@@ -30,27 +30,32 @@ public:
         scene.polygons_.push_back({scene.vertices_.size(), vertices.size(), style_.index(pen)});
         for (const glm::dvec3& vertex : vertices) {
             add(vertex);
-            scene.vertices_.emplace_back(vertex);
+            scene.vertices_.push_back(local(vertex));
         }
     }
     void sphere(const glm::dvec3& centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
         count(1);
+        add(centre);
         add(centre - radius);
         add(centre + radius);
-        scene.spheres_.push_back({centre, static_cast<float>(radius), SceneWidth(pen), style_.index(pen)});
+        scene.spheres_.push_back({local(centre), static_cast<float>(radius), SceneWidth(pen), style_.index(pen)});
     }
 
     Scene scene;
 
 private:
+    glm::vec3 local(const glm::dvec3& point) const { return glm::vec3(point - scene.origin_); }
     void add(const glm::dvec3& point) {
         // What is kept in floats is kept within their range.
         if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(1e18)))) {
             throw BudgetError("the drawing is over 10^18 steps large, more than is drawn in space");
         }
         SpaceBounds& bounds = scene.bounds_;
-        if (!has_bounds_) bounds = {point, point};
+        if (!has_bounds_) {
+            bounds = {point, point};
+            scene.origin_ = point;
+        }
         has_bounds_ = true;
         bounds.low = glm::min(bounds.low, point);
         bounds.high = glm::max(bounds.high, point);

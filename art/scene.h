@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -29,7 +28,8 @@ private:
     float value_ = 0;
 };
 
-/// In turtle steps. Colours are indices of the style's palette.
+/// In turtle steps, from the scene's origin, as floats have only so many digits: Scene::at(). Colours are indices of
+/// the style's palette.
 struct SceneSegment {
     glm::vec3 from, to;
     SceneWidth before, after;  ///< at its ends
@@ -61,12 +61,15 @@ public:
     std::span<const glm::vec3> vertices(const ScenePolygon& polygon) const {
         return std::span(vertices_).subspan(polygon.first, polygon.count);
     }
+    /// Where such a point is.
+    glm::dvec3 at(const glm::vec3& point) const { return origin_ + glm::dvec3(point); }
     bool empty() const { return segments_.empty() && polygons_.empty() && spheres_.empty(); }
     /// Of all points, without the width of pens.
     const SpaceBounds& bounds() const { return bounds_; }
 
 private:
     friend class SceneCollector;
+    glm::dvec3 origin_{0.0};  ///< the first point seen
     std::vector<SceneSegment> segments_;
     std::vector<ScenePolygon> polygons_;
     std::vector<SceneSphere> spheres_;

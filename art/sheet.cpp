@@ -620,6 +620,10 @@ std::string productions_as_written(const Pattern& pattern, std::size_t most) {
             bool was_blank = true;
             const std::string_view whole = production.whole.view();
             for (std::size_t i = 0; i < whole.size(); ++i) {
+                if (text.size() > most && (static_cast<unsigned char>(whole[i]) & 0xC0) != 0x80) {
+                    text += "…";
+                    return;
+                }
                 if (whole.substr(i, 3) == "-->") {
                     text += "→";
                     i += 2;

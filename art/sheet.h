@@ -37,14 +37,14 @@ struct SheetOptions {
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< of what is less important in them
     std::string title;                                             ///< above all cells, if there is one
     std::string subtitle;                                          ///< under it
-    int columns = 0;                ///< 0: as many as let the drawings be largest; rows under a heading may break
-    std::optional<double> gap;      ///< millimetres between cells; absent: a tenth of their width
-    double inset = 0.08;            ///< between a cell's border and its drawing, as part of the cell
-    std::optional<double> letters;  ///< height of a caption's capitals in millimetres; absent: by the cell's width
-    std::size_t caption_lines = 5;  ///< most lines of a caption; what goes on ends in `…`
-    bool same_scale = false;        ///< steps are equally long: in each row, if rows have headings, else everywhere
-    std::string pattern;            ///< text that is kept with the file, so that it can be made again
-    std::string made;               ///< what made it
+    int columns = 0;                  ///< 0: as many as let the drawings be largest; rows under a heading may break
+    std::optional<double> gap;        ///< millimetres between cells; absent: a tenth of their width
+    double inset = 0.08;              ///< between a cell's border and its drawing, as part of the cell
+    std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
+    std::size_t caption_lines = 5;    ///< most lines of a caption; what goes on ends in `…`
+    bool same_scale = false;          ///< steps are equally long: in each row, if rows have headings, else everywhere
+    std::string pattern;              ///< text that is kept with the file, so that it can be made again
+    std::string made;                 ///< what made it
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
     int threads = 0;                  ///< 0: all cores
     int compression = 6;              ///< of PNG: 1, quick and large, to 9

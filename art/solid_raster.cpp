@@ -11,10 +11,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -82,6 +83,52 @@ public:
             for (int x = begin; x < stop; ++x, depth += depth_x, light += light_x) {
                 if (static_cast<float>(depth) > row[x].depth) {
                     row[x] = {static_cast<float>(depth), lit(colour, std::clamp(light, darkest, brightest))};
+                }
+            }
+        }
+    }
+
+    /// All that the outline runs around (non-zero winding rule), as deep as its plane.
+    void polygon(std::span<const glm::dvec3> outline, const glm::dvec3& normal, double light, Colour colour) {
+        glm::dvec3 middle(0.0);
+        double nearest = -1e300, farthest = 1e300, low = 1e300, high = -1e300;
+        for (const glm::dvec3& corner : outline) {
+            middle += corner / static_cast<double>(outline.size());
+            nearest = std::max(nearest, corner.z);
+            farthest = std::min(farthest, corner.z);
+            low = std::min(low, corner.y);
+            high = std::max(high, corner.y);
+        }
+        const double slope_x = -normal.x / normal.z, slope_y = -normal.y / normal.z;
+        struct Edge {
+            glm::dvec3 from, to;
+        };
+        std::vector<Edge> edges;  // of those rows
+        const int first = row(low), end = row(high);
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const Edge edge{outline[i], outline[i + 1 < outline.size() ? i + 1 : 0]};
+            if (row(std::min(edge.from.y, edge.to.y)) < row(std::max(edge.from.y, edge.to.y))) edges.push_back(edge);
+        }
+        const Colour shaded = lit(colour, light);
+        std::vector<std::pair<double, int>> cuts;  // x, and whether the edge goes up or down there
+        for (int y = first; y < end; ++y) {
+            const double centre = y + 0.5;
+            cuts.clear();
+            for (const Edge& edge : edges) {
+                if ((edge.from.y <= centre) == (edge.to.y <= centre)) continue;
+                const double part = (centre - edge.from.y) / (edge.to.y - edge.from.y);
+                cuts.emplace_back(edge.from.x + (edge.to.x - edge.from.x) * part, edge.from.y < edge.to.y ? 1 : -1);
+            }
+            std::sort(cuts.begin(), cuts.end());
+            int winding = 0;
+            Sample* const samples_of_row = line(y);
+            for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+                winding += cuts[i].second;
+                if (winding == 0) continue;
+                for (int x = column(cuts[i].first), stop = column(cuts[i + 1].first); x < stop; ++x) {
+                    const double depth = middle.z + (x + 0.5 - middle.x) * slope_x + (centre - middle.y) * slope_y;
+                    const auto kept = static_cast<float>(std::clamp(depth, farthest, nearest));
+                    if (kept > samples_of_row[x].depth) samples_of_row[x] = {kept, shaded};
                 }
             }
         }
@@ -174,11 +221,16 @@ public:
         if (std::max(size_.width, size_.height) > most_side) {
             throw std::runtime_error("the picture would be over 500,000 pixels wide or high");
         }
-        band_rows_ = std::clamp(32 * 8192 / std::max(size_.width, 1) / 8 * 8, 8, 32);
+        // Powers of two, as callers ask for whole multiples of 128 rows.
+        band_rows_ = size_.width > 16'384 ? 8 : size_.width > 8'192 ? 16 : 32;
         bands_ = (size_.height + band_rows_ - 1) / band_rows_;
         for (int slot = 0; slot < static_cast<int>(style_.palette.size()); ++slot) {
             line_colours_.push_back(style_.line_colour(Pen{.colour = slot}));
             fill_colours_.push_back(style_.fill_colour(Pen{.colour = slot}));
+        }
+        for (const ScenePolygon& polygon : scene_.polygons()) {
+            // Once, and not in each band.
+            if (polygon.count > 16) large_.emplace(&polygon, triangulate(scene_.vertices(polygon)));
         }
         note_channels();
         fill_bins();
@@ -392,7 +444,11 @@ private:
         if (!(glm::length(normal) > 0)) return;
         const double light = stage_.brightness(normal);
         const Colour colour = fill_colours_[std::size_t(polygon.colour)];
-        for (const auto& [a, b, c] : triangles_of(flat)) {
+        const auto known = large_.find(&polygon);
+        const Triangulation own = known == large_.end() ? triangulate(flat) : Triangulation();
+        const Triangulation& parts = known == large_.end() ? own : known->second;
+        if (!parts.is_whole) return band.polygon(placed, normal, light, colour);
+        for (const auto& [a, b, c] : parts.triangles) {
             band.triangle({placed[a], light}, {placed[b], light}, {placed[c], light}, colour);
         }
     }
@@ -406,6 +462,7 @@ private:
     int bands_ = 0;
     int channels_ = 3;
     std::vector<Colour> line_colours_, fill_colours_;  ///< by index of the palette
+    std::unordered_map<const ScenePolygon*, Triangulation> large_;
     int bin_bands_ = 1;
     std::vector<std::size_t> bin_begin_;  ///< by bin, into bins_
     std::vector<std::uint32_t> bins_;     ///< segments, then polygons, then spheres

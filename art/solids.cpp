@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace sikku {
@@ -45,7 +46,8 @@ public:
           stage_(scene, print, glm::dmat3x2(1.0), 1.0),
           shades_(print.style),
           sink_(sink),
-          step_(print.placement.step) {}
+          step_(print.placement.step),
+          flat_light_(stage_.flat_light()) {}
 
     void draw() {
         const std::size_t segments = scene_.segments().size(), polygons = scene_.polygons().size();
@@ -55,7 +57,9 @@ public:
         };
         items.reserve(segments + polygons + scene_.spheres().size());
         for (const SceneSegment& segment : scene_.segments()) {
-            add((stage_.place(segment.from).z + stage_.place(segment.to).z) / 2);
+            add((stage_.place(segment.from).z + stage_.place(segment.to).z +
+                 stage_.radius(segment.before, segment.from) + stage_.radius(segment.after, segment.to)) /
+                2);
         }
         for (const ScenePolygon& polygon : scene_.polygons()) {
             double sum = 0;
@@ -63,9 +67,10 @@ public:
             add(sum / static_cast<double>(polygon.count));
         }
         for (const SceneSphere& sphere : scene_.spheres()) {
-            add(stage_.place(sphere.centre).z + stage_.radius(sphere) / 2);
+            add(stage_.place(sphere.centre).z + stage_.radius(sphere));
         }
-        // Of what is equally near, the later one lies over the earlier.
+        // What is round is as near as its nearest point. Of what is equally near, the later one lies over the
+        // earlier.
         std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
         for (const Item& item : items) {
             if (item.index < segments) {
@@ -92,20 +97,18 @@ private:
         }
     }
 
+    /// Circles, one over the other, from its outline to where the light falls.
     void draw_ball(const glm::dvec3& centre, double radius, int colour, bool fills) {
-        const bool is_large = 2 * radius * step_ > wide_stem;
-        const int pieces = is_large ? 24 : 10;
-        // Rings around where the light falls.
-        const int rings = is_large ? 4 : 1;
-        for (int ring = 0; ring < rings; ++ring) {
-            const double part = 1.0 - static_cast<double>(ring) / rings;
-            const glm::dvec2 middle = glm::dvec2(centre) + (1 - part) * 0.55 * radius * stage_.towards_light();
-            add_arc(middle, radius * part, -2 * std::numbers::pi / pieces, 2 * std::numbers::pi, pieces + 1);
-            const double rim = std::sqrt(part);
-            const glm::dvec2 light = stage_.towards_light();
-            const glm::dvec3 normal = glm::normalize(
-                glm::dvec3(light * (rings == 1 ? 0.0 : (1 - 2 * rim) * 0.6), rings == 1 ? 1.0 : 1.2 - rim));
-            fill(colour, fills, stage_.brightness(normal));
+        const double width = 2 * radius * step_;
+        const int pieces = width > 8 ? 64 : width > wide_stem ? 32 : 10;
+        const int circles = width > 8 ? 12 : width > wide_stem ? 6 : 1;
+        for (int circle = 0; circle < circles; ++circle) {
+            const double part = static_cast<double>(circle) / circles;
+            add_arc(glm::dvec2(centre) + part * radius * flat_light_, radius * (1 - part),
+                    -2 * std::numbers::pi / pieces, 2 * std::numbers::pi, pieces + 1);
+            // At the outline, that of a ball seen from any side, in the mean.
+            const double cosine = circles == 1 ? 0.65 : 0.2 + 0.8 * std::sqrt(part + 0.5 / circles);
+            fill(colour, fills, stage_.brightness_towards(cosine));
         }
     }
 
@@ -168,6 +171,7 @@ private:
     Shades shades_;
     PathSink& sink_;
     double step_;
+    glm::dvec2 flat_light_;
     std::vector<glm::dvec2> outline_;
 };
 
@@ -194,7 +198,7 @@ void draw_solids(const Scene& scene, const Print& print, PathSink& sink) {
 
 void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink) {
     const Projection projection(print.style.camera, scene.bounds());
-    const auto place = [&](const glm::vec3& point) { return glm::dvec2(projection(point)); };
+    const auto place = [&](const glm::vec3& point) { return glm::dvec2(projection(scene.at(point))); };
     for (const ScenePolygon& polygon : scene.polygons()) {
         std::vector<glm::dvec2> flat;
         for (const glm::vec3& vertex : scene.vertices(polygon)) flat.push_back(place(vertex));
@@ -217,7 +221,7 @@ void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink) {
     }
     if (is_down) sink.end_stroke(false);
     for (const SceneSphere& sphere : scene.spheres()) {
-        sink.disc(place(sphere.centre), sphere.radius * projection.scale(sphere.centre),
+        sink.disc(place(sphere.centre), sphere.radius * projection.scale(scene.at(sphere.centre)),
                   sphere.width.pen(sphere.colour));
     }
 }
@@ -226,21 +230,21 @@ SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2
     SceneExtent extent;
     const Projection projection(style.camera, scene.bounds());
     const auto place = [&](const glm::vec3& point) {
-        const glm::dvec3 seen = projection(point);
+        const glm::dvec3 seen = projection(scene.at(point));
         return orientation * glm::dvec3(seen.x, seen.y, 1.0);
     };
     for (const SceneSegment& segment : scene.segments()) {
         extent.box.add(place(segment.from));
         extent.box.add(place(segment.to));
-        extent.widest =
-            std::max({extent.widest, style.pen_width(segment.before.pen(0)) * projection.scale(segment.from),
-                      style.pen_width(segment.after.pen(0)) * projection.scale(segment.to)});
+        extent.widest = std::max({extent.widest,
+                                  style.pen_width(segment.before.pen(0)) * projection.scale(scene.at(segment.from)),
+                                  style.pen_width(segment.after.pen(0)) * projection.scale(scene.at(segment.to))});
     }
     for (const ScenePolygon& polygon : scene.polygons()) {
         for (const glm::vec3& vertex : scene.vertices(polygon)) extent.box.add(place(vertex));
     }
     for (const SceneSphere& sphere : scene.spheres()) {
-        const double scale = projection.scale(sphere.centre);
+        const double scale = projection.scale(scene.at(sphere.centre));
         const glm::dvec2 at = place(sphere.centre);
         extent.box.add(at - sphere.radius * scale);
         extent.box.add(at + sphere.radius * scale);

@@ -11,8 +11,9 @@ namespace sikku {
 Style with_shades(const Style& style);
 
 /// Draws into `sink`, in turtle steps as they are projected: polygons, stems and spheres in the order of their depth
-/// (of their middles), so that what is in front lies over what is behind; where they run through each other one lies
-/// over the other. Stems are outlines as wide at both ends as their pens, lit in strips where they are wide on paper.
+/// (of the middle of what is nearest of each), so that what is in front lies over what is behind; where they run
+/// through each other one lies over the other. Stems are outlines as wide at both ends as their pens, lit in strips
+/// where they are wide on paper.
 /// @param print  placed, in the style that with_shades() makes
 /// Cost: sorting; memory 16 bytes for each of them beside the scene.
 void draw_solids(const Scene& scene, const Print& print, PathSink& sink);

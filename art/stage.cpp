@@ -15,7 +15,8 @@ constexpr double from_light = 0.6;
 }  // namespace
 
 Stage::Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, double unit)
-    : style_(print.style),
+    : scene_(scene),
+      style_(print.style),
       projection_(print.style.camera, scene.bounds()),
       units_(units),
       unit_(unit),
@@ -29,22 +30,25 @@ Stage::Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, 
 }
 
 glm::dvec3 Stage::place(const glm::vec3& point) const {
-    const glm::dvec3 seen = projection_(point);
+    const glm::dvec3 seen = projection_(scene_.at(point));
     return {units_ * glm::dvec3(seen.x, seen.y, 1.0), seen.z * unit_};
 }
 
 double Stage::radius(const SceneWidth& width, const glm::vec3& at) const {
-    return style_.line_width(width.pen(0), step_) / step_ * unit_ / 2 * projection_.scale(at);
+    return style_.line_width(width.pen(0), step_) / step_ * unit_ / 2 * projection_.scale(scene_.at(at));
 }
 
 double Stage::radius(const SceneSphere& sphere) const {
     return style_.disc_radius(sphere.radius, sphere.width.pen(0), step_) / step_ * unit_ *
-           projection_.scale(sphere.centre);
+           projection_.scale(scene_.at(sphere.centre));
 }
 
 double Stage::brightness(const glm::dvec3& normal) const {
-    const double towards = glm::dot(normal, light_) / glm::length(normal);
-    return std::min(1.0, from_everywhere + from_light * std::max(0.0, towards));
+    return brightness_towards(glm::dot(normal, light_) / glm::length(normal));
+}
+
+double Stage::brightness_towards(double cosine) const {
+    return std::min(1.0, from_everywhere + from_light * std::max(0.0, cosine));
 }
 
 }  // namespace sikku

@@ -9,6 +9,8 @@
 #include <glm/mat3x2.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+
 namespace sikku {
 
 class Stage {
@@ -17,6 +19,7 @@ public:
     /// measure; `unit` is that of one step.
     Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, double unit);
 
+    /// Of a point of the scene.
     glm::dvec3 place(const glm::vec3& point) const;
     /// Half the width of a line there.
     double radius(const SceneWidth& width, const glm::vec3& at) const;
@@ -25,10 +28,13 @@ public:
     /// How bright a surface with that normal (of any length but 0) is, from 0 to 1; `glm::dvec3(0, 0, 1)` faces the
     /// eye. The light comes from above on the left of the page, and a little of it from everywhere.
     double brightness(const glm::dvec3& normal) const;
-    /// Which way the light comes from, in the plane of the page; of length 1.
-    glm::dvec2 towards_light() const { return glm::normalize(glm::dvec2(light_)); }
+    /// The same by the cosine of the angle between normal and light.
+    double brightness_towards(double cosine) const;
+    /// Where a ball of radius 1 around 0 0 is brightest.
+    glm::dvec2 flat_light() const { return glm::dvec2(light_); }
 
 private:
+    const Scene& scene_;
     const Style& style_;
     Projection projection_;
     glm::dmat3x2 units_;
@@ -37,9 +43,14 @@ private:
     glm::dvec3 light_;
 };
 
-/// A colour as bright as that: of white, the brightness itself.
+/// A colour as bright as that: of white, the brightness itself; the darker it is the more of a sheen it has where it
+/// is brightest, so that black has a shape.
 inline Colour lit(Colour colour, double brightness) {
-    const auto channel = [&](std::uint8_t value) { return static_cast<std::uint8_t>(value * brightness + 0.5); };
+    constexpr double sheen = 56;
+    const double added = sheen * std::max(0.0, brightness - 0.6) / 0.4;
+    const auto channel = [&](std::uint8_t value) {
+        return static_cast<std::uint8_t>(value * brightness + added * (255 - value) / 255 + 0.5);
+    };
     return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
 }
 

@@ -350,7 +350,7 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
             diagnostics.error(key->value,
                               "expected 'view: AZIMUTH ELEVATION', degrees to the right and up to 90 upwards, or "
                               "front, side or top; and after it, if you like, 'perspective' and from how many radii "
-                              "of the drawing, above 1");
+                              "of the drawing, 1.01 to 1000000");
         }
     }
     if (const Key* key = pattern.find("palette")) {

@@ -21,6 +21,19 @@ bool contains(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point) {
     return cross(b - a, point - a) >= 0 && cross(c - b, point - b) >= 0 && cross(a - c, point - c) >= 0;
 }
 
+bool crosses_itself(const std::vector<glm::dvec2>& corners) {
+    const std::size_t count = corners.size();
+    const auto side = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) { return cross(b - a, point - a); };
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
+        for (std::size_t j = i + 2; j < count; ++j) {
+            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
+            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 glm::dvec3 area_normal(std::span<const glm::vec3> vertices) {
@@ -33,9 +46,10 @@ glm::dvec3 area_normal(std::span<const glm::vec3> vertices) {
     return sum;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangles_of(std::span<const glm::vec3> vertices) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    if (vertices.size() < 3) return triangles;
+Triangulation triangulate(std::span<const glm::vec3> vertices) {
+    Triangulation result;
+    auto& triangles = result.triangles;
+    if (vertices.size() < 3) return result;
     std::vector<std::uint32_t> left(vertices.size());
     for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<std::uint32_t>(i);
     const glm::dvec3 normal = area_normal(vertices);
@@ -75,8 +89,9 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(std::span<const glm::vec3
             ++tried;
         }
     }
+    result.is_whole = left.size() == 3 && !crosses_itself(flat);
     for (std::size_t i = 1; i + 1 < left.size(); ++i) triangles.push_back({left[0], left[i], left[i + 1]});
-    return triangles;
+    return result;
 }
 
 }  // namespace sikku

@@ -156,22 +156,31 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     if (drawing.tiles || drawing.window || !options.pattern.steps.empty()) {
         throw UsageError("--generations: frames go without -n, --window and --tile");
     }
+    if (is_gif(options.output) && options.frames)
+        throw UsageError("--frames: a .gif holds all generations by itself");
     if (is_gif(options.output) && (drawing.border || drawing.colours_strokes || print.style.dots)) {
         throw UsageError("--generations: of a .gif without --dots, --border and --colour-by");
     }
-    if (!(options.frame_time >= 0.01 && options.frame_time <= 600)) {
+    if (options.frame_time && !(*options.frame_time >= 0.01 && *options.frame_time <= 600)) {
         throw UsageError("--frame-time: seconds, 0.01 to 600");
     }
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = parse_generations(options.generations);
-    growth.seconds = options.frame_time;
+    growth.seconds = options.frame_time.value_or(growth.seconds);
     if (growth.last < growth.first || growth.last - growth.first >= 10'000) {
         throw UsageError(fmt::format("--generations {}: up to 10,000 frames, the lowest derivation length first",
                                      options.generations));
     }
-    if (print.page.width * print.dpi / 25.4 > 65'535 || print.page.height * print.dpi / 25.4 > 65'535) {
-        if (is_gif(options.output)) throw UsageError("a .gif has at most 65,535 pixels a side");
+    if (is_gif(options.output)) {
+        const PixelSize size = pixel_size(print.page, print.dpi);
+        if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
+            throw UsageError(
+                "a .gif has at most 65,535 pixels a side and 100 million in all: a smaller --size or --dpi");
+        }
+    } else if (options.frame_time) {
+        throw UsageError("--frame-time: is for a .gif");
     }
+    growth.made = [&](const Grammar& generation) { return made_with(options, generation); };
     Progress progress(0, telling.quiet);
     drawing.watch = telling.watch ? telling.watch : progress.watch();
     const DrawReport report = draw_growth(loaded.grammar, print, drawing, growth, options.output);
@@ -217,10 +226,6 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
     draw_sheet(generations(cell, first, last), sheet, options.output);
 }
 
-}  // namespace
-
-namespace {
-
 /// The word as it is read, with its progress.
 void watch_drawing(const Grammar& grammar, const Telling& telling, std::optional<Progress>& progress,
                    DrawOptions& drawing) {
@@ -233,15 +238,44 @@ void watch_drawing(const Grammar& grammar, const Telling& telling, std::optional
     drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
 }
 
+void require_straight(const LoadedPattern& loaded, const Style& style, std::string_view what) {
+    const Key* key = loaded.pattern.find("line");
+    if (style.line != Line::spline || !key) return;
+    Diagnostics diagnostics;
+    diagnostics.error(key->value, fmt::format("{} of straight lines, and not of splines", what));
+    diagnostics.throw_if_errors();
+}
+
+/// What is asked for that only drawings in the plane have.
+void check_space(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
+                 const LoadedPattern& loaded) {
+    if (!loaded.grammar.is_spatial()) return;
+    require_straight(loaded, print.style, "this drawing pitches, rolls or bends: in space drawings are");
+    if (drawing.window || drawing.border || drawing.colours_strokes || options.dots || options.dot_spacing ||
+        print.animation) {
+        throw UsageError(
+            "this drawing pitches, rolls or bends: --window, --dots, --border, --colour-by and --animate are for "
+            "drawings in the plane");
+    }
+    if (drawing.tiles && !is_vector(drawing.format)) {
+        throw UsageError("--tile: drawings in space are cut into sheets as .svg or .pdf");
+    }
+    if (!print.press.spots.empty() && !drawing.plot) {
+        throw UsageError("--spot: drawings in space are lit, in more shades than there are inks");
+    }
+}
+
 void draw_model(const DrawSettings& given, ModelFormat format, const Telling& telling) {
     DrawSettings options = given;
     // What a print is asked for, a model is, as far as it goes.
     options.output = "print.svg";
     if (options.window || options.plotter || options.tile || options.dots || options.dot_spacing || options.animate ||
-        !options.generations.empty() || !options.border.empty() || !options.colour_by.empty() || options.marks ||
-        !options.spots.empty() || options.bleed != DrawSettings().bleed || !options.view.empty()) {
+        !options.generations.empty() || options.frames || options.frame_time || !options.border.empty() ||
+        !options.colour_by.empty() || options.marks || !options.spots.empty() ||
+        options.bleed != DrawSettings().bleed || !options.view.empty()) {
         throw UsageError(
-            "a model has no page: --view, --window, --generations, --dots, --border, --colour-by, --animate, --tile, "
+            "a model has no page: --view, --window, --generations, --frames, --frame-time, --dots, --border, "
+            "--colour-by, --animate, --tile, "
             "--plotter, --bleed, --marks and --spot are for prints");
     }
     auto [print, drawing] = plan_print(options);
@@ -249,6 +283,7 @@ void draw_model(const DrawSettings& given, ModelFormat format, const Telling& te
     Diagnostics diagnostics;
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
     diagnostics.throw_if_errors();
+    require_straight(loaded, print.style, "models are");
     print.title = loaded.pattern.text("title");
     print.made = made_with(options, loaded.grammar);
     std::optional<Progress> progress;
@@ -290,8 +325,9 @@ PlannedPrint plan_print(const DrawSettings& options) {
     drawing.placement.mirror = options.mirror;
     if (options.step) {
         drawing.placement.step = length("--step", *options.step, options.dpi);
-        if (!(*drawing.placement.step > 0 && *drawing.placement.step <= 10'000)) {
-            throw UsageError(fmt::format("--step {}: a step is above 0 and at most 10 m long", *options.step));
+        if (!(*drawing.placement.step >= 1e-9 && *drawing.placement.step <= 10'000)) {
+            throw UsageError(
+                fmt::format("--step {}: a step is at least 10^-9 mm and at most 10 m long", *options.step));
         }
     }
     if (options.window) {
@@ -384,6 +420,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     print.style = read_style(loaded.pattern, options.dpi, diagnostics);
     diagnostics.throw_if_errors();
     if ((options.dots || options.dot_spacing) && !print.style.dots) print.style.dots.emplace();
+    check_space(options, print, drawing, loaded);
     print.title = loaded.pattern.text("title");
     print.pattern = loaded.pattern.source->text();
     print.made = made_with(options, loaded.grammar);
@@ -392,6 +429,7 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
         return draw_generations(options, print, drawing, loaded, telling);
     }
     if (options.frames) throw UsageError("--frames: goes with --generations A:B");
+    if (options.frame_time) throw UsageError("--frame-time: goes with --generations A:B and a .gif");
     // Before the drawing, which may take long.
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
@@ -424,8 +462,9 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
 }
 
 void add_draw(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand(
-        "draw", "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code; or a model: OBJ, glTF");
+    auto* command = app.add_subcommand("draw",
+                                       "Draw a print: SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code; or a model: "
+                                       "OBJ (with a .mtl beside it), glTF");
     auto options = std::make_shared<DrawSettings>();
     constexpr const char* kolams = "Kolams and growth";
     constexpr const char* plotters = "Plotters";
@@ -476,8 +515,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->group(kolams);
     command
         ->add_option("--frame-time", options->frame_time,
-                     "Seconds that each generation is shown; of --generations A:B -o growth.gif")
-        ->capture_default_str()
+                     "Seconds that each generation is shown (0.5); of --generations A:B -o growth.gif")
         ->group(kolams);
     command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
         ->expected(0, 1)

@@ -27,7 +27,7 @@ struct DrawSettings {
     int compression = 6;                     ///< of PNG, 1 to 9
     int threads = 0;                         ///< for pictures; 0: one for each core
     bool frames = false;                     ///< each generation is a file
-    double frame_time = 0.5;                 ///< seconds of each in an animation
+    std::optional<double> frame_time;        ///< seconds of each in an animation
     std::string view;                        ///< of drawings in space: see parse_camera(); empty: as the pattern says
     std::optional<std::string> dots;         ///< of a kolam: empty, `only`, or a size and a colour
     std::optional<std::string> dot_spacing;  ///< length between the nearest

@@ -63,6 +63,11 @@ bool begins_as_midi(const std::string& file) {
 }
 
 void show(const std::string& what, bool quiet) {
+    for (const char* ending : {".gif", ".obj", ".mtl", ".glb", ".hpgl", ".plt", ".gcode", ".nc"}) {
+        if (lower_case(what).ends_with(ending)) {
+            throw UsageError(fmt::format("{}: {} files hold no pattern", what, ending));
+        }
+    }
     Provenance found;
     const bool is_print =
         lower_case(what).ends_with(".svg") || lower_case(what).ends_with(".pdf") || is_picture(what);

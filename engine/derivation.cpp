@@ -642,6 +642,7 @@ class Choices {
 public:
     static constexpr std::size_t longest = 16;  // of successors
     static constexpr std::size_t longest_tail = 8;
+    static constexpr std::size_t most_symbols = 4096, most_alternatives = 32;  // of more it is of no use
     static constexpr std::size_t most_written = longest + longest * (longest + longest_tail);  // by write()
 
     struct Successor {
@@ -649,7 +650,7 @@ public:
         std::uint32_t size = 0;
         // The same for another step by this table: its symbols that are drawn for, and what lies between them, in
         // which nothing is drawn.
-        bool is_cut = false;
+        bool is_split = false;
         struct Drawn {
             std::uint32_t child = 0;  ///< which of the symbols
             std::uint32_t choice = 0;
@@ -663,16 +664,16 @@ public:
 
     /// Of no use (is_usable()) where weights or conditions are to be computed, or successors are long.
     Choices(const Grammar& grammar, const Table& table) {
-        is_usable_ = !grammar.is_parametric() && grammar.is_stochastic();
         const std::size_t symbols = grammar.symbols().size();
+        is_usable_ = !grammar.is_parametric() && grammar.is_stochastic() && symbols <= most_symbols;
         for (Symbol symbol = 0; symbol < symbols && is_usable_; ++symbol) add(symbol, table);
-        for (std::size_t i = 0; i < successors_.size() && is_usable_; ++i) cut(successors_[i]);
+        for (std::size_t i = 0; i < successors_.size() && is_usable_; ++i) split(successors_[i]);
     }
     bool is_usable() const { return is_usable_; }
 
     const Successor& of(Symbol symbol, const Chance& chance) const { return drawn(choices_[symbol], chance); }
 
-    /// Writes what becomes of the symbols of a successor that is cut, in that place, and at most `longest` more.
+    /// Writes what becomes of the symbols of a successor that is split, in that place, and at most `longest` more.
     /// @return how many there are
     std::size_t write(const Successor& parent, std::uint64_t place, std::int64_t step, Symbol* out) const {
         Symbol* const begin = out;
@@ -707,6 +708,8 @@ private:
         Choice choice;
         choice.first = static_cast<std::uint32_t>(successors_.size());
         const auto candidates = table.candidates(symbol);
+        is_usable_ = candidates.size() <= most_alternatives;
+        if (!is_usable_) return;
         std::vector<double> weights;
         const auto take = [&](std::span<const Symbol> word, double weight) {
             is_usable_ = is_usable_ && word.size() <= longest;
@@ -745,7 +748,7 @@ private:
         }
     }
 
-    void cut(Successor& successor) const {
+    void split(Successor& successor) const {
         Symbol* out = successor.lead.data();
         std::uint32_t* size = &successor.lead_size;
         std::size_t room = longest;
@@ -763,7 +766,7 @@ private:
             std::copy_n(stays.symbols.begin(), stays.size, out + *size);
             *size += stays.size;
         }
-        successor.is_cut = true;
+        successor.is_split = true;
     }
 
     bool is_usable_ = false;
@@ -789,12 +792,7 @@ public:
                 if (!levels.table(level).candidates(symbol).empty()) active_[symbol] = 1;
             }
         }
-        for (const Table& each : grammar.tables()) choices_of_.emplace_back(&each, Choices(grammar, each));
-        if (grammar.interpretation()) {
-            choices_of_.emplace_back(grammar.interpretation(), Choices(grammar, *grammar.interpretation()));
-        }
-        // The last step writes beyond what it counts.
-        symbols_.resize(longest_run + Choices::longest);
+        symbols_.resize(longest_run);
         const auto largest = std::max_element(arity_.begin(), arity_.end());
         arguments_.resize(longest_run * (largest == arity_.end() ? 0 : *largest));
     }
@@ -848,9 +846,9 @@ private:
     const Table& table(std::int64_t level) {
         if (level <= table_begin_ || level > table_end_) {
             table_ = &levels_.table(level);
-            choices_ = &std::find_if(choices_of_.begin(), choices_of_.end(), [this](const auto& each) {
-                            return each.first == table_;
-                        })->second;
+            std::unique_ptr<Choices>& choices = choices_of_[table_];
+            if (!choices) choices = std::make_unique<Choices>(grammar_, *table_);
+            choices_ = choices.get();
             table_begin_ = levels_.stretch_begin(level);
             table_end_ = level;
         }
@@ -897,7 +895,7 @@ private:
             if (choices_->is_usable()) {
                 const Choices::Successor& chosen = choices_->of(symbol, chance);
                 // The last two steps at once.
-                if (level == 2 && chosen.is_cut && table_begin_ == 0) {
+                if (level == 2 && chosen.is_split && table_begin_ == 0) {
                     if (count_ + Choices::most_written > longest_run) flush();
                     const std::size_t written =
                         choices_->write(chosen, place, chance.step + 1, symbols_.data() + count_);
@@ -1020,7 +1018,7 @@ private:
     std::uint64_t visited_ = 0;
     std::uint64_t next_look_ = between_watches;
     std::uint64_t handed_over_ = 0;
-    std::vector<std::pair<const Table*, Choices>> choices_of_;
+    std::map<const Table*, std::unique_ptr<Choices>> choices_of_;  // of those that were asked for
     // The table that rewrites at the level last asked for, and at those above table_begin_.
     const Table* table_ = nullptr;
     const Choices* choices_ = nullptr;

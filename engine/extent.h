@@ -28,7 +28,7 @@ struct Measurement {
     bool derived = false;  ///< the word had to be walked, or was kept whole for contexts
 };
 
-/// From the fold where the system allows it, else by one pass over the word, as in three dimensions; contexts are resolved first.
+/// From the fold where the system allows it, else (and always in three dimensions) by one pass over the word; contexts are resolved first.
 /// @param budget  most nodes of that pass; above it, a BudgetError
 /// @param watch   as in DerivationOptions
 /// @throws WordError for brackets that do not balance, steps that are not finite; BudgetError for words kept whole

@@ -20,7 +20,7 @@ namespace sikku {
 inline void change_pen(Pen& pen, Action action, double value) {
     switch (action) {
         case Action::width_set:
-            pen.width = std::fabs(value);
+            pen.width = std::min(std::fabs(value), 1e9);
             pen.width_set = true;
             break;
         case Action::width_factor:

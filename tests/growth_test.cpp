@@ -45,6 +45,7 @@ TEST_F(Growth, FramesAreFilesInTheSamePlace) {
         paths.insert(document.select_node("//path").node().attribute("d").value());
     }
     EXPECT_EQ(paths.size(), 10u);
+    EXPECT_TRUE(has(contents(folder_ / "h-03.svg"), "-n 3")) << "each tells its own";
     EXPECT_TRUE(std::filesystem::exists(folder_ / "h-00.svg")) << "n = 0 draws nothing, and is a page";
     EXPECT_FALSE(std::filesystem::exists(folder_ / "h.svg"));
     // A step is as long in all of them: the last fills the page, and the first is as small as it is beside it.
@@ -116,10 +117,12 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
         EXPECT_EQ(draw({"bush.lsys", "--view", "top", "--dpi", "30"}, file).status, 0) << file;
     }
     expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected 'view: AZIMUTH ELEVATION'");
-    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 1, "for drawings in the plane");
-    expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 1, "seen as a whole");
-    expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 1, "drawings in the plane");
+    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2, "--set:1:6: this drawing pitches");
+    expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");
+    expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 2, "drawings in the plane");
+    expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2, "more shades than there are inks");
     expect_refused(draw({"bush.lsys", "-n", "30"}, "x.png"), 1, "budget");
+    expect_refused(draw({"bush.lsys", "-n", "14"}, "x.glb"), 1, "up to n = ");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "x.svg"));
     expect_refused(run({"kolam", (folder_ / "bush.lsys").string()}), 1, "a kolam lies in the plane");
 }
@@ -139,7 +142,7 @@ TEST_F(Growth, ModelsAreMade) {
     for (const char* file : {"b.obj", "b.glb"}) EXPECT_EQ(draw({"bush.lsys"}, file).status, 0) << file;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.mtl"));
     EXPECT_EQ(draw({"dragon"}, "d.glb").status, 0) << "of the plane, too";
-    expect_refused(draw({"snake-kolam"}, "s.glb"), 1, "of splines");
+    expect_refused(draw({"snake-kolam"}, "s.glb"), 2, "not of splines");
     expect_refused(draw({"bush.lsys", "--view", "top"}, "v.glb"), 2, "a model has no page");
     expect_refused(draw({"bush.lsys"}, "missing/v.glb"), 1, "missing");
     expect_refused(draw({"fibonacci-words"}, "w.obj"), 1, "nothing to draw");
@@ -152,6 +155,10 @@ TEST_F(Growth, BadGenerationsAreRefused) {
     expect_refused(draw({"dragon", "--generations", "1:x"}, "d.gif"), 2, "expected two derivation lengths");
     expect_refused(draw({"dragon", "--generations", "1:3", "--frame-time", "0"}, "d.gif"), 2, "--frame-time");
     expect_refused(draw({"dragon", "--generations", "1:60"}, "d.gif"), 1, "budget");
+    expect_refused(draw({"dragon", "--generations", "1:3", "--size", "10000x1000mm", "--dpi", "155"}, "d.gif"), 2,
+                   "100 million");
+    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "goes with --generations");
+    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.obj"), 2, "a model has no page");
     expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "nothing to draw in any");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});
 }

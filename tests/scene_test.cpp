@@ -102,7 +102,8 @@ TEST(Triangles, CoverConcavePolygonsInAnyPlane) {
             expected +=
                 radii[std::size_t(i)] * radii[std::size_t((i + 1) % corners)] * std::sin(2 * M_PI / corners) / 2;
         }
-        const auto triangles = triangles_of(star);
+        const auto [triangles, is_whole] = triangulate(star);
+        EXPECT_TRUE(is_whole);
         EXPECT_EQ(triangles.size(), star.size() - 2);
         double sum = 0;
         for (const auto& [a, b, c] : triangles) {
@@ -116,11 +117,13 @@ TEST(Triangles, CoverConcavePolygonsInAnyPlane) {
 }
 
 TEST(Triangles, OfWhatIsNoPolygonEnd) {
-    EXPECT_TRUE(triangles_of(std::vector<glm::vec3>(2)).empty());
-    EXPECT_EQ(triangles_of(std::vector<glm::vec3>(5)).size(), 3u) << "one point five times";
+    EXPECT_TRUE(triangulate(std::vector<glm::vec3>(2)).triangles.empty());
+    EXPECT_EQ(triangulate(std::vector<glm::vec3>(5)).triangles.size(), 3u) << "one point five times";
     const std::vector<glm::vec3> bow = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
-    EXPECT_EQ(triangles_of(bow).size(), 2u);
-    EXPECT_EQ(triangles_of(std::vector<glm::vec3>(100'000)).size(), 99'998u);
+    EXPECT_EQ(triangulate(bow).triangles.size(), 2u);
+    const Triangulation large = triangulate(std::vector<glm::vec3>(100'000));
+    EXPECT_EQ(large.triangles.size(), 99'998u);
+    EXPECT_FALSE(large.is_whole);
 }
 
 // --- pixels ------------------------------------------------------------------------------------------------------
@@ -228,6 +231,20 @@ TEST(SolidRaster, StemsAreRoundAndAsWideAsTheirPens) {
     EXPECT_EQ(picture.at(5, -25).x, 0);
 }
 
+TEST(SolidRaster, PolygonsThatCrossThemselvesAreFilledByWinding) {
+    const Print print = pixel_print(64);
+    // A pentagram: its middle is inside, what lies between two tips is not.
+    const std::string star =
+        "turn: left\nangle increment: 144\naxiom: ^(0)[f(-15)+(90)f(15)-(90)-(18){f(30)-f(30)-f(30)-f(30)-f(30)}]\n";
+    const Picture picture = picture_of(star, print);
+    int covered = 0;
+    for (int y = -32; y < 32; ++y) {
+        for (int x = -32; x < 32; ++x) covered += hue(picture.at(x, y)) == 'r' ? 1 : 0;
+    }
+    // Of a pentagram with sides of 30 the area is 0.31 x 900, all it runs around.
+    EXPECT_NEAR(covered, 279, 14);
+}
+
 TEST(SolidRaster, SpheresStandBeforeWhatTheyTouch) {
     const Print print = pixel_print(64);
     const Picture picture = picture_of("turn: left\naxiom: $" + square + ";@O(6)\n", print);
@@ -314,7 +331,9 @@ TEST(Solids, ShadesAreThePaletteUnderMoreOrLessLight) {
     EXPECT_EQ(shaded.line_colour(Pen{}), blue);
     EXPECT_EQ(shaded.palette[1], white);
     EXPECT_EQ((shaded.palette.size() - 2) % 4, 0u);
-    EXPECT_EQ(shaded.palette[shaded.palette.size() - 4], blue) << "the brightest: of lines";
+    const Colour brightest = shaded.palette[shaded.palette.size() - 4];
+    EXPECT_EQ(brightest.blue, 255) << "of lines";
+    EXPECT_EQ(brightest.red, 56) << "a sheen";
     EXPECT_EQ(shaded.palette[shaded.palette.size() - 1], white);
 }
 
