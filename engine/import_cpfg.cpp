@@ -764,7 +764,7 @@ private:
         if (letter == '~') once("~", at, "surfaces");
         if (letter == '?' || letter == '$') once("?", at, "queries and sub-L-systems");
         if (std::string_view("&^/\\").find(letter) != std::string_view::npos) {
-            once("3", at, "the third dimension: the turtle passes over & ^ / and \\");
+            once("3", at, "the third dimension: the turtle passes over & ^ \\ /");
         }
         if (letter == '{') {
             once("{", at,
