@@ -23,6 +23,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_defines_deep = 200;
+constexpr std::size_t most_expanded_bytes = std::size_t{16} << 20;   // that defines expand to
 constexpr std::size_t most_nesting = 256;                            // of an expression
 constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as written anew
 constexpr std::size_t most_productions = 10'000;
@@ -179,7 +180,7 @@ private:
         if (is_open) mistake(used_at, fmt::format("'{}' is defined by itself", printable(found->first, 80)));
         if (frames_.size() > most_defines_deep) mistake(used_at, "defines stand in defines more than 200 deep");
         std::string replaced = macro.has_parameters ? filled_in(macro, arguments) : macro.body;
-        if (replaced.size() + 1 > budget_) mistake(used_at, "the defines expand to more than 64 MB");
+        if (replaced.size() + 1 > budget_) mistake(used_at, "the defines expand to more than 16 MB");
         budget_ -= replaced.size() + 1;
         frame.at = end;
         frames_.push_back({std::move(replaced), {}, 0, 0, &macro, used_at});
@@ -762,6 +763,7 @@ private:
 
     void note(char letter, std::size_t at) {
         if (letter == '~') once("~", at, "surfaces");
+        if (letter == ';' || letter == ',') once(";", at, "the colours, which stand in a map of their own");
         if (letter == '?' || letter == '$') once("?", at, "queries and sub-L-systems");
         if (std::string_view("&^/\\").find(letter) != std::string_view::npos) {
             once("3", at, "the third dimension: the turtle passes over & ^ \\ /");
@@ -801,6 +803,7 @@ private:
             if ((letter == "{" || letter == "}") && !arguments.empty() && arguments[0] != "0") {
                 once("{(", at, "generalised cylinders");
             }
+            note_width(letter, arguments);
             modules_.insert({letter, arguments.size()});
             append(result, letter, arguments);
         }
@@ -828,7 +831,13 @@ private:
             if (arguments[0] != "0") return once("{(", at, "generalised cylinders");
             arguments.clear();
         }
+        note_width(letter, arguments);
         append(result, letter, arguments);
+    }
+
+    /// Widths are pixels unless the view says otherwise.
+    void note_width(const std::string& letter, const std::vector<std::string>& arguments) {
+        if ((letter == "!" || letter == "#") && !arguments.empty() && stroke_.empty()) stroke_ = "stroke: 1 px";
     }
 
     std::vector<std::string> parameters(Reader& reader) {
@@ -1562,7 +1571,7 @@ private:
     std::string label_;
 
     Macros macros_;
-    std::size_t budget_ = most_import_bytes;  // of what defines may still expand to
+    std::size_t budget_ = most_expanded_bytes;  // of what defines may still expand to
     std::set<std::string> defined_once_;
     std::vector<Condition> conditions_;
     std::size_t counted_begin_ = nothing;

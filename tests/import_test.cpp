@@ -706,6 +706,7 @@ TEST(ImportCpfg, ViewFiles) {
     ASSERT_EQ(wide.losses.size(), 1U);
     EXPECT_EQ(wide.losses[0], "test.v, line 3: 'z buffer:' of the view");
     EXPECT_TRUE(has(made("initial line width: 0.1\n").pattern, "stroke: 0.1 step\n"));
+    EXPECT_TRUE(has(cpfg("Lsystem: 1\nAxiom: !(2)F\nendlsystem\n").pattern, "stroke: 1 px\n"));
     Diagnostics diagnostics;
     import_cpfg(source_of("Lsystem: 1\nAxiom: F\nendlsystem\n"), source_of("\nangle factor: many\n", "test.v"),
                 diagnostics);
@@ -794,7 +795,7 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "nobody knows this directive"}});
     std::string laughs = "#define l0 FF\n";
     for (int i = 1; i < 40; ++i) laughs += fmt::format("#define l{0} l{1} l{1}\n", i, i - 1);
-    expect(laughs + "Lsystem: 1\nAxiom: l39\nendlsystem\n", {{{42, 8}, "expand to more than 64 MB"}});
+    expect(laughs + "Lsystem: 1\nAxiom: l39\nendlsystem\n", {{{42, 8}, "expand to more than 16 MB"}});
     std::string chain = "#define l0 1\n";
     for (int i = 1; i < 5000; ++i) chain += fmt::format("#define l{} (l{})\n", i, i - 1);
     expect(chain + "Lsystem: 1\nAxiom: F(l4999)\nendlsystem\n", {{{5002, 10}, "more than 200 deep"}});
