@@ -738,7 +738,7 @@ private:
         reader.take();
         symbols_.insert({'@', function});
         called_.insert(function);
-        if (std::string_view("ocO").find(function) == std::string_view::npos) {
+        if (std::string_view("ocOv").find(function) == std::string_view::npos) {
             once(std::string("@") + function, at, fmt::format("the function @{}", function));
         }
         return {'@', function};
@@ -765,9 +765,6 @@ private:
         if (letter == '~') once("~", at, "surfaces");
         if (letter == ';' || letter == ',') once(";", at, "the colours, which stand in a map of their own");
         if (letter == '?' || letter == '$') once("?", at, "queries and sub-L-systems");
-        if (std::string_view("&^/\\").find(letter) != std::string_view::npos) {
-            once("3", at, "the third dimension: the turtle passes over & ^ \\ /");
-        }
         if (letter == '{') {
             once("{", at,
                  "which vertices polygons have: here the place of '{' and the ends of all steps, '.' and G being "
@@ -818,7 +815,9 @@ private:
 
     /// A module of a homomorphism's successor: nothing is between it and the turtle.
     void finish(std::string& result, const std::string& letter, std::vector<std::string> arguments, std::size_t at) {
-        if (letter == "%" || letter == "'" || letter == "@.") return;
+        if (letter == "%" || letter == "'" || letter == "@." || letter == "$") return;
+        if (letter == "@v") return append(result, "$", {});
+        if (letter == "/" || letter == "\\") return append(result, letter == "/" ? "\\" : "/", arguments);
         if ((letter == "!" || letter == "#") && arguments.empty()) {
             if (width_increment_ == 0) return;
             once("!", at, "that # and ! add to the width: here they multiply by 1.25 and 0.8");
@@ -1291,6 +1290,12 @@ private:
         return text;
     }
 
+    /// A blank before a backslash at the end would go on with the next line.
+    static std::string line_of(std::string text) {
+        if (text.ends_with(" \\")) text.erase(text.size() - 2, 1);
+        return text + '\n';
+    }
+
     static std::string written(const Rule& rule) {
         std::string text;
         if (!rule.left.empty()) text += written(rule.left, " ") + " < ";
@@ -1299,7 +1304,7 @@ private:
         if (rule.condition) text += " : " + rule.condition->text;
         text += " --> " + (rule.successor.empty() ? "*" : rule.successor);
         if (rule.weight) text += " : " + rule.weight->text;
-        return text + '\n';
+        return line_of(std::move(text));
     }
 
     /// A condition with the parameters of another predecessor; nullopt if one of those is the name of a define in it.
@@ -1452,7 +1457,13 @@ private:
             for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("a{}", i + 1));
             std::string successor;
             std::string condition;
-            if (letter == "'" || letter == "@.") {
+            if (letter == "'" || letter == "@." || letter == "$") {
+            } else if (letter == "@v") {
+                successor = "$";
+            } else if (letter == "/" || letter == "\\") {
+                // Up is away from the reader there, as the code of cpfg has it.
+                successor = letter == "/" ? "\\" : "/";
+                if (count > 0) successor += "(a1)";
             } else if ((letter == "!" || letter == "#") && count == 0 && width_increment_ == 0) {
             } else if (letter == "@O" && count == 0) {
                 lose_part(lsystem_at_, "discs as wide as the line");
@@ -1465,7 +1476,7 @@ private:
             }
             const std::vector<Formal> predecessor = {{letter, names}};
             if (certain.contains(type_of(predecessor))) continue;
-            lines += written(predecessor, "") + condition + " --> " + (successor.empty() ? "*" : successor) + '\n';
+            lines += line_of(written(predecessor, "") + condition + " --> " + (successor.empty() ? "*" : successor));
         }
         return lines.empty() ? "" : "\ninterpret:\n" + lines;
     }
@@ -1495,13 +1506,13 @@ private:
         const std::string& seen = considers_ ? yes : no;
         const bool brackets_seen = has(seen, '[') && has(seen, ']');
         if (!has(ignored, ',') && (!considers_ || !brackets_seen)) {
-            return ignored.empty() ? "" : "ignore:" + ignored + '\n';
+            return ignored.empty() ? "" : line_of("ignore:" + ignored);
         }
         if (has(seen, ',')) lose_part(lsystem_at_, "that contexts see ','");
         if (!brackets_seen) lose_part(lsystem_at_, "that contexts pass through brackets");
         std::string considered;
         for (const char letter : seen) considered += letter == ',' ? ' ' : letter;
-        return "consider:" + considered + '\n';
+        return line_of("consider:" + considered);
     }
 
     void use_what_defines_use() {
@@ -1542,7 +1553,7 @@ private:
         if (!scale_.empty()) body += scale_ + '\n';
         if (!stroke_.empty()) body += stroke_ + '\n';
         body += contexts;
-        body += "axiom: " + (axiom_->empty() ? std::string("*") : *axiom_) + '\n';
+        body += line_of("axiom: " + (axiom_->empty() ? std::string("*") : *axiom_));
         for (const Rule& rule : rules_) {
             body += written(rule);
             if (body.size() > most_import_bytes) break;  // as is told then
