@@ -33,7 +33,7 @@ std::optional<ImportFormat> import_format(std::string_view text);
 /// cpfg keeps single precision, and with choices by chance of its own.
 /// @param view  the view file, or null: of its settings the angle, the scale and the width of lines are taken
 /// Mistakes and losses go to `diagnostics`. Cost: linear in the files and in what their defines expand to, at most
-/// 64 MB; quadratic in the productions of one symbol.
+/// 16 MB; quadratic in the productions of one symbol.
 /// Source: Mech, CPFG Version 4.0 User's Manual, 2005, section 5.
 std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourcePointer& view,
                                         Diagnostics& diagnostics);

@@ -23,6 +23,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_defines_deep = 200;
+constexpr std::size_t most_expanded_bytes = std::size_t{16} << 20;   // that defines expand to
 constexpr std::size_t most_nesting = 256;                            // of an expression
 constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as written anew
 constexpr std::size_t most_productions = 10'000;
@@ -179,7 +180,7 @@ private:
         if (is_open) mistake(used_at, fmt::format("'{}' is defined by itself", printable(found->first, 80)));
         if (frames_.size() > most_defines_deep) mistake(used_at, "defines stand in defines more than 200 deep");
         std::string replaced = macro.has_parameters ? filled_in(macro, arguments) : macro.body;
-        if (replaced.size() + 1 > budget_) mistake(used_at, "the defines expand to more than 64 MB");
+        if (replaced.size() + 1 > budget_) mistake(used_at, "the defines expand to more than 16 MB");
         budget_ -= replaced.size() + 1;
         frame.at = end;
         frames_.push_back({std::move(replaced), {}, 0, 0, &macro, used_at});
@@ -737,7 +738,7 @@ private:
         reader.take();
         symbols_.insert({'@', function});
         called_.insert(function);
-        if (std::string_view("ocO").find(function) == std::string_view::npos) {
+        if (std::string_view("ocOv").find(function) == std::string_view::npos) {
             once(std::string("@") + function, at, fmt::format("the function @{}", function));
         }
         return {'@', function};
@@ -762,10 +763,8 @@ private:
 
     void note(char letter, std::size_t at) {
         if (letter == '~') once("~", at, "surfaces");
+        if (letter == ';' || letter == ',') once(";", at, "the colours, which stand in a map of their own");
         if (letter == '?' || letter == '$') once("?", at, "queries and sub-L-systems");
-        if (std::string_view("&^/\\").find(letter) != std::string_view::npos) {
-            once("3", at, "the third dimension: the turtle passes over & ^ / and \\");
-        }
         if (letter == '{') {
             once("{", at,
                  "which vertices polygons have: here the place of '{' and the ends of all steps, '.' and G being "
@@ -801,6 +800,7 @@ private:
             if ((letter == "{" || letter == "}") && !arguments.empty() && arguments[0] != "0") {
                 once("{(", at, "generalised cylinders");
             }
+            note_width(letter, arguments);
             modules_.insert({letter, arguments.size()});
             append(result, letter, arguments);
         }
@@ -815,7 +815,9 @@ private:
 
     /// A module of a homomorphism's successor: nothing is between it and the turtle.
     void finish(std::string& result, const std::string& letter, std::vector<std::string> arguments, std::size_t at) {
-        if (letter == "%" || letter == "'" || letter == "@.") return;
+        if (letter == "%" || letter == "'" || letter == "@." || letter == "$") return;
+        if (letter == "@v") return append(result, "$", {});
+        if (letter == "/" || letter == "\\") return append(result, letter == "/" ? "\\" : "/", arguments);
         if ((letter == "!" || letter == "#") && arguments.empty()) {
             if (width_increment_ == 0) return;
             once("!", at, "that # and ! add to the width: here they multiply by 1.25 and 0.8");
@@ -828,7 +830,13 @@ private:
             if (arguments[0] != "0") return once("{(", at, "generalised cylinders");
             arguments.clear();
         }
+        note_width(letter, arguments);
         append(result, letter, arguments);
+    }
+
+    /// Widths are pixels unless the view says otherwise.
+    void note_width(const std::string& letter, const std::vector<std::string>& arguments) {
+        if ((letter == "!" || letter == "#") && !arguments.empty() && stroke_.empty()) stroke_ = "stroke: 1 px";
     }
 
     std::vector<std::string> parameters(Reader& reader) {
@@ -1282,6 +1290,12 @@ private:
         return text;
     }
 
+    /// A blank before a backslash at the end would go on with the next line.
+    static std::string line_of(std::string text) {
+        if (text.ends_with(" \\")) text.erase(text.size() - 2, 1);
+        return text + '\n';
+    }
+
     static std::string written(const Rule& rule) {
         std::string text;
         if (!rule.left.empty()) text += written(rule.left, " ") + " < ";
@@ -1290,7 +1304,7 @@ private:
         if (rule.condition) text += " : " + rule.condition->text;
         text += " --> " + (rule.successor.empty() ? "*" : rule.successor);
         if (rule.weight) text += " : " + rule.weight->text;
-        return text + '\n';
+        return line_of(std::move(text));
     }
 
     /// A condition with the parameters of another predecessor; nullopt if one of those is the name of a define in it.
@@ -1443,7 +1457,13 @@ private:
             for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("a{}", i + 1));
             std::string successor;
             std::string condition;
-            if (letter == "'" || letter == "@.") {
+            if (letter == "'" || letter == "@." || letter == "$") {
+            } else if (letter == "@v") {
+                successor = "$";
+            } else if (letter == "/" || letter == "\\") {
+                // Up is away from the reader there, as the code of cpfg has it.
+                successor = letter == "/" ? "\\" : "/";
+                if (count > 0) successor += "(a1)";
             } else if ((letter == "!" || letter == "#") && count == 0 && width_increment_ == 0) {
             } else if (letter == "@O" && count == 0) {
                 lose_part(lsystem_at_, "discs as wide as the line");
@@ -1456,7 +1476,7 @@ private:
             }
             const std::vector<Formal> predecessor = {{letter, names}};
             if (certain.contains(type_of(predecessor))) continue;
-            lines += written(predecessor, "") + condition + " --> " + (successor.empty() ? "*" : successor) + '\n';
+            lines += line_of(written(predecessor, "") + condition + " --> " + (successor.empty() ? "*" : successor));
         }
         return lines.empty() ? "" : "\ninterpret:\n" + lines;
     }
@@ -1486,13 +1506,13 @@ private:
         const std::string& seen = considers_ ? yes : no;
         const bool brackets_seen = has(seen, '[') && has(seen, ']');
         if (!has(ignored, ',') && (!considers_ || !brackets_seen)) {
-            return ignored.empty() ? "" : "ignore:" + ignored + '\n';
+            return ignored.empty() ? "" : line_of("ignore:" + ignored);
         }
         if (has(seen, ',')) lose_part(lsystem_at_, "that contexts see ','");
         if (!brackets_seen) lose_part(lsystem_at_, "that contexts pass through brackets");
         std::string considered;
         for (const char letter : seen) considered += letter == ',' ? ' ' : letter;
-        return "consider:" + considered + '\n';
+        return line_of("consider:" + considered);
     }
 
     void use_what_defines_use() {
@@ -1533,7 +1553,7 @@ private:
         if (!scale_.empty()) body += scale_ + '\n';
         if (!stroke_.empty()) body += stroke_ + '\n';
         body += contexts;
-        body += "axiom: " + (axiom_->empty() ? std::string("*") : *axiom_) + '\n';
+        body += line_of("axiom: " + (axiom_->empty() ? std::string("*") : *axiom_));
         for (const Rule& rule : rules_) {
             body += written(rule);
             if (body.size() > most_import_bytes) break;  // as is told then
@@ -1562,7 +1582,7 @@ private:
     std::string label_;
 
     Macros macros_;
-    std::size_t budget_ = most_import_bytes;  // of what defines may still expand to
+    std::size_t budget_ = most_expanded_bytes;  // of what defines may still expand to
     std::set<std::string> defined_once_;
     std::vector<Condition> conditions_;
     std::size_t counted_begin_ = nothing;

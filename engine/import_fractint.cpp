@@ -24,10 +24,11 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_entries = 10'000;
-constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // of all words of an entry
-constexpr std::size_t most_factors = 32;                       // different numbers after @
-constexpr std::size_t most_levels = 20;                        // that differ
-constexpr double most_digits = 300;                            // of a length, before or after the point
+constexpr std::size_t most_word_bytes = std::size_t{1} << 20;     // of all words of an entry
+constexpr std::size_t most_factors = 32;                          // different numbers after @
+constexpr std::size_t most_levels = 20;                           // that differ
+constexpr double most_digits = 300;                               // of a length, before or after the point
+constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
 constexpr int palette_size = 16;
 constexpr int first_colour = 15;
 constexpr const char* palette =
@@ -222,7 +223,7 @@ private:
             token.base = static_cast<std::uint16_t>(known - factors_.begin());
             if (known == factors_.end()) factors_.push_back(number);
             if (factors_.size() > most_factors) fail(token.at, "more than 32 different numbers after '@'");
-            token.root = static_cast<std::int8_t>((root ? 1 : 2) * (inverse ? -1 : 1));
+            token.root = static_cast<std::int8_t>(number == 1 ? 0 : (root ? 1 : 2) * (inverse ? -1 : 1));
             return;
         }
         if (number > 0 && root) number = std::sqrt(number);
@@ -364,7 +365,8 @@ private:
                 for (std::size_t i = 0; i < factors_.size(); ++i) {
                     const double share = 0.5 * static_cast<double>(effect.halves[i]) * std::log10(factors_[i]);
                     digits += share;
-                    if (!(std::fabs(share) < most_digits)) is_small = false;
+                    const bool is_much = std::abs(effect.halves[i]) > largest_exponent;
+                    if (is_much || !(std::fabs(share) < most_digits)) is_small = false;
                 }
                 if (!(std::fabs(digits) < most_digits)) is_small = false;
             }
