@@ -276,6 +276,15 @@ private:
 
     // --- lines ---------------------------------------------------------------------------------------------
 
+    /// In words `//` is two rolls: younger preprocessors than those that these files were written for would take the
+    /// rest of the line away. A comment stands at the beginning of a line or between blanks.
+    bool is_comment(std::size_t slashes) const {
+        std::size_t before = slashes;
+        while (before > 0 && is_blank(text_[before - 1]) && text_[before - 1] != '\n') --before;
+        if (before == 0 || text_[before - 1] == '\n') return true;
+        return before < slashes && (slashes + 2 == text_.size() || is_blank(text_[slashes + 2]));
+    }
+
     void blank_comments() {
         for (std::size_t at = 0; at + 1 < text_.size(); ++at) {
             if (text_[at] != '/') continue;
@@ -287,12 +296,8 @@ private:
                     end = text_.size() - 2;
                 }
                 end += 2;
-            } else if (text_[at + 1] == '/') {
+            } else if (text_[at + 1] == '/' && is_comment(at)) {
                 end = std::min(text_.find('\n', at), text_.size());
-                if (at > 0 && !is_blank(text_[at - 1]) && text_[at - 1] != '/') {
-                    diagnostics_.warning({file_, at, 2},
-                                         "'//' begins a comment, as a C preprocessor has it; two rolls are '/ /'");
-                }
             } else {
                 continue;
             }

@@ -487,6 +487,14 @@ TEST(ImportCpfg, ParametersAndDefines) {
     expect_same_words(leaf.pattern, along("plants/compound-leaf"), 6);
 }
 
+TEST(ImportCpfg, RollsInWordsAreNoComments) {
+    const ImportedSystem bush = cpfg(
+        "Lsystem: 1 // figure 1.25\n// by hand\nderivation length: 2\nAxiom: A\n"
+        "A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]\nF --> S/////F // grows\nS --> FL\nendlsystem\n");
+    EXPECT_TRUE(has(bush.pattern, "A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]\n")) << bush.pattern;
+    EXPECT_TRUE(has(bush.pattern, "F --> S/////F\n")) << bush.pattern;
+}
+
 TEST(ImportCpfg, ContextsAndCuts) {
     const ImportedSystem hogeweg = cpfg(
         "Lsystem: 1\nderivation length: 30\nignore: +-F\nAxiom: F1F1F1\n0 < 0 > 0 --> 1\n0 < 0 > 1 --> 1[-F1F1]\n"
