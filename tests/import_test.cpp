@@ -526,7 +526,7 @@ TEST(ImportCpfg, ContextsAndCuts) {
     const ImportedSystem flux = cpfg(
         "#define a1 10 /* branching angle */\n#define a2 32\n#define sigma0 17\n#define eta 0.89\n#define lambda "
         "0.7\n"
-        "#define v_th 5.0\nLsystem: 1\nderivation length: 35\nignore: +-/\nAxiom: N(1)I(0,2,0,1)A(-1)\n"
+        "#define v_th 5.0\nLsystem: 1\nderivation length: 35\nignore: +-/\nAxiom: N(1)I(0,2,0,1)A(1)\n"
         "N(k) < I(b,m,v,c) : b==0 && m==2 --> I(b,1,sigma0*2^((k-1)*(eta^k)),c)\n"
         "N(k) > I(b,m,v,c) : b==0 && m==2 --> N(k+1)\n"
         "I(bl,ml,vl,cl) < I(b,m,v,c) : ml==1 && b==1 --> I(b,ml,vl-vl*(1-lambda)*((cl-c)/c),c)\n"
