@@ -13,36 +13,81 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 namespace sikku {
+
+/// An entry of the list that remove_unfinished_files() reads. Entries are only ever added, so that a signal handler
+/// can walk the list at any time; those of files that are done are used again. There are as many as files were ever
+/// open at once.
+struct UnfinishedFile {
+    std::atomic<const char*> path{nullptr};
+    UnfinishedFile* next = nullptr;  // never changes once the entry is in the list
+};
+
 namespace {
+
+std::atomic<UnfinishedFile*> unfinished{nullptr};
+/// A signal handler reads the paths: they must not be freed under its eyes.
+std::atomic<bool> is_removing{false};
+static_assert(std::atomic<UnfinishedFile*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "a signal handler must not wait for a lock");
+
+UnfinishedFile* remember(const std::filesystem::path& path) {
+    const char* copy = ::strdup(path.c_str());
+    if (!copy) throw std::bad_alloc();
+    for (UnfinishedFile* entry = unfinished.load(); entry; entry = entry->next) {
+        const char* free_path = nullptr;
+        if (entry->path.compare_exchange_strong(free_path, copy)) return entry;
+    }
+    auto* entry = new (std::nothrow) UnfinishedFile;
+    if (!entry) {
+        std::free(const_cast<char*>(copy));
+        throw std::bad_alloc();
+    }
+    entry->path = copy;
+    entry->next = unfinished.load();
+    while (!unfinished.compare_exchange_weak(entry->next, entry)) {
+    }
+    return entry;
+}
+
+void forget(UnfinishedFile* entry) {
+    if (!entry) return;
+    const char* path = entry->path.exchange(nullptr);
+    // A handler that has read it set is_removing before.
+    if (!is_removing) std::free(const_cast<char*>(path));
+}
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
 constexpr int most_links = 40;             // as the kernel follows
 
-/// Paths for remove_unfinished_files(); a signal handler may only read atomics and call unlink. A path is freed
-/// only by the owner after it took it out of its slot.
-std::array<std::atomic<const char*>, 64> unfinished{};
-
-int remember(const std::filesystem::path& path) {
-    char* copy = ::strdup(path.c_str());
-    for (std::size_t slot = 0; copy && slot < unfinished.size(); ++slot) {
-        const char* empty = nullptr;
-        if (unfinished[slot].compare_exchange_strong(empty, copy)) return static_cast<int>(slot);
-    }
-    std::free(copy);
-    return -1;
+/// Lets a call pass whose file system or kind of file has nothing to synchronise.
+bool is_not_for_sync(int error) {
+    return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
 }
 
-void forget(int slot) {
-    if (slot < 0) return;
-    const char* path = unfinished[static_cast<std::size_t>(slot)].exchange(nullptr);
-    std::free(const_cast<char*>(path));
+/// fsync() with the error number instead of a result; 0 if all is well.
+int synchronise(int descriptor) {
+    while (::fsync(descriptor) != 0) {
+        if (errno != EINTR) return is_not_for_sync(errno) ? 0 : errno;
+    }
+    return 0;
+}
+
+/// Makes the names in a folder durable. A folder that may not be read is left to the system.
+int synchronise_folder(const std::filesystem::path& folder) {
+    const int descriptor =
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return 0;
+    const int error = synchronise(descriptor);
+    ::close(descriptor);
+    return error;
 }
 
 /// The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for. Opening it by name would begin at the
@@ -129,17 +174,20 @@ void OutputFile::create() {
     const mode_t mode = mode_ < 0 ? 0666 : static_cast<mode_t>(mode_) | 0600;
     for (int attempt = 0;; ++attempt) {
         temporary_ = target_.parent_path() / fmt::format(".{}.{}.tmp", stem, random_letters());
+        // Before it is there: a signal may come at any time.
+        entry_ = remember(temporary_);
         descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (descriptor_ >= 0) break;
-        if (errno != EEXIST || attempt == 100) fail(errno);
+        if (descriptor_ >= 0) return;
+        const int error = errno;
+        forget(std::exchange(entry_, nullptr));
+        if (error != EEXIST || attempt == 100) fail(error);
     }
-    slot_ = remember(temporary_);
 }
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!direct_ && !temporary_.empty()) ::unlink(temporary_.c_str());
-    forget(slot_);
+    forget(entry_);
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -224,15 +272,23 @@ const std::filesystem::path& OutputFile::temporary() {
 
 void OutputFile::commit() {
     flush();
-    // By name: a library may have made the file anew.
-    if (!direct_ && mode_ >= 0 && ::chmod(temporary_.c_str(), static_cast<mode_t>(mode_)) != 0) fail(errno);
+    if (!direct_) {
+        // By name: a library may have made the file anew.
+        const int whole = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+        if (whole < 0) fail(errno);
+        int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
+        if (error == 0) error = synchronise(whole);
+        ::close(whole);
+        if (error != 0) fail(error);
+    }
     const int descriptor = std::exchange(descriptor_, -1);
     // Some file systems report a full disk only here.
     if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
     if (direct_) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();
-    forget(std::exchange(slot_, -1));
+    forget(std::exchange(entry_, nullptr));
+    if (const int error = synchronise_folder(target_.parent_path()); error != 0) fail(error);
 }
 
 void OutputFile::fail(int error) const {
@@ -241,9 +297,14 @@ void OutputFile::fail(int error) const {
 }
 
 void remove_unfinished_files() noexcept {
-    for (const auto& slot : unfinished) {
-        if (const char* path = slot.load()) ::unlink(path);
+    is_removing = true;
+    // Twice, for what another thread was opening meanwhile.
+    for (int pass = 0; pass < 2; ++pass) {
+        for (UnfinishedFile* entry = unfinished.load(); entry; entry = entry->next) {
+            if (const char* path = entry->path.load()) ::unlink(path);
+        }
     }
+    is_removing = false;
 }
 
 }  // namespace sikku

@@ -8,6 +8,8 @@
 
 namespace sikku {
 
+struct UnfinishedFile;
+
 /// Writes beside the target (`.NAME.XXXXXX.tmp` in the same folder) and renames into place on commit; without
 /// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
 /// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
@@ -33,7 +35,9 @@ public:
     /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
     /// not write() after that.
     const std::filesystem::path& temporary();
-    /// Flushes and renames. To be called once, last.
+    /// Flushes, synchronises the file with the disk, renames it and synchronises the folder: after a crash of the
+    /// machine the target has its old content or its new one, and is never empty. Devices and pipes are not
+    /// synchronised. To be called once, last.
     void commit();
 
 private:
@@ -47,15 +51,15 @@ private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
-    int mode_ = -1;  ///< of the file that is replaced
-    int slot_ = -1;  ///< in the list of remove_unfinished_files()
+    int mode_ = -1;                    ///< of the file that is replaced
+    UnfinishedFile* entry_ = nullptr;  ///< in the list of remove_unfinished_files()
     bool direct_ = false;
     std::string buffer_;
     std::uint64_t written_ = 0;
 };
 
-/// Removes the temporary file of every OutputFile that is neither committed nor destroyed. May be called from a
-/// signal handler that then ends the program.
+/// Removes the temporary file of every OutputFile that is neither committed nor destroyed, however many there are.
+/// May be called from a signal handler that then ends the program.
 void remove_unfinished_files() noexcept;
 
 }  // namespace sikku

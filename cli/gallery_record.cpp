@@ -126,13 +126,6 @@ bool is_unfinished(const std::string& name, std::string target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
-void synchronise(const std::filesystem::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
-}
-
 std::string claim_line(const std::string& file) {
     nlohmann::json json;
     json["claim"] = file;
@@ -292,8 +285,7 @@ void GalleryRecord::claim(const std::string& file) {
 }
 
 void GalleryRecord::add(const FinishedJob& job) {
-    // First the file: what the record says of it then holds whatever happens.
-    synchronise(folder_ / job.file);
+    // OutputFile has synchronised the file: what the record says of it holds whatever happens.
     append(job.line(), true);
 }
 
@@ -339,9 +331,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, bool sole) {
     }
     OutputFile output(folder_ / name_);
     output.write(text);
-    synchronise(output.temporary());
     output.commit();
-    synchronise(folder_);
     for (const Locked& shard : shards) {
         ::unlink(shard.file.c_str());
         ::close(shard.descriptor);
