@@ -96,17 +96,6 @@ std::size_t longest(std::size_t known, std::size_t count, std::size_t step, cons
     return known;
 }
 
-/// What a comment may hold.
-std::string plain(std::string_view title) {
-    std::string text;
-    for (const char c : title) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '(' || c == ')' || (byte & 0xc0U) == 0x80U) continue;  // nor what follows the first byte of UTF-8
-        if (text.size() < longest_comment) text += byte >= 0x20 && byte < 0x7f ? c : '?';
-    }
-    return text;
-}
-
 void require(bool holds, const char* what) {
     if (!holds) throw std::runtime_error(fmt::format("G-code: {}", what));
 }
@@ -121,7 +110,7 @@ public:
         require(std::isfinite(options.z_up) && std::isfinite(options.z_down), "a height is finite");
         require(std::isfinite(options.power) && options.power >= 0, "the power is finite and at least 0");
         require(std::isfinite(options.pause) && options.pause >= 0, "the pause is finite and at least 0 s");
-        if (const std::string title = plain(print.title); !title.empty()) file_.write("(" + title + ")\n");
+        if (!print.title.empty()) file_.write(gcode_comment("title", print.title) + "\n");
         file_.write("G21 G90 G17\n");
         write_text(options.start);
         lift();
@@ -130,7 +119,8 @@ public:
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
         if (const int next = number(pen); next != pen_) {
-            file_.write(fmt::format("(pen {}: {})\n", next, colour_name(print_.style.line_colour(pen))));
+            const std::string colour = colour_name(print_.style.line_colour(pen));
+            file_.write(gcode_comment(fmt::format("pen {}", next), colour) + "\n");
             if (pen_ != 0) file_.write(fmt::format("T{}\nM0\n", next));
             pen_ = next;
         }
@@ -258,6 +248,20 @@ private:
 };
 
 }  // namespace
+
+std::string gcode_comment(std::string_view label, std::string_view text) {
+    std::string comment = fmt::format("({}: ", label);
+    const std::size_t most = comment.size() + longest_comment;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool is_inside_character = (byte & 0xc0U) == 0x80U;  // of UTF-8
+        if (is_inside_character || byte < 0x20 || byte == 0x7f) continue;
+        if (std::string_view("!?~%();").find(c) != std::string_view::npos) continue;
+        if (comment.size() == most) break;
+        comment += byte < 0x80 ? c : '_';
+    }
+    return comment + ")";
+}
 
 std::optional<GcodeOptions> gcode_profile(std::string_view name) {
     GcodeOptions options;

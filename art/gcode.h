@@ -28,6 +28,14 @@ struct GcodeOptions {
 /// The options of a kind of machine: `grbl` (M3 and M5) or `z`; nullopt for another name.
 std::optional<GcodeOptions> gcode_profile(std::string_view name);
 
+/// A comment that no controller takes for a command: `(label: text)`. The label keeps LinuxCNC from reading active
+/// comments such as `(MSG,…` and `(LOGOPEN,…`. Left out are `!`, `?` and `~`, which Grbl obeys wherever they stand,
+/// `%`, which begins and ends programs, `(`, `)` and `;`, and control characters; what is not ASCII, some of whose
+/// bytes are commands of Grbl as well, becomes `_`. Of the text 60 characters are kept: Grbl reads lines of 80.
+/// @param label  of letters, digits and blanks
+/// Source: Grbl 1.1, real-time commands; LinuxCNC, G code reference, comments.
+std::string gcode_comment(std::string_view label, std::string_view text);
+
 /// Begins the file. Absolute millimetres (G21 G90 G17) with 3 decimals, from the bottom left corner of the page, y
 /// up. Straight lines are G1; curves are followed within 0.01 mm by as few arcs (G2 and G3 with I J, below 270
 /// degrees, radius up to 1 m) and lines as a greedy search finds. Between two pens the machine stops (T n, M0). The

@@ -228,6 +228,16 @@ std::size_t utf8_length(std::string_view text) {
     return overlong || beyond ? 0 : length;
 }
 
+namespace {
+
+/// Embeddings, overrides and isolates of the direction of writing (U+202A to U+202E, U+2066 to U+2069), which would
+/// show what follows in another order.
+bool overrides_direction(std::string_view character) {
+    return (character >= "\u202A" && character <= "\u202E") || (character >= "\u2066" && character <= "\u2069");
+}
+
+}  // namespace
+
 std::string printable(std::string_view text, std::size_t most) {
     std::string result;
     const auto append = [&](std::size_t begin, std::size_t end) {
@@ -236,7 +246,7 @@ std::string printable(std::string_view text, std::size_t most) {
             const auto byte = static_cast<unsigned char>(text[begin]);
             const bool control = byte < 0x20 || byte == 0x7F ||
                                  (length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[begin + 1]) < 0xA0);
-            if (length == 0 || (control && byte != '\n')) {
+            if (length == 0 || (control && byte != '\n') || overrides_direction(text.substr(begin, length))) {
                 result += '?';
             } else {
                 result += text.substr(begin, length);

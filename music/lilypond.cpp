@@ -149,14 +149,35 @@ constexpr std::array<std::string_view, 128> instruments = {
     "gunshot",
 };
 
-std::string quoted(std::string_view text) {
+/// Text that LilyPond sets in one line. Line and paragraph separators (U+2028, U+2029), which it aborts on, and marks
+/// that change the direction of writing, on which it may hang, become blanks.
+std::string one_line(std::string_view text) {
+    constexpr std::array<std::string_view, 15> marks = {"\n",     "\u2028", "\u2029", "\u200E", "\u200F",
+                                                        "\u061C", "\u202A", "\u202B", "\u202C", "\u202D",
+                                                        "\u202E", "\u2066", "\u2067", "\u2068", "\u2069"};
+    const std::string whole = printable(text, std::string::npos);
+    std::string result;
+    for (std::string_view rest = whole; !rest.empty();) {
+        const auto mark = std::find_if(marks.begin(), marks.end(),
+                                       [rest](std::string_view candidate) { return rest.starts_with(candidate); });
+        result += mark == marks.end() ? rest.front() : ' ';
+        rest.remove_prefix(mark == marks.end() ? 1 : mark->size());
+    }
+    return result;
+}
+
+}  // namespace
+
+std::string lilypond_string(std::string_view text) {
     std::string result = "\"";
-    for (const char byte : printable(text, std::string::npos)) {
+    for (const char byte : one_line(text)) {
         if (byte == '"' || byte == '\\') result += '\\';
         result += byte;
     }
     return result + '"';
 }
+
+namespace {
 
 /// c d e … b, the sign (quarter tones have theirs), the octave: c' is middle C.
 std::string pitch_name(const Pitch& pitch) {
@@ -201,8 +222,8 @@ public:
         comment(head_.made);
         comment(head_.pattern);
         put("\n\\header {{\n");
-        if (!head_.title.empty()) put("  title = {}\n", quoted(head_.title));
-        if (!head_.composer.empty()) put("  composer = {}\n", quoted(head_.composer));
+        if (!head_.title.empty()) put("  title = {}\n", lilypond_string(head_.title));
+        if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
         put("  tagline = ##f\n}}\n\n");
         // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
         put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
@@ -228,7 +249,7 @@ private:
             std::string line(text.substr(0, end));
             if (line.ends_with('\r')) line.pop_back();
             std::replace(line.begin(), line.end(), '\t', ' ');
-            put("%{}{}\n", line.empty() ? "" : " ", printable(line, std::string::npos));
+            put("%{}{}\n", line.empty() ? "" : " ", one_line(line));
             text.remove_prefix(std::min(end + 1, text.size()));
         }
     }
@@ -237,8 +258,8 @@ private:
         const NotatedPart& part = notation_.parts[index];
         const Part& told = head_.parts[index];
         const std::string with =
-            fmt::format("\\with {{ instrumentName = {} midiInstrument = {} }}", quoted(told.name),
-                        quoted(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
+            fmt::format("\\with {{ instrumentName = {} midiInstrument = {} }}", lilypond_string(told.name),
+                        lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
         if (part.staves.size() == 1) {
             write_staff(part.staves.front(), told, fmt::format("\\new Staff {}", with), index == 0);
             return;

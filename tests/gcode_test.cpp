@@ -114,7 +114,7 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
         sink.end_stroke(true);
     });
     EXPECT_EQ(text(*plan, print),
-              "(Na?ve left kolam?)\nG21 G90 G17\nM5\nG4 P0.2\n(pen 1: black)\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\n"
+              "(title: Na_ve left kolam)\nG21 G90 G17\nM5\nG4 P0.2\n(pen 1: black)\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\n"
               "G1 X90 Y10 F2400\n"
               "G1 X90 Y50.013\nM5\nG4 P0.2\n(pen 2: blue)\nT2\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 "
               "F2400\nM5\n"

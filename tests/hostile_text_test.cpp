@@ -1,0 +1,187 @@
+// tests/hostile_text_test.cpp: one title that tries to be a command, in every language that the program writes.
+#include "art/gcode.h"
+#include "engine/diagnostic.h"
+#include "music/lilypond.h"
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+#include <regex>
+#include <sstream>
+
+namespace sikku {
+namespace {
+
+const std::string pattern = SIKKU_SOURCE_DIR "/tests/corpus/good/hostile-title.lsys";
+
+class HostileTitle : public ::testing::Test {
+protected:
+    /// What `draw` or `play` makes of the pattern.
+    std::string made(const std::string& command, const std::string& name) {
+        std::vector<std::string> arguments = {command, pattern, "-o", name};
+        const Outcome outcome = run(arguments, {.folder = folder_.path()});
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return contents(folder_ / name);
+    }
+    static std::size_t count(const std::string& text, std::string_view part) {
+        std::size_t found = 0;
+        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
+        return found;
+    }
+    /// Nothing that a terminal obeys, and nothing that changes the order of what it shows.
+    static void expect_for_terminals(const std::string& text) {
+        for (const char byte : text) {
+            const auto code = static_cast<unsigned char>(byte);
+            ASSERT_TRUE((code >= 0x20 && code != 0x7F) || byte == '\n' || byte == '\t') << static_cast<int>(code);
+        }
+        for (const char* mark : {"\u009B", "\u0085", "\u202E", "\u202C", "\u2066", "\u2069"}) {
+            EXPECT_EQ(count(text, mark), 0u) << mark;
+        }
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(HostileTitle, InGcodeIsAnInactiveComment) {
+    std::istringstream lines(made("draw", "x.gcode"));
+    const std::regex comment("\\((title|pen [0-9]+): [^()!?~%;]*\\)");
+    const std::regex command("([GMTXYZFSPIJ][0-9.-]+ ?)+");
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_TRUE(line.starts_with("(title: /titlescript") || line.starts_with("(title: </title>")) << line;
+    int comments = 0;
+    do {
+        ASSERT_LT(line.size(), 80u) << line;
+        for (const char byte : line) ASSERT_TRUE(byte >= 0x20 && byte < 0x7f) << line;
+        const bool is_comment = std::regex_match(line, comment);
+        comments += is_comment ? 1 : 0;
+        ASSERT_TRUE(is_comment || std::regex_match(line, command)) << line;
+    } while (std::getline(lines, line));
+    EXPECT_EQ(comments, 2);
+    EXPECT_EQ(gcode_comment("title", "MSG,a!b?c~d%e(f)g;h\x18i\x1bj\u00e9k\n"), "(title: MSG,abcdefghij_k)");
+    EXPECT_EQ(gcode_comment("title", std::string(100, 'a')), "(title: " + std::string(60, 'a') + ")");
+}
+
+TEST_F(HostileTitle, InHpglIsNowhere) {
+    // Nothing of the pattern's text is written.
+    EXPECT_EQ(made("draw", "x.hpgl").find_first_not_of("INSPUD0123456789,-;\n"), std::string::npos);
+}
+
+TEST_F(HostileTitle, InLilyPondIsOneString) {
+    const std::string score = made("play", "x.ly");
+    for (const char* mark : {"\u2028", "\u2029", "\u202E", "\u2066", "\u0085", "\u009B", "\x1b", "\x07"}) {
+        EXPECT_EQ(count(score, mark), 0u);
+    }
+    std::istringstream lines(score);
+    bool has_title = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('%')) {
+            EXPECT_FALSE(line.starts_with("%{")) << "it would begin a comment of several lines";
+            continue;
+        }
+        // Outside of strings, # begins Scheme and % a comment.
+        std::string code;
+        bool in_text = false;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (in_text && line[i] == '\\') {
+                ++i;
+            } else if (line[i] == '"') {
+                in_text = !in_text;
+            } else if (!in_text) {
+                code += line[i];
+            }
+        }
+        EXPECT_FALSE(in_text) << line;
+        EXPECT_EQ(count(code, "#("), 0u) << line;
+        EXPECT_EQ(count(code, "system"), line.find("system-system") == std::string::npos ? 0u : 2u) << line;
+        has_title = has_title || code == "  title = ";
+    }
+    EXPECT_TRUE(has_title);
+    EXPECT_EQ(lilypond_string("a\"b\\c#(d)\u2028\u2029\u202Ee\nf"), "\"a\\\"b\\\\c#(d)   e f\"");
+}
+
+TEST_F(HostileTitle, InXmlIsText) {
+    for (const auto& [command, name] : {std::pair("draw", "x.svg"), {"play", "x.musicxml"}, {"play", "y.svg"}}) {
+        SCOPED_TRACE(name);
+        const std::string text = made(command, name);
+        pugi::xml_document document;
+        const auto parsed = document.load_buffer(text.data(), text.size());
+        EXPECT_TRUE(parsed) << parsed.description();
+        EXPECT_EQ(count(text, "<script>alert"), 0u);
+        EXPECT_EQ(count(text, "<svg onload"), 0u);
+        EXPECT_TRUE(document.select_nodes("//*[@onload]").empty());
+    }
+}
+
+TEST_F(HostileTitle, InPagesIsText) {
+    const std::string page = made("play", "x.html");
+    EXPECT_EQ(count(page, "<script>alert"), 0u);
+    EXPECT_EQ(count(page, "<svg onload"), 0u);
+    EXPECT_EQ(count(page, "<script"), count(page, "</script>"));
+    const Outcome gallery = run({"gallery", pattern, "-f", "svg,mid", "-o", "out"}, {.folder = folder_.path()});
+    EXPECT_EQ(gallery.status, 0) << gallery.errors;
+    const std::string index = contents(folder_ / "out/index.html");
+    EXPECT_EQ(count(index, "<script>alert"), 0u);
+    EXPECT_EQ(count(index, "<script"), count(index, "</script>"));
+}
+
+TEST_F(HostileTitle, InMidiAndModelsIsAText) {
+    made("play", "x.mid");
+    EXPECT_EQ(run({"check", folder_.file("x.mid")}).status, 0);
+    std::istringstream lines(made("draw", "x.obj"));
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_TRUE(std::regex_match(line.substr(0, 7), std::regex("(#|mtllib|o|usemtl|v|vn|f) .*"))) << line;
+    }
+}
+
+TEST_F(HostileTitle, ReachesNoTerminal) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"measure", pattern},
+                                               {"measure", pattern, "--json"},
+                                               {"kolam", pattern},
+                                               {"play", pattern},
+                                               {"gallery", pattern, "--dry-run"},
+                                               {"gallery", pattern, "--list", "--json"},
+                                               {"draw", pattern, "--set", "\x1b[31m=\u202E1", "-o", "x.svg"},
+                                               {"draw", "\x1b[31m\u009B\u202E.lsys", "-o", "x.svg"}}) {
+        SCOPED_TRACE(arguments[0] + " " + arguments.back());
+        const Outcome outcome = run(arguments, {.folder = folder_.path()});
+        expect_for_terminals(outcome.output);
+        expect_for_terminals(outcome.errors);
+    }
+    expect_for_terminals(printable("a\x1b[0m\u009B\u0085\u202A\u202E\u2066\u2069\x7f\xff", 1000));
+    EXPECT_EQ(printable("\u2067a\u202Db", 1000), "?a?b");
+    EXPECT_EQ(printable("שלום \u2065", 1000), "שלום \u2065");
+}
+
+TEST_F(HostileTitle, InASlurmScriptIsAWord) {
+    // What reaches the script are arguments and the names of folders.
+    const std::string folder = "it's $(touch PWNED) `touch PWNED`;\n#SBATCH --exclusive\ntouch PWNED \"&";
+    std::filesystem::create_directories(folder_ / folder);
+    const Surroundings there{.folder = folder_ / folder, .environment = {{"PATH", "/usr/bin:/bin"}}};
+    const Outcome outcome = run({"gallery", "hilbert", "--set", "title=$(touch PWNED)`touch PWNED`' ;touch PWNED",
+                                 "--slurm", "2", "-o", "out"},
+                                there);
+    const std::string script = contents(folder_ / folder / "out.sbatch");
+    ASSERT_FALSE(script.empty()) << outcome.errors;
+    // Slurm reads options up to the first command: none but its own are there.
+    std::istringstream lines(script);
+    for (std::string line; std::getline(lines, line) && (line.empty() || line.starts_with('#'));) {
+        EXPECT_FALSE(line.starts_with("#SBATCH --exclusive"));
+    }
+    Surroundings task = there;
+    task.program = "/bin/sh";
+    task.environment.push_back({"SLURM_ARRAY_TASK_ID", "0"});
+    task.environment.push_back({"SLURM_ARRAY_TASK_COUNT", "1"});
+    task.environment.push_back({"SLURM_ARRAY_TASK_MIN", "0"});
+    task.environment.push_back({"SLURM_ARRAY_TASK_STEP", "1"});
+    const Outcome made = run({"out.sbatch"}, task);
+    EXPECT_EQ(made.status, 0) << made.errors << script;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+        EXPECT_NE(entry.path().filename(), "PWNED") << entry.path();
+    }
+}
+
+}  // namespace
+}  // namespace sikku
