@@ -108,6 +108,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                        const GrowthOptions& growth, const std::filesystem::path& file) {
     Print print = given;
     DrawOptions options = given_options;
+    if (!is_vector(options.format)) prepare_images(options.threads);
     std::optional<SpaceBounds> bounds;
     options.frame = frame_of(grammar, print.style, options, growth, bounds);
     if (options.frame->box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");

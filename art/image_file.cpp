@@ -1,19 +1,46 @@
 #include "art/image_file.h"
 
 #include "art/image_module.h"
+#include "art/threads.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 
 namespace sikku {
 namespace {
 
+/// Refuses what the module's libraries, which start threads and take memory as soon as they are loaded, would end the
+/// program for.
+void require_resources(int threads) {
+    // Logging of a library that nothing here uses; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    constexpr int at_load = 4;
+    constexpr int least_pool = 3;
+    const int bands = thread_count(threads);
+    const int wanted = at_load + 2 * std::max({bands, thread_count(0), least_pool}) + bands;
+    if (const int there = startable_threads(wanted); there < wanted) {
+        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, and " +
+                                 std::to_string(there) +
+                                 " may be started: a higher `ulimit -u` or `-v`, or fewer threads (-j 1) may help");
+    }
+    constexpr std::size_t address_space = std::size_t{640} << 20;
+    void* const reserved =
+        ::mmap(nullptr, address_space, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (reserved == MAP_FAILED) {
+        throw std::runtime_error("pictures need 640 MB of address space: a higher `ulimit -v` helps");
+    }
+    ::munmap(reserved, address_space);
+}
+
 /// Loads the module that comes with the running program, else the installed one. Never unloaded: OpenImageIO keeps
 /// threads of its own.
-const ImageModule& image_module() {
-    static const ImageModule& loaded = []() -> const ImageModule& {
+/// @param threads  that pictures will have (0: one for each core), as far as the first caller knows
+const ImageModule& image_module(int threads = 0) {
+    static const ImageModule& loaded = [threads]() -> const ImageModule& {
+        require_resources(threads);
         std::string reasons;
         const auto load = [&](const std::filesystem::path& file) -> const ImageModule* {
             const std::string name = file.string();
@@ -46,6 +73,10 @@ const ImageModule& image_module() {
 }
 
 }  // namespace
+
+void prepare_images(int threads) {
+    image_module(threads);
+}
 
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec) {
     return image_module().open(path, spec);

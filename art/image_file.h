@@ -58,6 +58,12 @@ public:
     virtual void close() = 0;
 };
 
+/// Loads the module and makes sure that it may start its threads, for pictures on as many (0: one for each core). To
+/// be called before work whose result would be lost: under a low `ulimit -u` or `-v` its libraries would end the
+/// program.
+/// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than are allowed here
+void prepare_images(int threads);
+
 /// Loads the module, too. @param seconds  that each picture is shown, rounded to hundredths, at least one of them
 /// @throws std::runtime_error also for sides over 65,535 pixels, and over 100 million of them
 std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,

@@ -1,6 +1,7 @@
 #include "art/sheet.h"
 
 #include "art/draw_view.h"
+#include "art/image_file.h"
 #include "art/lettering.h"
 #include "art/output_file.h"
 #include "art/pdf.h"
@@ -647,6 +648,7 @@ std::string productions_as_written(const Pattern& pattern, std::size_t most) {
 
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file) {
+    if (!is_vector(options.format)) prepare_images(options.threads);
     return on_threads(options.threads, [&] {
         Sheet sheet(cells, options);
         const Plan& plan = sheet.arrange();

@@ -1,0 +1,107 @@
+// tests/low_limits_test.cpp: with few threads, little memory, few files or small ones there is a message and nothing
+// is left behind: no abort, no hang.
+#include "art/threads.h"
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+namespace sikku {
+namespace {
+
+bool can_run_as_nobody() {
+    const std::string command = "setpriv --reuid=65534 --regid=65534 --clear-groups '" + std::string(SIKKU_PROGRAM) +
+                                "' --version > /dev/null 2>&1";
+    return ::geteuid() == 0 && std::system(command.c_str()) == 0;
+}
+
+class LowLimits : public ::testing::Test {
+protected:
+    LowLimits() { std::filesystem::permissions(folder_.path(), std::filesystem::perms::all); }
+
+    /// The program in a shell with the limits `ulimit` sets, as user nobody if `as_nobody`: limits of threads do not
+    /// bind root.
+    Outcome limited(const std::string& limits, const std::vector<std::string>& arguments, bool as_nobody = false) {
+        std::vector<std::string> words = {"-c", "ulimit " + limits + "; exec \"$0\" -q \"$@\"", SIKKU_PROGRAM};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        Surroundings there{.folder = folder_.path(), .program = "bash"};
+        if (as_nobody) {
+            const std::vector<std::string> other = {"--reuid=65534", "--regid=65534", "--clear-groups", "bash"};
+            words.insert(words.begin(), other.begin(), other.end());
+            there.program = "setpriv";
+        }
+        return run(words, there);
+    }
+    /// All is well, or there is a message and nothing but it.
+    void expect_result_or_message(const Outcome& outcome, const std::string& file) {
+        EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.status << ' ' << outcome.errors;
+        if (outcome.status == 1) {
+            EXPECT_FALSE(outcome.errors.empty());
+        }
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+            EXPECT_EQ(entry.path().filename().string().find(".tmp"), std::string::npos) << entry.path();
+        }
+        EXPECT_EQ(std::filesystem::exists(folder_ / file), outcome.status == 0) << outcome.errors;
+        std::filesystem::remove_all(folder_ / file);
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(LowLimits, OfThreads) {
+    if (sanitized) GTEST_SKIP() << "the sanitizer starts threads of its own";
+    if (!can_run_as_nobody()) GTEST_SKIP() << "only root can become another user, whom limits bind";
+    for (const char* limit : {"-u 1", "-u 2", "-u 6", "-u 12"}) {
+        SCOPED_TRACE(limit);
+        for (const char* name : {"x.png", "x.tif", "x.svg"}) {
+            expect_result_or_message(limited(limit, {"draw", "hilbert", "-j", "4", "-o", name}, true), name);
+        }
+        expect_result_or_message(limited(limit, {"draw", "hilbert", "--generations", "1:3", "-o", "x.gif"}, true),
+                                 "x.gif");
+    }
+    const Outcome refused = limited("-u 2", {"draw", "hilbert", "-j", "4", "-o", "x.png"}, true);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(has(refused.errors, "threads"));
+    // What needs no pictures gets along with the threads there are.
+    EXPECT_EQ(limited("-u 1", {"gallery", "hilbert", "dragon", "-f", "svg", "-j", "4", "-o", "g"}, true).status, 0);
+    EXPECT_EQ(limited("-u 1", {"kolam", "--grid", "3x3", "--enumerate"}, true).status, 0);
+    const Outcome gallery =
+        limited("-u 3", {"gallery", "hilbert", "dragon", "-f", "svg,png", "-j", "4", "-o", "h"}, true);
+    EXPECT_EQ(gallery.status, 1);
+    EXPECT_TRUE(has(gallery.errors, "threads"));
+    expect_result_or_message(limited("-u 1", {"play", "hilbert", "-o", "x.mid"}, true), "x.mid");
+}
+
+TEST_F(LowLimits, OfMemory) {
+    if (sanitized) GTEST_SKIP() << "the sanitizer takes terabytes of addresses";
+    for (const char* limit : {"-v 200000", "-v 400000", "-v 600000", "-v 700000"}) {
+        SCOPED_TRACE(limit);
+        for (const char* name : {"x.png", "x.tif", "x.svg", "x.mid"}) {
+            const bool is_score = std::string_view(name).ends_with(".mid");
+            expect_result_or_message(limited(limit, {is_score ? "play" : "draw", "hilbert", "-o", name}), name);
+        }
+    }
+    EXPECT_EQ(limited("-v 400000", {"draw", "hilbert", "-o", "x.png"}).status, 1);
+}
+
+TEST_F(LowLimits, OfFiles) {
+    for (const char* limit : {"-n 5", "-n 8", "-n 12", "-f 0", "-f 1"}) {
+        SCOPED_TRACE(limit);
+        for (const char* name : {"x.png", "x.tif", "x.svg", "x.pdf", "x.gcode", "x.obj"}) {
+            expect_result_or_message(limited(limit, {"draw", "hilbert", "-o", name}), name);
+        }
+        expect_result_or_message(limited(limit, {"play", "hilbert", "-o", "x.mid"}), "x.mid");
+    }
+    EXPECT_EQ(limited("-f 0", {"draw", "hilbert", "-o", "x.svg"}).status, 1);
+}
+
+TEST(StartableThreads, AreThoseAskedForWhereNothingLimitsThem) {
+    EXPECT_EQ(startable_threads(0), 0);
+    EXPECT_EQ(startable_threads(-1), 0);
+    EXPECT_EQ(startable_threads(20), 20);
+}
+
+}  // namespace
+}  // namespace sikku
