@@ -166,17 +166,19 @@ struct LineLabels {
     std::vector<ArcStep> starts;       // by line
 };
 
-void label_lines(const DotGrid& grid, const Crossings& crossings, LineLabels& labels) {
+void label_lines(const DotGrid& grid, const Crossings& crossings, LineLabels& labels, const Monitor& monitor) {
     constexpr std::uint32_t unseen = UINT32_MAX;
     labels.line.assign(4 * grid.dots().size(), unseen);
     labels.entry.resize(labels.line.size());
     labels.starts.clear();
+    Pulse pulse(monitor);
     for (std::uint32_t i = 0; i < labels.line.size(); ++i) {
         if (labels.line[i] != unseen) continue;
         const ArcStep start{i / 4, i % 4, true};
         ArcStep step = start;
         std::uint32_t place = 0;
         do {
+            pulse();
             const std::uint32_t arc = arc_index(step.dot, step.arc);
             labels.line[arc] = static_cast<std::uint32_t>(labels.starts.size());
             labels.entry[arc] = 2 * place++ + (step.anticlockwise ? 0 : 1);
@@ -360,17 +362,17 @@ ArcStep next_step(const DotGrid& grid, const Crossings& crossings, const ArcStep
     return {other, (side + (step.anticlockwise ? 1 : 2)) % 4, !step.anticlockwise};
 }
 
-std::size_t count_lines(const DotGrid& grid, const Crossings& crossings) {
-    return line_starts(grid, crossings).size();
+std::size_t count_lines(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor) {
+    return line_starts(grid, crossings, monitor).size();
 }
 
-std::vector<ArcStep> line_starts(const DotGrid& grid, const Crossings& crossings) {
+std::vector<ArcStep> line_starts(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor) {
     LineLabels labels;
-    label_lines(grid, crossings, labels);
+    label_lines(grid, crossings, labels, monitor);
     return labels.starts;
 }
 
-std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings) {
+std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor) {
     const std::size_t count = grid.dots().size();
     // Number the dots along the shorter side: neighbours then have numbers that differ by at most `width`.
     std::vector<std::uint32_t> number(count);
@@ -398,6 +400,7 @@ std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings) {
     std::vector<Row> pivots(count);  // by their first column; freed when no later row can need them
     std::size_t rank = 0;
     for (std::size_t i = 0; i < count; ++i) {
+        monitor.check();
         const std::size_t low = i - std::min(i, width);
         const std::size_t high = std::min(i + width, count - 1);
         Row row{low / 64, std::vector<std::uint64_t>(high / 64 - low / 64 + 1)};
@@ -558,15 +561,17 @@ Crossings random_crossings(const DotGrid& grid, const RandomKolam& kolam) {
     return crossings;
 }
 
-std::size_t make_single_line(const DotGrid& grid, Crossings& crossings, std::uint64_t seed) {
+std::size_t make_single_line(const DotGrid& grid, Crossings& crossings, std::uint64_t seed, const Monitor& monitor) {
     LineLabels labels;
-    label_lines(grid, crossings, labels);
+    label_lines(grid, crossings, labels, monitor);
     const std::vector<std::uint32_t>& label = labels.line;
     UnionFind lines(labels.starts.size());
     SplitMix chance(seed);
     std::size_t changed = 0;
     // Once around is enough: afterwards the two lines of every gap are one, and the gaps connect all dots.
+    Pulse pulse(monitor);
     for (const std::uint32_t i : shuffled(crossings.size(), chance)) {
+        pulse();
         const auto [first, second] = passing(grid.gaps()[i], crossings[i]);
         if (lines.find(label[first]) == lines.find(label[second])) continue;
         lines.unite(label[first], label[second]);
@@ -581,11 +586,13 @@ namespace {
 /// Changes each orbit of gaps whose gaps, one after the other, all join different lines: that leaves as many lines
 /// fewer as the orbit has gaps, and needs no line to be followed again.
 void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
-                 Crossings& crossings, LineLabels& labels) {
-    label_lines(grid, crossings, labels);
+                 Crossings& crossings, LineLabels& labels, const Monitor& monitor) {
+    label_lines(grid, crossings, labels, monitor);
     UnionFind lines(labels.starts.size());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
+    Pulse pulse(monitor);
     for (const std::uint32_t orbit : shuffled(orbits.size(), chance)) {
+        pulse();
         joined.clear();
         const auto line = [&](std::uint32_t arc) {
             std::uint32_t found = lines.find(labels.line[arc]);
@@ -606,10 +613,10 @@ void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_
 }  // namespace
 
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts,
-                                           const std::function<void()>& watch) {
+                                           const Monitor& monitor) {
     if (kolam.symmetry == GridSymmetry::none) {
         SingleLine found{random_crossings(grid, kolam), 0, 1};
-        found.changed = make_single_line(grid, found.crossings, kolam.seed);
+        found.changed = make_single_line(grid, found.crossings, kolam.seed, monitor);
         return found;
     }
     const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
@@ -622,19 +629,21 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
     LineLabels labels;
     RandomKolam attempted = kolam;
     SplitMix seeds(kolam.seed);
+    Pulse pulse(monitor);
     for (int attempt = 1; attempt <= attempts; ++attempt, attempted.seed = seeds.next()) {
-        if (watch) watch();
+        monitor.check();
         const Crossings begun = random_crossings(grid, attempted);
         SingleLine found{begun, 0, attempt};
         SplitMix chance(attempted.seed);
-        join_orbits(grid, members, chance, found.crossings, labels);
-        label_lines(grid, found.crossings, labels);
+        join_orbits(grid, members, chance, found.crossings, labels, monitor);
+        label_lines(grid, found.crossings, labels, monitor);
         for (bool improved = true; improved && labels.starts.size() > 1;) {
             improved = false;
             for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
+                pulse();
                 if (lines_gained(grid, found.crossings, labels, members[orbit]) >= 0) continue;
                 for (const std::uint32_t i : members[orbit]) found.crossings[i] = !found.crossings[i];
-                label_lines(grid, found.crossings, labels);
+                label_lines(grid, found.crossings, labels, monitor);
                 steps_left -= std::min<std::uint64_t>(steps_left, labels.line.size());
                 improved = true;
             }

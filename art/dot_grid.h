@@ -1,9 +1,10 @@
 // art/dot_grid.h: kolams on a grid of dots: which gaps the lines cross in, and how many lines that makes.
 #pragma once
 
+#include "engine/monitor.h"
+
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,13 +74,13 @@ std::string crossings_text(const DotGrid& grid, const Crossings& crossings);
 // --- lines --------------------------------------------------------------------------------------------------------
 
 /// The number of closed lines, by following them. Cost: linear.
-std::size_t count_lines(const DotGrid& grid, const Crossings& crossings);
+std::size_t count_lines(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
 
 /// The same number by another way: the nullity over GF(2) of the Laplacian of the graph whose vertices are the dots
 /// and whose edges are the crossings. Time: O(dots * width^2 / 64), memory O(width^2), width the smaller of the
 /// grid's two. Source: Godsil & Royle, Algebraic Graph Theory, 2001, section 17.5 (straight-ahead walks of the medial
 /// graph).
-std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings);
+std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
 
 /// A step along a line, from the middle of one side of a dot to the middle of the next: along its arc.
 struct ArcStep {
@@ -97,7 +98,7 @@ struct ArcStep {
 ArcStep next_step(const DotGrid& grid, const Crossings& crossings, const ArcStep& step);
 
 /// The first step of each line, in the order of the arcs they start with: by dot, then by number.
-std::vector<ArcStep> line_starts(const DotGrid& grid, const Crossings& crossings);
+std::vector<ArcStep> line_starts(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
 
 // --- symmetry -----------------------------------------------------------------------------------------------------
 
@@ -142,7 +143,8 @@ Crossings random_crossings(const DotGrid& grid, const RandomKolam& kolam);
 
 /// Turns c lines into one by changing c - 1 gaps, the fewest that can do it; returns how many. Any two lines that
 /// meet in a gap become one when it changes. Which gaps is a matter of the seed. Cost: linear, but for union-find.
-std::size_t make_single_line(const DotGrid& grid, Crossings& crossings, std::uint64_t seed);
+std::size_t make_single_line(const DotGrid& grid, Crossings& crossings, std::uint64_t seed,
+                             const Monitor& monitor = {});
 
 /// A single line as it was found.
 struct SingleLine {
@@ -154,10 +156,9 @@ struct SingleLine {
 /// Without a symmetry random_crossings(), then make_single_line(). With one, whole orbits are changed as long as that
 /// leaves fewer lines; where that ends with several, the next attempt starts from another seed, made from the first.
 /// Nothing if `attempts` attempts, or 3 * 10^9 steps along lines, did not lead to one (that none exists is for
-/// single_line_obstacle() to say, or for an enumeration). `watch` is called before each attempt and may throw to
-/// stop.
-/// @throws as random_crossings()
+/// single_line_obstacle() to say, or for an enumeration). The monitor is asked throughout.
+/// @throws as random_crossings(); Stopped
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,
-                                           const std::function<void()>& watch = {});
+                                           const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -85,15 +85,15 @@ Plan make_plan(const DotGrid& grid, GridSymmetry symmetry) {
 /// One search below the first few choices.
 class Search {
 public:
-    Search(const Plan& plan, std::size_t keep, const std::function<void()>& watch)
-        : plan_(plan), keep_(keep), watch_(watch), partner_(8 * plan.grid.dots().size()) {
+    Search(const Plan& plan, std::size_t keep, const Monitor& monitor)
+        : plan_(plan), keep_(keep), monitor_(monitor), partner_(8 * plan.grid.dots().size()) {
         for (std::uint32_t i = 0; i < partner_.size(); ++i) partner_[i] = i ^ 1U;
         for (const Joint& joint : plan.border) join(joint);
     }
 
     /// @param prefix  the first `depth` choices, the first the highest bit
     void run(std::uint64_t prefix, std::size_t depth) {
-        if (watch_) watch_();
+        monitor_.check();
         for (std::size_t i = 0; i < depth; ++i) {
             const bool crossing = (prefix >> (depth - 1 - i) & 1U) != 0;
             if (closed_ > 0) return;  // and gaps are left
@@ -113,7 +113,7 @@ private:
             return;
         }
         if (closed_ > 0) return;
-        if (watch_ && (++visited_ & 0xFFFFFU) == 0) watch_();
+        if ((++visited_ & 0xFFFFFU) == 0) monitor_.check();
         for (const bool crossing : {false, true}) {
             decide(choice, crossing);
             descend(choice + 1);
@@ -186,7 +186,7 @@ private:
 
     const Plan& plan_;
     std::size_t keep_;
-    const std::function<void()>& watch_;
+    const Monitor& monitor_;
     std::vector<std::uint32_t> partner_;
     std::uint32_t closed_ = 0;
     std::uint64_t visited_ = 0;
@@ -198,7 +198,7 @@ private:
 Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions& options) {
     const Plan plan = make_plan(grid, options.symmetry);
     const std::size_t depth = std::min<std::size_t>(plan.choices.size(), 10);
-    std::vector<Search> searches(std::size_t{1} << depth, Search(plan, options.keep, options.watch));
+    std::vector<Search> searches(std::size_t{1} << depth, Search(plan, options.keep, options.monitor));
     on_threads(options.threads, [&] {
         oneapi::tbb::parallel_for(std::size_t{0}, searches.size(),
                                   [&](std::size_t prefix) { searches[prefix].run(prefix, depth); });

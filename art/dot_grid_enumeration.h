@@ -4,7 +4,6 @@
 #include "art/dot_grid.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace sikku {
@@ -13,7 +12,7 @@ struct EnumerationOptions {
     GridSymmetry symmetry = GridSymmetry::none;  ///< only those that have it
     std::size_t keep = 0;                        ///< at most so many of them are listed
     int threads = 0;                             ///< 0: all cores
-    std::function<void()> watch = {};            ///< called now and then, on any thread; may throw to stop
+    Monitor monitor = {};                        ///< asked on any thread
 };
 
 /// What the kolams of a grid are.

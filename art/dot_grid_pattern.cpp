@@ -93,7 +93,7 @@ constexpr std::size_t most_listed_gaps = 1000;
 }  // namespace
 
 KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, const KolamPatternOptions& options) {
-    const std::vector<ArcStep> starts = line_starts(grid, crossings);
+    const std::vector<ArcStep> starts = line_starts(grid, crossings, options.monitor);
     KolamPattern pattern;
     pattern.lines = starts.size();
     std::string& text = pattern.text;
@@ -111,6 +111,7 @@ KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, cons
     WordWriter word(text);
     Diagonal at = origin;
     if (!single) word.put(pen_up);
+    Pulse pulse(options.monitor);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const ArcStep& start = starts[i];
         const Diagonal place = side_middle(grid, start.dot, start.entry());
@@ -124,6 +125,7 @@ KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, cons
         ArcStep step = start;
         std::uint32_t heading = 0;
         do {
+            pulse();
             heading = step.heading();
             const ArcStep next = next_step(grid, crossings, step);
             word.put("F");
@@ -144,6 +146,7 @@ KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, cons
             word.put(pen_up);
         }
         for (const GridDot dot : grid.dots()) {
+            pulse();
             word.move(diagonal(dot) - at);
             at = diagonal(dot);
             word.put("[;(0)@.]");
@@ -159,6 +162,7 @@ KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, cons
 
     const double half = std::numbers::sqrt2 / 4;  // a half step, along either axis
     for (const GridDot dot : grid.dots()) {
+        pulse();
         const Diagonal way = diagonal(dot) - origin;
         pattern.dots.emplace_back(half * static_cast<double>(way.up_right - way.up_left),
                                   half * static_cast<double>(way.up_right + way.up_left));

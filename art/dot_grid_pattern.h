@@ -14,6 +14,7 @@ struct KolamPatternOptions {
     std::string description = {};
     bool coloured = false;     ///< each line in a colour of its own, eight of them in turn
     bool dot_symbols = false;  ///< draws the dots, too, as `@.`
+    Monitor monitor = {};
 };
 
 struct KolamPattern {

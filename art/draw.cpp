@@ -142,6 +142,7 @@ public:
         examined.spline = print.style.line == Line::spline;
         examined.budget = options.budget;
         examined.watch = options.watch;
+        examined.monitor = options.monitor;
         examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
         const KolamExamination examination = examine_kolam(grammar, examined);
         line_of_stroke_ = examination.line_of_stroke;
@@ -244,6 +245,7 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
     print.is_plot = true;
     PlotOptions arranged = options.plot.value_or(PlotOptions{});
     arranged.outlines = !print.style.stroked;
+    arranged.monitor = options.monitor;
     PlotPlan plan(print, arranged);
     composition.draw(drawing, print, plan);
     plan.arrange();
@@ -461,7 +463,7 @@ const DrawnExtent& Drawing::seen() {
         if (options_.begin) options_.begin(1);
         require_room(grammar_, options_.budget / nodes_of_kept_part);
         scene_ = Scene::of(grammar_, style_, reading(options_), options_.budget / nodes_of_kept_part);
-        const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement));
+        const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return extent_.emplace(found.box, found.widest);
     }
     // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
@@ -516,7 +518,10 @@ DrawReport Drawing::place(Print& print) {
 }
 
 void Drawing::read(const Print& print, PathSink& sink) const {
-    if (scene_) return is_plot() ? draw_skeleton(*scene_, print, sink) : draw_solids(*scene_, print, sink);
+    if (scene_) {
+        return is_plot() ? draw_skeleton(*scene_, print, sink, options_.monitor)
+                         : draw_solids(*scene_, print, sink, options_.monitor);
+    }
     if (!spline_) return read_straight(sink);
     SplineSink spline(sink, closed_);
     read_straight(spline);
@@ -560,6 +565,7 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
 DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file) {
     DrawOptions options = given_options;
+    if (!is_vector(options.format)) prepare_images(options.threads);
     // Once for both roads.
     const Grammar grammar = resolved(given, options);
     if (auto report = draw_view(grammar, print, options, file)) return *report;
@@ -617,12 +623,12 @@ ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& opt
     require_room(grammar, options.budget / nodes_of_modelled_part);
     if (options.begin) options.begin(1);
     const Scene scene = Scene::of(grammar, print.style, reading(options), options.budget / nodes_of_modelled_part);
-    const SceneExtent seen = extent_of(scene, print.style, orientation(options.placement));
+    const SceneExtent seen = extent_of(scene, print.style, orientation(options.placement), options.monitor);
     require_ink(seen.box);
     PlacementOptions placement = options.placement;
     placement.scale *= grammar.scale_percent() / 100;
     place_print(print, {seen.box, seen.widest}, print.style.stroke, placement);
-    return write_model(scene, print, format, file);
+    return write_model(scene, print, format, file, options.monitor);
 }
 
 }  // namespace sikku

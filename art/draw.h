@@ -10,6 +10,7 @@
 #include "art/tiles.h"
 #include "art/view.h"
 #include "engine/grammar.h"
+#include "engine/monitor.h"
 #include "engine/path.h"
 
 #include <cstdint>
@@ -58,6 +59,7 @@ struct DrawOptions {
     int threads = 0;        ///< for raster formats; 0: all cores
     int compression = 6;    ///< of PNG: 1, quick and large, to 9
     double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
+    Monitor monitor = {};   ///< asked wherever drawing takes long and reads no word
     /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to

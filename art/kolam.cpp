@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -162,7 +163,9 @@ public:
             }
         }
     }
-    void sort() { std::sort(entries_.begin(), entries_.end()); }
+    void sort(const Monitor& monitor) {
+        std::sort(entries_.begin(), entries_.end(), stoppable(monitor, std::less<>()));
+    }
     const std::vector<Entry>& entries() const { return entries_; }
     double cell() const { return cell_; }
     std::uint64_t column(double x) const { return place(x, low_.x); }
@@ -207,9 +210,14 @@ private:
 
 /// The ends of `begins` are where groups of a sorted list begin.
 template <class Item, class Key>
-std::vector<std::uint32_t> group_begins(std::span<const Item> sorted, std::size_t groups, Key key) {
+std::vector<std::uint32_t> group_begins(std::span<const Item> sorted, std::size_t groups, const Monitor& monitor,
+                                        Key key) {
     std::vector<std::uint32_t> begins(groups + 1, 0);
-    for (const Item& item : sorted) ++begins[key(item) + 1];
+    Pulse pulse(monitor);
+    for (const Item& item : sorted) {
+        pulse();
+        ++begins[key(item) + 1];
+    }
     std::partial_sum(begins.begin(), begins.end(), begins.begin());
     return begins;
 }
@@ -220,7 +228,7 @@ template <class Plane>
 class Examiner {
 public:
     Examiner(const Plane& plane, const Strokes& strokes, const KolamOptions& options)
-        : plane_(plane), strokes_(strokes), options_(options) {}
+        : plane_(plane), strokes_(strokes), options_(options), pulse_(options.monitor) {}
 
     KolamExamination examine() {
         result_.is_exact = Plane::is_exact;
@@ -251,7 +259,13 @@ private:
     using Element = std::array<std::uint32_t, 3>;
 
     void breathe() const {
+        options_.monitor.check();
         if (options_.watch) options_.watch(0);
+    }
+    /// std::sort() that can be stopped.
+    template <class Range, class Less = std::less<>>
+    void sort(Range& range, Less less = {}) const {
+        std::sort(range.begin(), range.end(), stoppable(options_.monitor, less));
     }
     std::uint32_t edge_count() const { return static_cast<std::uint32_t>(edges_.size()); }
     std::uint32_t tail(std::uint32_t half) const {
@@ -293,12 +307,18 @@ private:
         pairs.reserve(result_.segments);
         for (std::size_t i = 0; i < strokes_.count(); ++i) {
             const auto nodes = strokes_.stroke(i);
-            for (std::size_t j = 1; j < nodes.size(); ++j) pairs.push_back(std::minmax({nodes[j - 1], nodes[j]}));
+            for (std::size_t j = 1; j < nodes.size(); ++j) {
+                pulse_();
+                pairs.push_back(std::minmax({nodes[j - 1], nodes[j]}));
+            }
         }
-        std::sort(pairs.begin(), pairs.end());
+        sort(pairs);
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
         segments_.reserve(pairs.size());
-        for (const auto& [from, to] : pairs) segments_.push_back({from, to, plane_.direction(from, to)});
+        for (const auto& [from, to] : pairs) {
+            pulse_();
+            segments_.push_back({from, to, plane_.direction(from, to)});
+        }
         breathe();
     }
     std::uint32_t segment_between(std::uint32_t a, std::uint32_t b) const {
@@ -316,6 +336,7 @@ private:
         glm::dvec2 high = low;
         double length = 0;
         for (const Segment& segment : segments_) {
+            pulse_();
             const glm::dvec2 a = plane_.at(segment.from);
             const glm::dvec2 b = plane_.at(segment.to);
             length += std::hypot(b.x - a.x, b.y - a.y);
@@ -325,10 +346,11 @@ private:
         rounding_ = 4 * plane_.rounding();
         grid_.emplace(low, high, length / static_cast<double>(segments_.size()), rounding_);
         for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+            pulse_();
             grid_->add(i, plane_.at(segments_[i].from), plane_.at(segments_[i].to));
         }
         breathe();
-        grid_->sort();
+        grid_->sort(options_.monitor);
         breathe();
     }
 
@@ -348,10 +370,11 @@ private:
                 }
                 if (((i - begin) & 1023) == 1023) breathe();
             }
+            pulse_();
             if ((begin & 0xffff) < end - begin) breathe();
             begin = end;
         }
-        std::sort(cuts_.begin(), cuts_.end(), [this](const Cut& a, const Cut& b) {
+        sort(cuts_, [this](const Cut& a, const Cut& b) {
             if (a.segment != b.segment) return a.segment < b.segment;
             return compare(a, b) < 0;
         });
@@ -436,6 +459,7 @@ private:
     void make_edges() {
         Union same(plane_.size() + crossings_.size());
         for (std::size_t i = 1; i < cuts_.size(); ++i) {
+            pulse_();
             if (are_one(cuts_[i - 1], cuts_[i])) same.join(cuts_[i - 1].vertex, cuts_[i].vertex);
         }
         // Pieces of all segments, of which those that lie on each other become one edge.
@@ -447,6 +471,7 @@ private:
         std::size_t next_cut = 0;
         piece_begins_.reserve(segments_.size() + 1);
         for (std::uint32_t i = 0; i < segments_.size(); ++i) {
+            pulse_();
             piece_begins_.push_back(static_cast<std::uint32_t>(pieces.size()));
             std::uint32_t last = same.find(segments_[i].from);
             const auto add = [&](std::uint32_t vertex) {
@@ -461,7 +486,7 @@ private:
         piece_begins_.push_back(static_cast<std::uint32_t>(pieces.size()));
         cuts_ = {};
         if (pieces.size() >= none / 4) throw BudgetError("the drawing has too many edges to be examined");
-        std::sort(pieces.begin(), pieces.end(), [](const Piece& p, const Piece& q) {
+        sort(pieces, [](const Piece& p, const Piece& q) {
             return std::tuple(std::minmax(p.a, p.b), p.number) < std::tuple(std::minmax(q.a, q.b), q.number);
         });
         piece_half_.assign(pieces.size(), 0);
@@ -475,6 +500,7 @@ private:
             return dense[id];
         };
         for (std::size_t i = 0; i < pieces.size(); ++i) {
+            pulse_();
             const Piece& piece = pieces[i];
             if (i == 0 || std::minmax(piece.a, piece.b) != std::minmax(pieces[i - 1].a, pieces[i - 1].b)) {
                 edges_.emplace_back(vertex_of(piece.a), vertex_of(piece.b));
@@ -494,12 +520,16 @@ private:
     void sort_around_vertices() {
         around_.resize(2 * edges_.size());
         std::iota(around_.begin(), around_.end(), 0u);
-        around_begins_ =
-            group_begins<std::uint32_t>(around_, places_.size(), [this](auto half) { return tail(half); });
+        around_begins_ = group_begins<std::uint32_t>(around_, places_.size(), options_.monitor,
+                                                     [this](auto half) { return tail(half); });
         std::vector<std::uint32_t> next(around_begins_.begin(), around_begins_.end() - 1);
-        for (std::uint32_t half = 0; half < 2 * edge_count(); ++half) around_[next[tail(half)]++] = half;
+        for (std::uint32_t half = 0; half < 2 * edge_count(); ++half) {
+            pulse_();
+            around_[next[tail(half)]++] = half;
+        }
         rank_.resize(around_.size());
         for (std::uint32_t vertex = 0; vertex < places_.size(); ++vertex) {
+            pulse_();
             const auto begin = around_.begin() + around_begins_[vertex];
             const auto end = around_.begin() + around_begins_[vertex + 1];
             std::sort(begin, end, [this](std::uint32_t a, std::uint32_t b) {
@@ -525,6 +555,7 @@ private:
             const auto first = static_cast<std::uint32_t>(uses.size());
             first_uses.push_back(first);
             for (std::size_t j = 1; j < nodes.size(); ++j) {
+                pulse_();
                 const std::uint32_t segment = segment_between(nodes[j - 1], nodes[j]);
                 const auto halves = pieces(segment);
                 const bool forward = segments_[segment].from == nodes[j - 1];
@@ -535,7 +566,10 @@ private:
             if (uses.size() >= none / 4) throw BudgetError("the drawing has too many edges to be examined");
             const auto last = static_cast<std::uint32_t>(uses.size());
             link.resize(2 * uses.size(), none);
-            for (std::uint32_t use = first; use + 1 < last; ++use) join(2 * use + 1, 2 * use + 2);
+            for (std::uint32_t use = first; use + 1 < last; ++use) {
+                pulse_();
+                join(2 * use + 1, 2 * use + 2);
+            }
             if (strokes_.closed[i] && last > first) join(2 * last - 1, 2 * first);
         }
         breathe();
@@ -546,7 +580,7 @@ private:
         for (std::uint32_t end = 0; end < link.size(); ++end) {
             if (link[end] == none) ends.emplace_back(tail(leaving(end)), end);
         }
-        std::sort(ends.begin(), ends.end(), [&](const auto& a, const auto& b) {
+        sort(ends, [&](const auto& a, const auto& b) {
             return std::tuple(a.first, rank_[leaving(a.second)], a.second) <
                    std::tuple(b.first, rank_[leaving(b.second)], b.second);
         });
@@ -555,6 +589,7 @@ private:
             while (end < ends.size() && ends[end].first == ends[begin].first) ++end;
             std::vector<std::uint32_t> left;
             for (std::size_t i = begin; i < end; ++i) {
+                pulse_();
                 const std::uint32_t ahead = behind(leaving(ends[i].second));
                 if (link[ends[i].second] != none || ahead == none) continue;
                 const auto wanted = std::pair(ends[i].first, rank_[ahead]);
@@ -579,8 +614,10 @@ private:
             begin = end;
         }
 
+        breathe();
         Union lines(uses.size());
         for (std::uint32_t end = 0; end < link.size(); ++end) {
+            pulse_();
             if (link[end] != none) lines.join(end / 2, link[end] / 2);
         }
         std::vector<char> is_open(uses.size(), 0);
@@ -597,6 +634,7 @@ private:
         times_.assign(edges_.size(), 0);
         closed_times_.assign(edges_.size(), 0);
         for (std::uint32_t use = 0; use < uses.size(); ++use) {
+            pulse_();
             const std::uint32_t line = lines.find(use);
             if (line == use) {
                 ++result_.lines;
@@ -607,11 +645,12 @@ private:
         }
         for (const std::uint32_t times : times_) result_.reused_edges += times > 1 ? 1 : 0;
         for (std::uint32_t end = 0; end < link.size(); ++end) {
+            pulse_();
             const std::uint32_t half = leaving(end);
             if (link[end] == none) passes_.push_back({tail(half), half, none});
             if (link[end] != none && end < link[end]) passes_.push_back({tail(half), half, leaving(link[end])});
         }
-        std::sort(passes_.begin(), passes_.end(), [](const Pass& a, const Pass& b) { return a.vertex < b.vertex; });
+        sort(passes_, [](const Pass& a, const Pass& b) { return a.vertex < b.vertex; });
         breathe();
     }
 
@@ -619,6 +658,7 @@ private:
         for (std::size_t begin = 0; begin < passes_.size();) {
             std::size_t end = begin + 1;
             while (end < passes_.size() && passes_[end].vertex == passes_[begin].vertex) ++end;
+            pulse_();
             const std::size_t count = end - begin;
             if (count > 1) ++result_.meetings;
             if (count > 2) ++result_.multiple;
@@ -649,6 +689,7 @@ private:
     void follow_straight() {
         Union lines(edges_.size());
         for (std::uint32_t vertex = 0; vertex < places_.size(); ++vertex) {
+            pulse_();
             const auto list = around(vertex);
             for (std::size_t i = 0; i < list.size(); ++i) {
                 const std::uint32_t ahead =
@@ -674,6 +715,7 @@ private:
             double twice = 0;
             std::uint32_t half = first;
             do {
+                pulse_();
                 cycle_[half] = number;
                 twice += cross(places_[tail(half)] - origin, places_[head(half)] - origin);
                 half = next(half);
@@ -691,6 +733,7 @@ private:
             return std::pair(places_[a].y, places_[a].x) < std::pair(places_[b].y, places_[b].x);
         };
         for (std::uint32_t vertex = 0; vertex < places_.size(); ++vertex) {
+            pulse_();
             const std::uint32_t root = components.find(vertex);
             if (number[root] == none) {
                 number[root] = static_cast<std::uint32_t>(lowest.size());
@@ -711,14 +754,14 @@ private:
         // From below, so that what a component lies in is known before it.
         std::vector<std::uint32_t> order(lowest.size());
         std::iota(order.begin(), order.end(), 0u);
-        std::sort(order.begin(), order.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return is_lower(lowest[a], lowest[b]); });
+        sort(order, [&](std::uint32_t a, std::uint32_t b) { return is_lower(lowest[a], lowest[b]); });
         container_.assign(lowest.size(), none);
         odd_.assign(cycle_begins_.size(), 0);
         has_holes_.assign(cycle_begins_.size(), 0);
         std::vector<char> reached(cycle_begins_.size(), 0);
         std::vector<std::uint32_t> front;
         for (const std::uint32_t component : order) {
+            pulse_();
             if (lowest.size() > 1) container_[component] = face_at(places_[lowest[component]]);
             const std::uint32_t container = container_[component];
             if (container != none) has_holes_[container] = 1;
@@ -731,6 +774,7 @@ private:
                 front.pop_back();
                 std::uint32_t half = first;
                 do {
+                    pulse_();
                     const std::uint32_t beyond = cycle_[half ^ 1];
                     if (!reached[beyond]) {
                         reached[beyond] = 1;
@@ -806,6 +850,7 @@ private:
             }
         } else {
             for (std::uint32_t half = 0; half < 2 * edge_count(); ++half) {
+                pulse_();
                 if (behind(half) != none) continue;
                 std::uint32_t last = half;
                 while (true) {
@@ -819,14 +864,14 @@ private:
             }
         }
         for (Element& element : elements) order(element);
-        std::sort(elements.begin(), elements.end());
+        sort(elements);
         std::vector<std::uint32_t> nodes;
         for (const Element& element : elements) {
             for (const std::uint32_t node : element) {
                 if (node != none) nodes.push_back(node);
             }
         }
-        std::sort(nodes.begin(), nodes.end());
+        sort(nodes);
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         if (nodes.empty()) return;
         const typename Plane::Images images(plane_, nodes);
@@ -836,15 +881,17 @@ private:
         const auto maps_onto_itself = [&](const auto& map) {
             breathe();
             for (const std::uint32_t node : nodes) {
+                pulse_();
                 image[node] = map(node);
                 if (image[node] == none) return false;
             }
             std::vector<Element> mapped = elements;
             for (Element& element : mapped) {
+                pulse_();
                 for (std::uint32_t& node : element) node = node == none ? none : image[node];
                 order(element);
             }
-            std::sort(mapped.begin(), mapped.end());
+            sort(mapped);
             return mapped == elements;
         };
         KolamSymmetry& symmetry = result_.symmetry;
@@ -868,6 +915,7 @@ private:
     void set_dots() {
         std::vector<glm::dvec2> outline;
         for (std::uint32_t cycle = 0; cycle < cycle_begins_.size(); ++cycle) {
+            pulse_();
             const std::uint32_t first = cycle_begins_[cycle];
             if (!odd_[cycle] || outer_[component_[tail(first)]] == cycle) continue;
             outline.clear();
@@ -894,8 +942,7 @@ private:
         const auto key = [](const KolamDot& mark) {
             return std::pair(std::round(mark.at.y * 1e6), std::round(mark.at.x * 1e6));
         };
-        std::sort(result_.dots.begin(), result_.dots.end(),
-                  [&](const KolamDot& a, const KolamDot& b) { return key(a) < key(b); });
+        sort(result_.dots, [&](const KolamDot& a, const KolamDot& b) { return key(a) < key(b); });
     }
     static glm::dvec2 centroid(std::span<const glm::dvec2> outline) {
         const glm::dvec2 origin = outline.front();
@@ -944,7 +991,7 @@ private:
         }
         Grid near(low, high, grid_->cell(), 0.0);
         for (std::uint32_t i = 0; i < result_.dots.size(); ++i) near.add(i, result_.dots[i].at, result_.dots[i].at);
-        near.sort();
+        near.sort(options_.monitor);
         std::vector<char> flips(result_.dots.size(), 0);
         std::vector<glm::dvec2> loop;
         for (std::size_t i = 0; i < strokes_.count(); ++i) {
@@ -957,6 +1004,7 @@ private:
                 return plane_.at(nodes[static_cast<std::size_t>(j)]);
             };
             for (std::ptrdiff_t j = closed ? 0 : -1; j < (closed ? count : count + 1); ++j) {
+                pulse_();
                 const std::array<glm::dvec2, 4> p = {control(j - 1), control(j), control(j + 1), control(j + 2)};
                 const std::array<glm::dvec2, 4> reach = {p[1], p[2], (p[0] + 4.0 * p[1] + p[2]) / 6.0,
                                                          (p[1] + 4.0 * p[2] + p[3]) / 6.0};
@@ -1000,6 +1048,7 @@ private:
     const Plane& plane_;
     const Strokes& strokes_;
     const KolamOptions& options_;
+    Pulse pulse_;
     KolamExamination result_;
     double rounding_ = 0.0;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/grammar.h"
+#include "engine/monitor.h"
 #include "engine/path.h"
 
 #include <cstdint>
@@ -85,6 +86,7 @@ struct KolamOptions {
     std::function<bool(const Pen&)> draws = {};  ///< what of the lines is seen; null: all
     /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch = {};
+    Monitor monitor = {};  ///< asked all the time while the drawing is examined
 };
 
 /// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that

@@ -61,8 +61,8 @@ glm::dvec3 any_across(const glm::dvec3& direction) {
 
 class Modeller {
 public:
-    Modeller(const Scene& scene, const Print& print)
-        : scene_(scene), style_(print.style), step_(print.placement.step) {
+    Modeller(const Scene& scene, const Print& print, const Monitor& monitor)
+        : scene_(scene), style_(print.style), step_(print.placement.step), pulse_(monitor) {
         for (const bool fills : {false, true}) {
             for (int slot = 0; slot < static_cast<int>(style_.palette.size()); ++slot) {
                 const Pen pen{.colour = slot};
@@ -73,8 +73,14 @@ public:
         line_slots_ = style_.line_slots();
         fill_slots_ = style_.fill_slots();
         add_stems();
-        for (const ScenePolygon& polygon : scene.polygons()) add_polygon(polygon);
-        for (const SceneSphere& sphere : scene.spheres()) add_sphere(sphere);
+        for (const ScenePolygon& polygon : scene.polygons()) {
+            pulse_();
+            add_polygon(polygon);
+        }
+        for (const SceneSphere& sphere : scene.spheres()) {
+            pulse_();
+            add_sphere(sphere);
+        }
         std::erase_if(meshes_, [](const Mesh& mesh) { return mesh.corners.empty(); });
     }
 
@@ -94,6 +100,7 @@ private:
         std::vector<Node> nodes;
         const SceneSegment* last = nullptr;
         for (const SceneSegment& segment : scene_.segments()) {
+            pulse_();
             const glm::dvec3 from(segment.from), to(segment.to);
             if (from == to) continue;
             const bool goes_on =
@@ -198,6 +205,7 @@ private:
     const Scene& scene_;
     const Style& style_;
     double step_;
+    Pulse pulse_;
     std::vector<Mesh> meshes_;  ///< by colour: of lines, then of fills
     std::vector<int> line_slots_, fill_slots_;
 };
@@ -218,7 +226,8 @@ std::string one_line(std::string text) {
 }
 
 void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
-               const std::filesystem::path& file) {
+               const std::filesystem::path& file, const Monitor& monitor) {
+    Pulse pulse(monitor);
     std::filesystem::path materials_file = file;
     materials_file.replace_extension(".mtl");
     const std::string name = materials_file.filename().string();
@@ -235,11 +244,16 @@ void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
                                     mesh.colour.alpha / 255.0));
         output.write(fmt::format("o {}\nusemtl {}\n", material, material));
         for (const glm::vec3& local : mesh.positions) {
+            pulse();
             const glm::dvec3 at = origin + glm::dvec3(local);
             output.write(fmt::format("v {:.9g} {:.9g} {:.9g}\n", at.x, at.y, at.z));
         }
-        for (const glm::vec3& n : mesh.normals) output.write(fmt::format("vn {:.4f} {:.4f} {:.4f}\n", n.x, n.y, n.z));
+        for (const glm::vec3& n : mesh.normals) {
+            pulse();
+            output.write(fmt::format("vn {:.4f} {:.4f} {:.4f}\n", n.x, n.y, n.z));
+        }
         for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3) {
+            pulse();
             const std::size_t a = first + mesh.corners[i], b = first + mesh.corners[i + 1],
                               c = first + mesh.corners[i + 2];
             output.write(fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", a, b, c));
@@ -264,13 +278,18 @@ std::string bytes_of(std::uint32_t number) {
 }
 
 template <class Element>
-void write_raw(OutputFile& output, const std::vector<Element>& elements) {
+void write_raw(OutputFile& output, const std::vector<Element>& elements, const Monitor& monitor) {
     static_assert(std::endian::native == std::endian::little);
-    output.write({reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element)});
+    constexpr std::size_t block = std::size_t{1} << 24;
+    std::string_view rest(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
+    for (; !rest.empty(); rest.remove_prefix(std::min(block, rest.size()))) {
+        monitor.check();
+        output.write(rest.substr(0, block));
+    }
 }
 
 void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
-               const std::filesystem::path& file) {
+               const std::filesystem::path& file, const Monitor& monitor) {
     std::string accessors, views, materials, primitives;
     std::uint64_t offset = 0;
     int next = 0;
@@ -325,9 +344,9 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     output.write(bytes_of(static_cast<std::uint32_t>(json.size())) + "JSON" + json);
     output.write(bytes_of(static_cast<std::uint32_t>(offset)) + std::string("BIN\0", 4));
     for (const Mesh& mesh : meshes) {
-        write_raw(output, mesh.positions);
-        write_raw(output, mesh.normals);
-        write_raw(output, mesh.corners);
+        write_raw(output, mesh.positions, monitor);
+        write_raw(output, mesh.normals, monitor);
+        write_raw(output, mesh.corners, monitor);
     }
     output.commit();
 }
@@ -341,15 +360,15 @@ std::optional<ModelFormat> model_format(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format,
-                        const std::filesystem::path& file) {
-    const Modeller modeller(scene, print);
+ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format, const std::filesystem::path& file,
+                        const Monitor& monitor) {
+    const Modeller modeller(scene, print, monitor);
     const std::vector<Mesh>& meshes = modeller.meshes();
     if (meshes.empty()) throw std::runtime_error("there is nothing to model: everything is without width and area");
     if (format == ModelFormat::obj) {
-        write_obj(meshes, modeller.origin(), print, file);
+        write_obj(meshes, modeller.origin(), print, file, monitor);
     } else {
-        write_glb(meshes, modeller.origin(), print, file);
+        write_glb(meshes, modeller.origin(), print, file, monitor);
     }
     ModelReport report;
     report.materials = meshes.size();

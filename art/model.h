@@ -3,6 +3,7 @@
 
 #include "art/print.h"
 #include "art/scene.h"
+#include "engine/monitor.h"
 
 #include <filesystem>
 #include <optional>
@@ -24,8 +25,9 @@ struct ModelReport {
 /// millimetres are those of `print`, which is placed. Beside NAME.obj its materials are written as NAME.mtl.
 /// Memory: about 400 bytes a segment of a line that goes on, 1500 of one that stands alone, 5000 a sphere. Polygons
 /// that cross themselves are filled in part: see Triangulation. The materials are in place before the model.
-/// @throws std::runtime_error if the file cannot be written, would be over 4 GB, or nothing in it has width or area
-ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format,
-                        const std::filesystem::path& file);
+/// @throws std::runtime_error if the file cannot be written, would be over 4 GB, or nothing in it has width or area;
+/// Stopped
+ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format, const std::filesystem::path& file,
+                        const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -159,11 +159,13 @@ struct PlotPlan::Layer {
     PlotStrokes strokes;
     std::vector<PlotSegment> repeated;  // while it is being arranged: what was drawn again
 
-    void read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres);
+    void read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres,
+              const Monitor& monitor);
 };
 
 /// Numbers the points and leaves out what is drawn twice. `at` is where the last pen was lifted.
-void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres) {
+void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres,
+                           const Monitor& monitor) {
     pen = from.pen;
     std::size_t count = 0;
     for (const auto& run : from.runs) {
@@ -173,11 +175,13 @@ void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, Plo
     }
     Nodes table(tolerance);
     SegmentSet set(graph.segments, count);
+    Pulse pulse(monitor);
     Index here = 0;
     const glm::dvec2* next = from.points.data();
     for (const auto& run : from.runs) {
         const std::size_t stride = run.kind == Gathered::Kind::curves ? 3 : 1;
         for (std::size_t i = 0; i < run.points; i += stride, next += stride) {
+            pulse();
             const Index end = table.at(next[stride - 1]);
             if (run.kind == Gathered::Kind::start) {
                 report.before.travelled += millimetres * glm::distance(at, *next);
@@ -325,24 +329,29 @@ void PlotPlan::arrange() {
         if (pen->runs.empty()) continue;
         Layer& layer = *layers_.emplace_back(std::make_unique<Layer>());
         const PlotTally before = report_.before;
-        layer.read(*pen, tolerance, drawn_at, report_, step);
-        PlotStrokes joined = join_segments(layer.graph);
+        layer.read(*pen, tolerance, drawn_at, report_, step, options_.monitor);
+        PlotStrokes joined = join_segments(layer.graph, options_.monitor);
         if (joined.strokes.size() > report_.before.lifts - before.lifts) {
             // What was left out had led from one stroke to the next.
             auto& segments = layer.graph.segments;
             segments.insert(segments.end(), layer.repeated.begin(), layer.repeated.end());
-            joined = join_segments(layer.graph);
+            joined = join_segments(layer.graph, options_.monitor);
         } else {
             report_.duplicates += layer.repeated.size();
         }
         layer.repeated = {};
-        layer.strokes = sort_strokes(layer.graph, joined, at, (report_.before.travelled - before.travelled) / step);
+        layer.strokes = sort_strokes(layer.graph, joined, at, (report_.before.travelled - before.travelled) / step,
+                                     options_.monitor);
         at = layer.graph.point(layer.strokes.order.back() ^ 1U);
     }
     gathered_.clear();
     into_ = nullptr;
+    Pulse pulse(options_.monitor);
     for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool) {
-        for (const PlotEnd end : ends) report_.after.drawn += step * layer.graph.length(end);
+        for (const PlotEnd end : ends) {
+            pulse();
+            report_.after.drawn += step * layer.graph.length(end);
+        }
         ++report_.after.lifts;
     });
     for (const PlotTravel& travel : travels()) {
@@ -352,12 +361,15 @@ void PlotPlan::arrange() {
 
 template <class Visit>
 void PlotPlan::for_each_stroke(Visit&& visit) const {
+    Pulse pulse(options_.monitor);
     for (const auto& layer : layers_) {
         for (const PlotStroke& stroke : layer->strokes.strokes) {
+            pulse();
             const auto ends = layer->strokes.ends(stroke);
             std::size_t begin = 0;
             double length = 0;
             for (std::size_t i = 0; i < ends.size() && options_.split > 0; ++i) {
+                pulse();
                 const double more = print_.placement.step * layer->graph.length(ends[i]);
                 if (i > begin && length + more > options_.split) {
                     visit(*layer, ends.subspan(begin, i - begin), false);
@@ -376,6 +388,7 @@ void PlotPlan::draw(PathSink& sink) const {
     for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool closed) {
         bool curves = false;
         const auto flush = [&] {
+            options_.monitor.check();
             if (!points.empty()) curves ? sink.curves(points) : sink.lines(points);
             points.clear();
         };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/print.h"
+#include "engine/monitor.h"
 #include "engine/path.h"
 
 #include <array>
@@ -17,6 +18,7 @@ struct PlotOptions {
     /// and curves meet, so that one that is longer by itself stays whole. 0: never.
     double split = 0.0;
     bool outlines = true;  ///< of polygons
+    Monitor monitor = {};  ///< asked while the plot is arranged and drawn
 };
 
 /// How fast a plotter is. Without acceleration: a real one is slower where strokes are short.
@@ -89,10 +91,10 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
-    /// To be called once, after the last stroke and before what follows.
+    /// To be called once, after the last stroke and before what follows. @throws Stopped
     void arrange();
     /// The strokes as they are to be plotted, in pattern units, pen after pen. They are to be drawn in the colour of
-    /// their pen whatever `stroke:` says: outlines may be there where lines are not.
+    /// their pen whatever `stroke:` says: outlines may be there where lines are not. @throws Stopped
     void draw(PathSink& sink) const;
     const PlotReport& report() const { return report_; }
     /// The ways between the strokes, in their order; the first begins at the bottom left corner of the page.

@@ -18,19 +18,23 @@ constexpr std::size_t crowd = 64;              // ends at one point that are all
 /// Which segments follow each other where several meet.
 class Joiner {
 public:
-    explicit Joiner(const PlotGraph& graph)
-        : graph_(graph),
+    Joiner(const PlotGraph& graph, const Monitor& monitor)
+        : monitor_(monitor),
+          graph_(graph),
           segments_(graph.segments),
           begin_(graph.points.size() + 1, 0),
           ends_(2 * segments_.size()),
           partner_(ends_.size(), none) {
+        Pulse pulse(monitor_);
         for (const PlotSegment& segment : segments_) {
+            pulse();
             ++begin_[segment.from];
             ++begin_[segment.to];
         }
         Index sum = 0;
         for (Index& place : begin_) sum += std::exchange(place, sum);
         for (PlotEnd end = 0; end < ends_.size(); ++end) {
+            pulse();
             ends_[begin_[end % 2 == 0 ? segments_[end / 2].from : segments_[end / 2].to]++] = end;
         }
         std::copy_backward(begin_.begin(), begin_.end() - 1, begin_.end());
@@ -56,7 +60,8 @@ public:
             });
             found.push_back({first, {begin, static_cast<Index>(result.order.size()) - begin, closed}});
         });
-        std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::sort(found.begin(), found.end(),
+                  stoppable(monitor_, [](const auto& a, const auto& b) { return a.first < b.first; }));
         for (const auto& [first, stroke] : found) result.strokes.push_back(stroke);
         return result;
     }
@@ -76,7 +81,9 @@ private:
     /// Calls visit() with the spokes of each point of at least so many, sorted by their ends.
     template <class Visit>
     void for_each_node(std::size_t least, const Visit& visit) {
+        Pulse pulse(monitor_);
         for (std::size_t node = 0; node + 1 < begin_.size(); ++node) {
+            pulse();
             const auto ends = std::span(ends_).subspan(begin_[node], begin_[node + 1] - begin_[node]);
             if (ends.size() < least) continue;
             spokes_.clear();
@@ -136,8 +143,10 @@ private:
     /// Calls visit(end) for each end of a trail at which a segment is entered.
     template <class Visit>
     void follow(PlotEnd start, const Visit& visit) const {
+        Pulse pulse(monitor_);
         PlotEnd end = start;
         do {
+            pulse();
             visit(end);
             end = partner_[end ^ 1U];
         } while (end != none && end != start);
@@ -152,10 +161,15 @@ private:
             follow(start, [&](PlotEnd end) { seen[end / 2] = true; });
             visit(start, closed);
         };
+        Pulse pulse(monitor_);
         for (PlotEnd end = 0; end < partner_.size(); ++end) {
+            pulse();
             if (partner_[end] == none) take(end, false);
         }
-        for (PlotEnd end = 0; end < partner_.size(); end += 2) take(end, true);
+        for (PlotEnd end = 0; end < partner_.size(); end += 2) {
+            pulse();
+            take(end, true);
+        }
     }
 
     void find_trails() {
@@ -238,6 +252,7 @@ private:
     }
     int bends(const Joint& joint) const { return joint.second != missing && turn(joint) > smooth ? 1 : 0; }
 
+    const Monitor& monitor_;
     const PlotGraph& graph_;
     const std::vector<PlotSegment>& segments_;
     std::vector<Index> begin_;      // of the ends at each node
@@ -251,8 +266,8 @@ private:
 
 }  // namespace
 
-PlotStrokes join_segments(const PlotGraph& graph) {
-    Joiner joiner(graph);
+PlotStrokes join_segments(const PlotGraph& graph, const Monitor& monitor) {
+    Joiner joiner(graph, monitor);
     joiner.join();
     return joiner.strokes();
 }

@@ -1,6 +1,8 @@
 // art/plot_join.h: lines and curves that meet, joined into strokes.
 #pragma once
 
+#include "engine/monitor.h"
+
 #include <glm/vec2.hpp>
 
 #include <array>
@@ -60,6 +62,7 @@ struct PlotStrokes {
 
 /// As few strokes as there can be of straight lines, smooth ones of curves: the rules are those of PlotPlan. In the
 /// order in which their first segments were drawn. Cost: linear, but for points in which many segments meet.
-PlotStrokes join_segments(const PlotGraph& graph);
+/// @throws Stopped
+PlotStrokes join_segments(const PlotGraph& graph, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -27,7 +27,7 @@ public:
 
     /// 2-opt: ways a → b and c → d become a → c and b → d, and what lies between is turned round, as long as that
     /// makes them shorter, in at most 10 passes. Only c near a, or d near b, are looked at.
-    void improve();
+    void improve(const Monitor& monitor);
 
     const std::vector<PlotEnd>& order() const { return order_; }
 
@@ -60,8 +60,8 @@ double PlotRoute::length() const {
     return sum;
 }
 
-void PlotRoute::improve() {
-    const PointTree tree(points_);
+void PlotRoute::improve(const Monitor& monitor) {
+    const PointTree tree(points_, monitor);
     // Long stretches are turned round only where there are few strokes, so that this stays quick.
     const std::size_t longest = std::max<std::size_t>(1000, 3'000'000'000 / (order_.size() + 1));
     std::vector<bool> settled(order_.size());
@@ -70,6 +70,7 @@ void PlotRoute::improve() {
         bool changed = false;
         for (std::uint32_t i = 0; i < order_.size(); ++i) {
             if (settled[order_[i] / 2]) continue;
+            monitor.check();
             const Change best = best_change(i, tree, near, longest);
             if (best.gain <= 0) {
                 settled[order_[i] / 2] = true;
@@ -124,17 +125,23 @@ void PlotRoute::turn_round(std::uint32_t first, std::uint32_t last) {
 
 }  // namespace
 
-PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn) {
+PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn,
+                         const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
     // Where each stroke may begin: at its two ends, or anywhere if it is closed.
     std::vector<glm::dvec2> entries;
     std::vector<std::uint32_t> stroke_of;
     std::vector<std::uint32_t> first_entry;
+    Pulse pulse(monitor);
     for (std::uint32_t i = 0; i < strokes.size(); ++i) {
+        pulse();
         first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
         const auto in_order = given.ends(strokes[i]);
         if (strokes[i].closed) {
-            for (const PlotEnd end : in_order) entries.push_back(graph.point(end));
+            for (const PlotEnd end : in_order) {
+                pulse();
+                entries.push_back(graph.point(end));
+            }
         } else {
             entries.push_back(graph.point(in_order.front()));
             entries.push_back(graph.point(in_order.back() ^ 1U));
@@ -148,7 +155,7 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
     std::vector<PlotEnd> nearest_first;
     std::vector<PlotEnd> as_drawn;
     std::vector<std::uint32_t> begin(strokes.size());  // of closed strokes: the segment at which they begin
-    PointTree tree(entries);
+    PointTree tree(entries, monitor);
     std::vector<PointTree::Near> near;
     glm::dvec2 here = start;
     for (std::size_t done = 0; done < strokes.size(); ++done) {
@@ -156,7 +163,10 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
         const std::uint32_t entry = near.front().id;
         const std::uint32_t i = stroke_of[entry];
         const std::uint32_t which = entry - first_entry[i];
-        for (std::uint32_t k = first_entry[i]; k < first_entry[i + 1]; ++k) tree.remove(k);
+        for (std::uint32_t k = first_entry[i]; k < first_entry[i + 1]; ++k) {
+            pulse();
+            tree.remove(k);
+        }
         if (strokes[i].closed) {
             begin[i] = which;
             points[2 * i] = points[2 * i + 1] = entries[entry];
@@ -169,11 +179,11 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
         here = points[nearest_first.back() ^ 1U];
     }
     PlotRoute route(points, std::move(nearest_first), start);
-    route.improve();
+    route.improve(monitor);
     if (route.length() > drawn) {
         for (std::uint32_t i = 0; i < strokes.size(); ++i) as_drawn.push_back(2 * i);
         PlotRoute other(points, std::move(as_drawn), start);
-        other.improve();
+        other.improve(monitor);
         if (other.length() < route.length()) route = std::move(other);
     }
 
@@ -181,6 +191,7 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
     std::vector<PlotEnd>& order = result.order;
     order.reserve(given.order.size());
     for (std::size_t at = 0; at < strokes.size(); ++at) {
+        pulse();
         const PlotEnd enter = route.order()[at];
         const PlotStroke& stroke = strokes[enter / 2];
         const auto in_order = given.ends(stroke);
@@ -196,6 +207,7 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
             std::uint32_t best = begin[enter / 2];
             double least = detour(best);
             for (std::uint32_t k = 0; k < stroke.count; ++k) {
+                pulse();
                 if (const double length = detour(k); length < least) {
                     least = length;
                     best = k;

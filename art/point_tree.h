@@ -1,6 +1,8 @@
 // art/point_tree.h: the nearest of many points, some of which may be taken away.
 #pragma once
 
+#include "engine/monitor.h"
+
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -22,12 +24,12 @@ public:
     };
 
     /// Cost: O(n log n).
-    explicit PointTree(std::span<const glm::dvec2> points) : place_(points.size()) {
+    explicit PointTree(std::span<const glm::dvec2> points, const Monitor& monitor = {}) : place_(points.size()) {
         std::vector<std::uint32_t> ids(points.size());
         std::iota(ids.begin(), ids.end(), 0U);
         while (leaf_size * leaves_ < points.size()) leaves_ *= 2;
         nodes_.resize(2 * leaves_);
-        build(1, points, ids);
+        build(1, points, ids, monitor);
         for (std::uint32_t i = 0; i < ids.size(); ++i) {
             entries_.push_back({points[ids[i]], ids[i], true});
             place_[ids[i]] = i;
@@ -75,7 +77,9 @@ private:
         std::vector<Near>& found;
     };
 
-    void build(std::size_t node, std::span<const glm::dvec2> points, std::span<std::uint32_t> ids) {
+    void build(std::size_t node, std::span<const glm::dvec2> points, std::span<std::uint32_t> ids,
+               const Monitor& monitor) {
+        monitor.check();
         nodes_[node].count = static_cast<std::uint32_t>(ids.size());
         if (node >= leaves_) return;
         glm::dvec2 low(0.0);
@@ -89,15 +93,15 @@ private:
         const std::size_t middle = ids.size() / 2;
         // By their index where they are equal, so that the order is the same everywhere.
         std::nth_element(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(middle), ids.end(),
-                         [&](std::uint32_t a, std::uint32_t b) {
+                         stoppable(monitor, [&](std::uint32_t a, std::uint32_t b) {
                              const double left = points[a][axis];
                              const double right = points[b][axis];
                              return left != right ? left < right : a < b;
-                         });
+                         }));
         nodes_[node].axis = axis;
         if (middle < ids.size()) nodes_[node].split = points[ids[middle]][axis];
-        build(2 * node, points, ids.first(middle));
-        build(2 * node + 1, points, ids.subspan(middle));
+        build(2 * node, points, ids.first(middle), monitor);
+        build(2 * node + 1, points, ids.subspan(middle), monitor);
     }
 
     void visit(Search& search, std::size_t node, std::size_t low, std::size_t high) const {

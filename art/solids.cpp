@@ -49,7 +49,8 @@ public:
           step_(print.placement.step),
           flat_light_(stage_.flat_light()) {}
 
-    void draw() {
+    void draw(const Monitor& monitor) {
+        Pulse pulse(monitor);
         const std::size_t segments = scene_.segments().size(), polygons = scene_.polygons().size();
         std::vector<Item> items;
         const auto add = [&](double depth) {
@@ -57,11 +58,13 @@ public:
         };
         items.reserve(segments + polygons + scene_.spheres().size());
         for (const SceneSegment& segment : scene_.segments()) {
+            pulse();
             add((stage_.place(segment.from).z + stage_.place(segment.to).z +
                  stage_.radius(segment.before, segment.from) + stage_.radius(segment.after, segment.to)) /
                 2);
         }
         for (const ScenePolygon& polygon : scene_.polygons()) {
+            pulse();
             double sum = 0;
             for (const glm::vec3& vertex : scene_.vertices(polygon)) sum += stage_.place(vertex).z;
             add(sum / static_cast<double>(polygon.count));
@@ -71,8 +74,10 @@ public:
         }
         // What is round is as near as its nearest point. Of what is equally near, the later one lies over the
         // earlier.
-        std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.depth < b.depth; });
+        std::stable_sort(items.begin(), items.end(),
+                         stoppable(monitor, [](const Item& a, const Item& b) { return a.depth < b.depth; }));
         for (const Item& item : items) {
+            pulse();
             if (item.index < segments) {
                 draw_stem(scene_.segments()[item.index]);
             } else if (item.index < segments + polygons) {
@@ -192,14 +197,16 @@ Style with_shades(const Style& style) {
     return result;
 }
 
-void draw_solids(const Scene& scene, const Print& print, PathSink& sink) {
-    Painter(scene, print, sink).draw();
+void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
+    Painter(scene, print, sink).draw(monitor);
 }
 
-void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink) {
+void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
+    Pulse pulse(monitor);
     const Projection projection(print.style.camera, scene.bounds());
     const auto place = [&](const glm::vec3& point) { return glm::dvec2(projection(scene.at(point))); };
     for (const ScenePolygon& polygon : scene.polygons()) {
+        pulse();
         std::vector<glm::dvec2> flat;
         for (const glm::vec3& vertex : scene.vertices(polygon)) flat.push_back(place(vertex));
         sink.polygon(flat, Pen{.colour = polygon.colour});
@@ -207,6 +214,7 @@ void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink) {
     bool is_down = false;
     Pen pen;
     for (const SceneSegment& segment : scene.segments()) {
+        pulse();
         const Pen own = segment.after.pen(segment.colour);
         if (!segment.goes_on || !is_down) {
             if (is_down) sink.end_stroke(false);
@@ -226,7 +234,9 @@ void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink) {
     }
 }
 
-SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation) {
+SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
+                      const Monitor& monitor) {
+    Pulse pulse(monitor);
     SceneExtent extent;
     const Projection projection(style.camera, scene.bounds());
     const auto place = [&](const glm::vec3& point) {
@@ -234,6 +244,7 @@ SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2
         return orientation * glm::dvec3(seen.x, seen.y, 1.0);
     };
     for (const SceneSegment& segment : scene.segments()) {
+        pulse();
         extent.box.add(place(segment.from));
         extent.box.add(place(segment.to));
         extent.widest = std::max({extent.widest,

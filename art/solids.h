@@ -3,6 +3,7 @@
 
 #include "art/print.h"
 #include "art/scene.h"
+#include "engine/monitor.h"
 #include "engine/path.h"
 
 namespace sikku {
@@ -15,12 +16,12 @@ Style with_shades(const Style& style);
 /// through each other one lies over the other. Stems are outlines as wide at both ends as their pens, lit in strips
 /// where they are wide on paper.
 /// @param print  placed, in the style that with_shades() makes
-/// Cost: sorting; memory 16 bytes for each of them beside the scene.
-void draw_solids(const Scene& scene, const Print& print, PathSink& sink);
+/// Cost: sorting; memory 16 bytes for each of them beside the scene. @throws Stopped
+void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor = {});
 
 /// For pens: stems as strokes along their middles, joined where they go on, in the pen that is drawn at their ends;
 /// polygons and spheres flat. Nothing is hidden.
-void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink);
+void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor = {});
 
 /// What is seen of the scene, in turtle steps, after `orientation` (see orientation()), and its widest pen in the
 /// measure of the style's stroke.
@@ -28,6 +29,7 @@ struct SceneExtent {
     Box box;
     double widest = 0.0;
 };
-SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation);
+SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
+                      const Monitor& monitor = {});
 
 }  // namespace sikku

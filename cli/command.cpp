@@ -151,6 +151,8 @@ PatternText read_pattern_text(const std::string& pattern) {
 }
 
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
+    // Files and galleries have thousands of variants and jobs.
+    if (interrupted()) throw Interrupted();
     std::vector<std::string_view> keys = style_keys();
     const auto played = melody_keys();
     keys.insert(keys.end(), played.begin(), played.end());

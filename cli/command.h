@@ -1,6 +1,7 @@
 // cli/command.h: what the commands share: finding and loading patterns, progress, errors.
 #pragma once
 
+#include "cli/signals.h"
 #include "engine/grammar.h"
 #include "music/midi_check.h"
 
@@ -24,15 +25,6 @@ namespace sikku {
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-
-/// The user pressed ctrl-C, or somebody sent SIGTERM.
-class Interrupted : public std::runtime_error {
-public:
-    explicit Interrupted(const char* message = "interrupted; nothing was written") : std::runtime_error(message) {}
-};
-
-/// Set by the signal handler that main() installs.
-bool interrupted();
 
 /// Prints to standard error. If that cannot be written there is nobody left to tell.
 template <typename... Arguments>

@@ -142,7 +142,7 @@ void add_derive(CLI::App& app, bool& quiet) {
         derivation.watch = progress.watch();
         try {
             derive(grammar, sink, derivation);
-        } catch (const Interrupted&) {
+        } catch (const Stopped&) {
             throw Interrupted("interrupted");  // part of the word is written
         }
     });

@@ -321,6 +321,7 @@ PlannedPrint plan_print(const DrawSettings& options) {
             "the picture would be over 200,000 pixels wide or high: a smaller --size or --dpi is needed");
     }
     drawing.format = *format;
+    drawing.monitor = stop_monitor();
     drawing.placement.rotate = options.rotate;
     drawing.placement.mirror = options.mirror;
     if (options.step) {

@@ -1,4 +1,6 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
+#include "art/draw.h"
+#include "art/image_file.h"
 #include "art/output_file.h"
 #include "art/threads.h"
 #include "cli/gallery_forecast.h"
@@ -272,7 +274,7 @@ private:
             std::string problem;
             try {
                 result = make(*turn);
-            } catch (const Interrupted&) {
+            } catch (const Stopped&) {
             } catch (const std::bad_alloc&) {
                 problem = "there is not enough memory for this";
             } catch (const std::exception& error) {
@@ -579,7 +581,7 @@ private:
             const bool is_ours = name == "index.html" ? is_gallery_page(folder_ / name) : record_.is_ours(name);
             order.push_back(make_file(record_, folder_, std::move(file), options_.force || is_ours,
                                       [&](const std::filesystem::path& path, auto&) { make_it(path); }));
-        } catch (const Interrupted&) {
+        } catch (const Stopped&) {
             if (shown_) tell("\r\033[K");
             throw;
         } catch (const std::exception& error) {
@@ -647,6 +649,11 @@ void run(Options& options, bool quiet) {
     forecast_all(jobs, pending, options, forecasts);
     std::vector<Task> tasks;
     for (const std::size_t job : pending) tasks.push_back({job, *forecasts[job]});
+    const bool makes_pictures = std::any_of(pending.begin(), pending.end(), [&](std::size_t job) {
+        const auto format = print_format(jobs[job].file());
+        return !jobs[job].is_score() && format && !is_vector(*format);
+    });
+    if (makes_pictures) prepare_images(thread_count(options.threads));
     Batch batch(jobs, hashes, folder, record, options, quiet);
     if (!tasks.empty()) batch.run(std::move(tasks), for_jobs);
     for (auto& [job, result] : batch.finished) finished.emplace(job, result);
@@ -668,7 +675,7 @@ void run(Options& options, bool quiet) {
         try {
             Summaries summaries(jobs, finished, folder, record, options, quiet);
             summaries.make(request, for_jobs, order, troubles);
-        } catch (const Interrupted&) {
+        } catch (const Stopped&) {
         }
     }
     try {

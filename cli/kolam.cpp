@@ -157,6 +157,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         examination.budget = *budget;
         Progress progress(0, quiet);
         examination.watch = progress.watch();
+        examination.monitor = stop_monitor();
         const KolamExamination examined = examine_kolam(loaded.grammar, examination);
         const std::string title = loaded.pattern.text("title");
         const std::int64_t n = loaded.grammar.steps();

@@ -36,10 +36,6 @@ void write(const std::string& output, const std::string& text) {
     file.commit();
 }
 
-void stop_if_interrupted() {
-    if (interrupted()) throw Interrupted();
-}
-
 /// A kolam and how it came about.
 struct MadeKolam {
     Crossings crossings;
@@ -54,12 +50,12 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid, const
             const std::string& text = *options.crossings;
             return parse_crossings(grid, text.starts_with('@') ? read_pattern_text(text.substr(1)).text : text);
         });
-        if (options.single_line) made.changed = make_single_line(grid, made.crossings, options.seed);
+        if (options.single_line) made.changed = make_single_line(grid, made.crossings, options.seed, stop_monitor());
         return made;
     }
     if (!options.single_line) return {random_crossings(grid, random)};
     if (const auto obstacle = single_line_obstacle(grid, random.symmetry)) throw std::runtime_error(*obstacle);
-    auto found = find_single_line(grid, random, options.attempts, stop_if_interrupted);
+    auto found = find_single_line(grid, random, options.attempts, stop_monitor());
     if (!found) {
         throw std::runtime_error(fmt::format(
             "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
@@ -74,7 +70,7 @@ std::optional<std::size_t> second_count(const DotGrid& grid, const Crossings& cr
     const std::size_t longest = *std::max_element(grid.rows().begin(), grid.rows().end());
     const double width = static_cast<double>(std::min(grid.rows().size(), longest));
     if (static_cast<double>(grid.dots().size()) * width * width > 1e12) return std::nullopt;
-    return laplacian_nullity(grid, crossings);
+    return laplacian_nullity(grid, crossings, stop_monitor());
 }
 
 void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry,
@@ -86,7 +82,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
     const MadeKolam made = make_kolam(options, grid, random);
     const std::string name = printable(grid.text(), 80);
     const auto crossed = std::count(made.crossings.begin(), made.crossings.end(), 1);
-    const std::size_t lines = count_lines(grid, made.crossings);
+    const std::size_t lines = count_lines(grid, made.crossings, stop_monitor());
     const auto nullity = second_count(grid, made.crossings);
     if (nullity && *nullity != lines) {
         throw std::logic_error(fmt::format("{} by following them, but {} by the Laplacian", lines, *nullity));
@@ -104,6 +100,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
     }
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
+    pattern.monitor = stop_monitor();
     write(options.output, kolam_pattern(grid, made.crossings, pattern).text);
 
     if (options.as_json) {
@@ -126,7 +123,7 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
     enumeration.symmetry = symmetry;
     enumeration.keep = options.limit;
     enumeration.threads = options.threads;
-    enumeration.watch = stop_if_interrupted;
+    enumeration.monitor = stop_monitor();
     const Enumeration found = of_option("--enumerate", [&] { return enumerate_single_lines(grid, enumeration); });
     std::string text;
     if (options.as_json) {

@@ -1,49 +1,17 @@
-// cli/main.cpp: the program: its commands, its errors, its signals.
-#include "art/output_file.h"
+// cli/main.cpp: the program: its commands and its errors.
 #include "cli/command.h"
+#include "cli/signals.h"
 #include "engine/derivation.h"
 #include "music/score.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <new>
 #include <sstream>
 #include <string_view>
 
 namespace {
-volatile std::sig_atomic_t signal_seen = 0;
-
-/// The first ctrl-C lets the work end tidily, a second one ends it at once.
-extern "C" void note_signal(int) {
-    if (signal_seen != 0) {
-        sikku::remove_unfinished_files();
-        _exit(130);
-    }
-    signal_seen = 1;
-}
-
-/// Whoever read what is told has gone: the program ends, as usual, but leaves nothing behind.
-extern "C" void pipe_signal(int) {
-    sikku::remove_unfinished_files();
-    std::signal(SIGPIPE, SIG_DFL);
-    std::raise(SIGPIPE);
-}
-
-void catch_signals() {
-    struct sigaction action = {};
-    action.sa_handler = note_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    sigaction(SIGHUP, &action, nullptr);
-    action.sa_handler = pipe_signal;
-    sigaction(SIGPIPE, &action, nullptr);
-    // A file that grows over the limit of the shell is an error like a full disk.
-    std::signal(SIGXFSZ, SIG_IGN);
-}
-
 int fail(int status, std::string_view message) {
     if (message.ends_with('\n')) message.remove_suffix(1);
     sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
@@ -108,9 +76,8 @@ int run(int argc, char** argv) {
         return fail(2, error.what());
     } catch (const UsageError& error) {
         return fail(2, error.what());
-    } catch (const Interrupted& error) {
-        fail(1, error.what());
-        return 130;
+    } catch (const Stopped& stopped) {
+        return fail(interruption_status(), stopped.what());
     } catch (const std::bad_alloc&) {
         return fail(1, "there is not enough memory for this");
     } catch (const std::exception& error) {
@@ -120,12 +87,8 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-bool sikku::interrupted() {
-    return signal_seen != 0;
-}
-
 int main(int argc, char** argv) {
-    catch_signals();
+    sikku::catch_signals();
     const int status = run(argc, argv);
     // Output that is lost is a failure, also where it would have told mistakes; other failures were told already.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;

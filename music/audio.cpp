@@ -171,12 +171,12 @@ public:
         if (posix_spawn_file_actions_init(&actions) != 0 || posix_spawnattr_init(&attributes) != 0) {
             throw std::bad_alloc();
         }
-        // What this program ignores or blocks the child shall not.
+        // The child blocks nothing, ends when nothing reads its sound, and ignores what this program ignores (nohup).
         sigset_t none;
         sigset_t defaults;
         sigemptyset(&none);
         sigemptyset(&defaults);
-        for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) sigaddset(&defaults, signal);
+        sigaddset(&defaults, SIGPIPE);
         posix_spawnattr_setsigmask(&attributes, &none);
         posix_spawnattr_setsigdefault(&attributes, &defaults);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);

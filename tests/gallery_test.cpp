@@ -485,8 +485,8 @@ TEST_F(GalleryTest, StopsTidilyAndGoesOn) {
         child.send(SIGTERM);
         const Outcome outcome = child.wait();
         if (outcome.status != 0) {
-            EXPECT_EQ(outcome.status, 130);
-            EXPECT_TRUE(has(outcome.errors, "the same command goes on"));
+            EXPECT_EQ(outcome.status, 143);
+            EXPECT_TRUE(has(outcome.errors, "sikku: interrupted"));
         }
     }
     for (const auto& [name, held] : tree(folder / "out")) EXPECT_FALSE(name.ends_with(".tmp")) << name;

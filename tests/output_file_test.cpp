@@ -275,10 +275,16 @@ TEST(OutputFile, ASignalLeavesNothingIfTheHandlerAsks) {
             remove_unfinished_files();
             ::_exit(5);
         });
-        OutputFile done(folder / "done");
-        done.commit();
-        OutputFile one(folder / "one");
-        OutputFile two(folder / "two");
+        // Many, so that places in the list are used again and new ones are made.
+        std::vector<std::unique_ptr<OutputFile>> open;
+        for (int round = 0; round < 3; ++round) {
+            for (int i = 0; i < 200; ++i) {
+                open.push_back(std::make_unique<OutputFile>(folder / ("file" + std::to_string(i))));
+            }
+            OutputFile done(folder / "done");
+            done.commit();
+            open.resize(open.size() / 2);
+        }
         std::raise(SIGTERM);
         ::_exit(6);
     }

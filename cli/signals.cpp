@@ -1,0 +1,86 @@
+#include "cli/signals.h"
+
+#include "art/output_file.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+constexpr long patience_milliseconds = 500;
+
+std::atomic<int> signal_seen{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+timer_t patience;
+bool has_patience = false;
+
+/// Runs in a signal handler, on any thread.
+[[noreturn]] void end_at_once() {
+    remove_unfinished_files();
+    _exit(128 + signal_seen);
+}
+
+extern "C" void stop_signal(int signal) {
+    int none = 0;
+    if (!signal_seen.compare_exchange_strong(none, signal)) end_at_once();
+    if (!has_patience) return;
+    itimerspec time{};
+    time.it_value.tv_nsec = patience_milliseconds * 1'000'000;
+    timer_settime(patience, 0, &time, nullptr);
+}
+
+/// The work did not look for the request in time.
+extern "C" void patience_signal(int) {
+    constexpr std::string_view message = "sikku: interrupted\n";
+    // A terminal that is gone must not hold up the end.
+    if (::write(STDERR_FILENO, message.data(), message.size()) < 0) {
+    }
+    end_at_once();
+}
+
+/// Whoever read the output has gone: the program ends, as usual, but leaves nothing behind.
+extern "C" void pipe_signal(int) {
+    remove_unfinished_files();
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+}
+
+/// Unless the signal is ignored.
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action = {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+    action = {};
+    action.sa_handler = handler;
+    sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void catch_signals() {
+    struct sigaction action = {};
+    action.sa_handler = patience_signal;
+    sigevent event{};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = SIGRTMIN;
+    has_patience =
+        sigaction(SIGRTMIN, &action, nullptr) == 0 && timer_create(CLOCK_MONOTONIC, &event, &patience) == 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, stop_signal);
+    handle(SIGPIPE, pipe_signal);
+    // A file that grows over the limit of the shell is an error like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool interrupted() {
+    return signal_seen != 0;
+}
+
+int interruption_status() {
+    return 128 + signal_seen;
+}
+
+}  // namespace sikku
