@@ -111,6 +111,9 @@ std::vector<KnownPattern> known_patterns() {
             found.push_back({path.stem().string(), path.parent_path().filename().string(), path});
         }
     }
+    if (error == std::errc::too_many_files_open) {
+        throw std::runtime_error(fmt::format("cannot read the bundled patterns: {}", error.message()));
+    }
     std::sort(found.begin(), found.end(), [](const KnownPattern& a, const KnownPattern& b) {
         return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
     });

@@ -69,6 +69,14 @@ std::string clean(const std::string& text, std::size_t& open_comment) {
     return cleaned;
 }
 
+/// Whether a terminal would obey the character, or show what follows it in another order: control characters (C0,
+/// DEL, C1) and embeddings, overrides and isolates of the direction of writing (U+202A to U+202E, U+2066 to U+2069).
+bool is_command(std::string_view character) {
+    const auto lead = static_cast<unsigned char>(character.empty() ? ' ' : character[0]);
+    return lead < 0x20 || lead == 0x7F || (character >= "\u0080" && character <= "\u009F") ||
+           (character >= "\u202A" && character <= "\u202E") || (character >= "\u2066" && character <= "\u2069");
+}
+
 /// At most 80 columns of the line around `at`, tabs and what is no printable text shown as a blank or '?', and
 /// the caret's column within it.
 std::string excerpt(const std::string& text, std::size_t at) {
@@ -93,7 +101,7 @@ std::string excerpt(const std::string& text, std::size_t at) {
             const auto lead = static_cast<unsigned char>(text[i]);
             if (lead == '\t') {
                 line += ' ';
-            } else if (lead < 0x20 || lead == 0x7F || utf8_length(point) != point.size()) {
+            } else if (utf8_length(point) != point.size() || is_command(point)) {
                 line += '?';
             } else {
                 line += point;
@@ -228,25 +236,12 @@ std::size_t utf8_length(std::string_view text) {
     return overlong || beyond ? 0 : length;
 }
 
-namespace {
-
-/// Embeddings, overrides and isolates of the direction of writing (U+202A to U+202E, U+2066 to U+2069), which would
-/// show what follows in another order.
-bool overrides_direction(std::string_view character) {
-    return (character >= "\u202A" && character <= "\u202E") || (character >= "\u2066" && character <= "\u2069");
-}
-
-}  // namespace
-
 std::string printable(std::string_view text, std::size_t most) {
     std::string result;
     const auto append = [&](std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t length = utf8_length(text.substr(begin));
-            const auto byte = static_cast<unsigned char>(text[begin]);
-            const bool control = byte < 0x20 || byte == 0x7F ||
-                                 (length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[begin + 1]) < 0xA0);
-            if (length == 0 || (control && byte != '\n') || overrides_direction(text.substr(begin, length))) {
+            if (length == 0 || (text[begin] != '\n' && is_command(text.substr(begin, length)))) {
                 result += '?';
             } else {
                 result += text.substr(begin, length);

@@ -152,12 +152,14 @@ constexpr std::array<std::string_view, 128> instruments = {
 /// Text that LilyPond sets in one line. Line and paragraph separators (U+2028, U+2029), which it aborts on, and marks
 /// that change the direction of writing, on which it may hang, become blanks.
 std::string one_line(std::string_view text) {
-    constexpr std::array<std::string_view, 15> marks = {"\n",     "\u2028", "\u2029", "\u200E", "\u200F",
-                                                        "\u061C", "\u202A", "\u202B", "\u202C", "\u202D",
-                                                        "\u202E", "\u2066", "\u2067", "\u2068", "\u2069"};
+    constexpr std::array<std::string_view, 6> marks = {"\n", "\u2028", "\u2029", "\u200E", "\u200F", "\u061C"};
     const std::string whole = printable(text, std::string::npos);
     std::string result;
     for (std::string_view rest = whole; !rest.empty();) {
+        const std::size_t plain = std::min(rest.find_first_of("\n\xD8\xE2"), rest.size());  // where no mark begins
+        result += rest.substr(0, plain);
+        rest.remove_prefix(plain);
+        if (rest.empty()) break;
         const auto mark = std::find_if(marks.begin(), marks.end(),
                                        [rest](std::string_view candidate) { return rest.starts_with(candidate); });
         result += mark == marks.end() ? rest.front() : ' ';

@@ -4,6 +4,7 @@
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: tests/full/scores.sh PROGRAM" >&2; exit 2; }
 program=$(realpath "$1")
+hostile=$(realpath "$(dirname "$0")/../corpus/good/hostile-title.lsys")
 
 # mido of Debian is known to Debian's Python alone.
 python=
@@ -78,6 +79,10 @@ if command -v lilypond > /dev/null; then
         [ -s "$score-lilypond.pdf" ] || { echo "LilyPond made no print of $score.ly"; exit 1; }
         "$python" same.py "$score.mid" "$score-lilypond.midi"
     done
+    # Neither does a title make it do anything else, nor end.
+    "$program" --quiet play "$hostile" -o hostile.ly
+    lilypond --loglevel=WARNING -o hostile-lilypond hostile.ly > log 2>&1 || { cat log; echo "LilyPond fails on a title"; exit 1; }
+    [ -s hostile-lilypond.pdf ] && [ ! -e PWNED ] || { echo "LilyPond obeys a title"; exit 1; }
 else
     echo "skipped: scores through LilyPond (it is not installed)"
 fi
