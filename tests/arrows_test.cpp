@@ -101,10 +101,11 @@ TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
 /// grammar.
 TEST(Arrows, EngineIsInOrder) {
     static const std::map<std::string, int> layer = {
-        {"diagnostic", 0}, {"path", 0},       {"spline", 1},  {"expression", 1}, {"pattern", 1}, {"text", 1},
-        {"grammar", 2},    {"derivation", 3}, {"lattice", 3}, {"parts", 4},      {"clumps", 5},  {"chance", 0},
-        {"forecast", 4},   {"fold", 5},       {"turtle", 5},  {"extent", 6},     {"import", 3},  {"import_cpfg", 4},
-        {"import_fractint", 4}, {"turtle_state", 4}, {"space_turtle", 5}};
+        {"diagnostic", 0},   {"path", 0},        {"monitor", 0}, {"spline", 1},      {"expression", 1},
+        {"pattern", 1},      {"text", 1},        {"grammar", 2}, {"derivation", 3},  {"lattice", 3},
+        {"parts", 4},        {"clumps", 5},      {"chance", 0},  {"forecast", 4},    {"fold", 5},
+        {"turtle", 5},       {"extent", 6},      {"import", 3},  {"import_cpfg", 4}, {"import_fractint", 4},
+        {"turtle_state", 4}, {"space_turtle", 5}};
     const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
     for (const auto& [file, name, quoted] : includes_of("engine")) {
         ASSERT_TRUE(layer.contains(stem(file))) << file << " has no place in the order yet: add it here";
