@@ -85,17 +85,19 @@ std::string pattern_in(const std::string& bytes) {
 
 TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
     const ScratchFolder folder;
-    std::string longer = awkward + "/* ";
-    while (longer.size() < longest_short_text - 100) longer += "ü கோலம் & < \\ ( ";
-    longer += "*/\n";
-    std::string longest = longer;
-    while (longest.size() < 1'000'000) longest += longer;
+    const auto padded = [](std::size_t size) {
+        std::string text = awkward + "/* ";
+        while (text.size() < size) text += "ü கோலம் & < \\ ( ";
+        return text + "*/\n";
+    };
+    const std::string longer = padded(longest_short_text - 100);
+    const std::string longest = padded(1'000'000);
     for (const std::string& text : {"axiom: F\n"s, awkward, longer, longest}) {
         const std::string source = folder.write("source.lsys", text);
         for (const char* name : {"a.svg", "a.pdf", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid"}) {
             const bool is_score = std::string_view(name).ends_with(".mid");
             const std::string file = folder.file(name);
-            const Outcome made = is_score ? run({"-q", "play", source, "-n", "0", "-o", file})
+            const Outcome made = is_score ? run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file})
                                           : run({"-q", "draw", source, "-n", "0", "--size", "20x20mm", "--margin",
                                                  "1mm", "--dpi", "20", "-o", file});
             if (made.status != 0) {
@@ -223,11 +225,12 @@ TEST_F(ShowBombs, OfTheCorpus) {
 }
 
 TEST_F(ShowBombs, Png) {
-    expect("a.png", png(chunk("zTXt", "Description\0\0"s + deflated(std::string(100 << 20, 'A')))), 1, too_long);
+    const std::string packed = deflated(std::string(100 << 20, 'A'));
+    expect("a.png", png(chunk("zTXt", "Description\0\0"s + packed)), 1, too_long);
     const std::string other = chunk("zTXt", "Comment\0\0"s + deflated(std::string(8 << 20, 'A')));
     expect("b.png", png(repeated(990, other)), 1, nothing);
     expect("c.png", png(repeated(3'000'000, chunk("tEXt", ""))), 1, nothing);
-    expect("d.png", png(chunk("iCCP", "x\0\0"s + deflated(std::string(100 << 20, 'A')))), 1, nothing);
+    expect("d.png", png(chunk("iCCP", "x\0\0"s + packed)), 1, nothing);
     // A chunk that states 2 GB.
     expect("e.png", png("\x7F\xFF\xFF\xFFtEXtDescription\0axiom: F"s), 1, too_long);
     expect("f.png", png("\0\x80\0\0tEXtDescription\0axiom: F"s), 1, damaged);
