@@ -1,10 +1,14 @@
 #include "art/icc.h"
 
+#include "art/input_file.h"
+
 #include <lcms2.h>
+#include <lcms2_plugin.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -12,7 +16,60 @@
 namespace sikku {
 namespace {
 
-constexpr std::uintmax_t most_profile_bytes = std::uintmax_t{64} << 20;
+constexpr std::uint64_t most_profile_bytes = std::uint64_t{16} << 20;
+/// The tables of the largest profiles that are published take less than 20 MB.
+constexpr std::size_t most_library_bytes = std::size_t{64} << 20;
+
+/// Memory of the library within a budget: a profile may state tables of any size, and many of them.
+class Memory {
+public:
+    static cmsPluginMemHandler* plugin() {
+        static cmsPluginMemHandler handler = {{cmsPluginMagicNumber, LCMS_VERSION, cmsPluginMemHandlerSig, nullptr},
+                                              allocate,
+                                              release,
+                                              reallocate,
+                                              nullptr,
+                                              nullptr,
+                                              nullptr};
+        return &handler;
+    }
+
+private:
+    struct alignas(std::max_align_t) Block {
+        Memory* owner;
+        std::size_t size;
+    };
+
+    static void* allocate(cmsContext context, cmsUInt32Number size) {
+        // While the context is made it has no owner yet.
+        auto* const owner = context ? static_cast<Memory*>(cmsGetContextUserData(context)) : nullptr;
+        if (owner && (size > most_library_bytes || owner->used_.fetch_add(size) > most_library_bytes - size)) {
+            if (size <= most_library_bytes) owner->used_ -= size;
+            return nullptr;
+        }
+        void* const memory = std::malloc(sizeof(Block) + size);
+        if (!memory) {
+            if (owner) owner->used_ -= size;
+            return nullptr;
+        }
+        return new (memory) Block{owner, size} + 1;
+    }
+    static void release(cmsContext, void* bytes) {
+        if (!bytes) return;
+        Block* const block = static_cast<Block*>(bytes) - 1;
+        if (block->owner) block->owner->used_ -= block->size;
+        std::free(block);
+    }
+    static void* reallocate(cmsContext context, void* bytes, cmsUInt32Number size) {
+        void* const larger = allocate(context, size);
+        if (!larger || !bytes) return larger;
+        std::memcpy(larger, bytes, std::min<std::size_t>((static_cast<Block*>(bytes) - 1)->size, size));
+        release(context, bytes);
+        return larger;
+    }
+
+    std::atomic<std::size_t> used_ = 0;
+};
 
 struct Closer {
     void operator()(void* profile) const { cmsCloseProfile(profile); }
@@ -25,7 +82,7 @@ struct CurveFreer {
 
 /// What the library complains of is told by what its functions return.
 struct Context {
-    Context() : handle(cmsCreateContext(nullptr, nullptr)) {
+    Context() : handle(cmsCreateContext(Memory::plugin(), &memory)) {
         if (!handle) throw std::runtime_error("lcms2: no memory");
         cmsSetLogErrorHandlerTHR(handle, [](cmsContext, cmsUInt32Number, const char*) {});
     }
@@ -33,6 +90,7 @@ struct Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    Memory memory;
     cmsContext handle;
 };
 
@@ -47,22 +105,23 @@ std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
     return bytes;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw std::runtime_error("the ICC profile '" + file.string() + "': " + why);
+}
+
 std::vector<std::uint8_t> read_profile(const std::filesystem::path& file) {
-    const auto refuse = [&](const std::string& why) {
-        throw std::runtime_error("the ICC profile '" + file.string() + "': " + why);
-    };
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) refuse(error ? error.message() : "there is no such file");
-    if (!std::filesystem::is_regular_file(file, error)) refuse("this is no file");
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (error) refuse(error.message());
-    if (size > most_profile_bytes) refuse("it is larger than 64 MB");
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse("it cannot be opened");
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) refuse("it cannot be read");
-    return bytes;
+    if (!std::filesystem::exists(file, error)) refuse(file, error ? error.message() : "there is no such file");
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "this is no file");
+    try {
+        const InputFile input(file);
+        if (input.size() > most_profile_bytes) refuse(file, "it is larger than 16 MB");
+        std::vector<std::uint8_t> bytes(static_cast<std::size_t>(input.size()));
+        if (input.read(0, reinterpret_cast<char*>(bytes.data()), bytes.size()) == bytes.size()) return bytes;
+        refuse(file, "it cannot be read");
+    } catch (const std::system_error& failure) {
+        refuse(file, failure.code().message());
+    }
 }
 
 }  // namespace
@@ -93,21 +152,18 @@ struct InkTransform::Handles {
 };
 
 InkTransform::InkTransform(const std::filesystem::path& file) : handles_(std::make_unique<Handles>()) {
-    const auto refuse = [&](const std::string& why) {
-        throw std::runtime_error("the ICC profile '" + file.string() + "': " + why);
-    };
     handles_->bytes = read_profile(file);
     const cmsContext context = handles_->context.handle;
     const Profile inks(cmsOpenProfileFromMemTHR(context, handles_->bytes.data(),
                                                 static_cast<cmsUInt32Number>(handles_->bytes.size())));
-    if (!inks) refuse("it is no ICC profile");
-    if (cmsGetColorSpace(inks.get()) != cmsSigCmykData) refuse("its colours are not CMYK");
+    if (!inks) refuse(file, "it is no ICC profile");
+    if (cmsGetColorSpace(inks.get()) != cmsSigCmykData) refuse(file, "its colours are not CMYK");
     const Profile colours(cmsCreate_sRGBProfileTHR(context));
     if (!colours) throw std::runtime_error("lcms2: no memory");
     handles_->transform =
         cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_8, inks.get(), TYPE_CMYK_8,
                               INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
-    if (!handles_->transform) refuse("it has no way from colours to inks");
+    if (!handles_->transform) refuse(file, "it is damaged, or has no way from colours to inks");
 }
 
 InkTransform::~InkTransform() = default;

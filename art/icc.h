@@ -16,8 +16,9 @@ std::vector<std::uint8_t> grey_profile();
 /// Turns sRGB into the inks of a CMYK profile: relative colorimetric with black point compensation.
 class InkTransform {
 public:
-    /// @throws std::runtime_error, which names the file, if it cannot be read, is over 64 MB, is no ICC profile, or
-    /// is one of other colours than CMYK or without a way from colours to inks
+    /// Safe for files from strangers: loading takes at most 64 MB of memory and the file's size.
+    /// @throws std::runtime_error, which names the file, if it cannot be read, is not a regular file, has more than
+    /// 16 MB, is not an ICC profile or a damaged one, has other colours than CMYK or no way from colours to inks
     explicit InkTransform(const std::filesystem::path& file);
     ~InkTransform();
     InkTransform(const InkTransform&) = delete;

@@ -91,8 +91,4 @@ void check_cmyk_profile(const std::filesystem::path& file) {
     image_module().check_cmyk_profile(file);
 }
 
-std::optional<ImageText> read_image_text(const std::filesystem::path& path) {
-    return image_module().read_text(path);
-}
-
 }  // namespace sikku

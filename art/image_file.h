@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +25,7 @@ struct ImageSpec {
     int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
 };
 
-/// JPEG keeps texts in one EXIF block of 64 kB; of a TIFF OpenImageIO reads as much. Half a pattern is none.
+/// JPEG keeps texts in one EXIF block of 64 kB; other readers of TIFF take as much. Half a pattern is none.
 constexpr std::size_t longest_short_text = 60'000;
 /// Does a file of that format (as in ImageSpec) hold that text?
 inline bool keeps_text(std::string_view format, std::string_view text) {
@@ -76,12 +75,5 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
 /// @throws std::runtime_error, which names the file, if it is no ICC profile that turns colours into CMYK. Loads the
 /// module, too.
 void check_cmyk_profile(const std::filesystem::path& file);
-
-/// Description and software text of a raster file, or nullopt if it cannot be read as an image.
-struct ImageText {
-    std::string description;
-    std::string software;
-};
-std::optional<ImageText> read_image_text(const std::filesystem::path& path);
 
 }  // namespace sikku

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -158,6 +159,8 @@ std::array<float, 256> linear_light() {
 
 // libjpeg ends the program for more.
 constexpr int most_jpeg_pixels = 65'500;
+// A segment has 65,533 bytes; the numbers beside the texts have 200.
+constexpr std::size_t most_jpeg_texts = 65'300;
 
 class FileWriter final : public ImageWriter {
 public:
@@ -258,7 +261,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         if (!value.empty() && keeps_text(spec.format, value)) image.attribute(name, value);
     };
     text("ImageDescription", spec.description);
-    text("Software", spec.software);
+    // libjpeg ends the program if the two do not fit into one segment.
+    if (!jpeg || spec.description.size() + spec.software.size() <= most_jpeg_texts) text("Software", spec.software);
     if (png) text("Title", spec.title);
     if (tiff) text("DocumentName", spec.title);
     if (!output_->open(path.string(), image)) fail();
@@ -403,22 +407,11 @@ std::unique_ptr<ImageWriter> open(const std::filesystem::path& path, const Image
     return std::make_unique<FileWriter>(path, spec);
 }
 
-std::optional<ImageText> read_text(const std::filesystem::path& path) {
-    const auto input = OIIO::ImageInput::open(path.string());
-    if (!input) {
-        static_cast<void>(OIIO::geterror());  // else it is reported on the terminal at the end
-        return std::nullopt;
-    }
-    const OIIO::ImageSpec& spec = input->spec();
-    return ImageText{spec.get_string_attribute("ImageDescription"), spec.get_string_attribute("Software")};
-}
-
 void check_cmyk_profile(const std::filesystem::path& file) {
     const InkTransform transform(file);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, read_text,
-                                check_cmyk_profile};
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile};
 
 }  // namespace
 }  // namespace sikku

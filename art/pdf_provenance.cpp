@@ -1,14 +1,9 @@
-#include "art/pdf_provenance.h"
+// art/pdf_provenance.cpp: the texts of a PDF in the layout of write_pdf, found from the end of the file.
+#include "art/provenance_readers.h"
+#include "engine/text.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <fstream>
-#include <functional>
-#include <map>
-#include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace sikku {
@@ -16,21 +11,9 @@ namespace {
 
 /// A pattern is at most 64 MB long, and UTF-16 in hexadecimal digits four times as long; the title may be as long.
 constexpr std::uint64_t most_dictionary_bytes = std::uint64_t{640} << 20;
-/// The table has 20 bytes for each object, of which a print has a few for each layer.
-constexpr std::uint64_t most_table_bytes = std::uint64_t{64} << 20;
-constexpr std::size_t entry_bytes = 20;
-
-using Texts = std::map<std::string, std::string, std::less<>>;
-
-/// The bytes from `begin` up to `end`, or fewer where the file has no more.
-std::string read_bytes(std::ifstream& stream, std::uint64_t begin, std::uint64_t end) {
-    std::string bytes(static_cast<std::size_t>(end - begin), '\0');
-    stream.clear();
-    stream.seekg(static_cast<std::streamoff>(begin));
-    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
-    return bytes;
-}
+/// The writer has four.
+constexpr int most_entries = 64;
+constexpr std::uint64_t entry_bytes = 20;  // of the table of objects
 
 std::optional<std::uint64_t> number_at(std::string_view text, std::size_t at) {
     std::uint64_t number = 0;
@@ -45,147 +28,191 @@ std::optional<std::uint64_t> number_after(std::string_view text, std::string_vie
     return at == std::string_view::npos ? std::nullopt : number_at(text, at + mark.size());
 }
 
-void append_utf8(std::uint32_t code, std::string& text) {
-    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
-    if (code < 0x80) return put(code);
-    if (code < 0x800) {
-        put(0xC0 | code >> 6);
-    } else {
-        if (code < 0x10000) {
-            put(0xE0 | code >> 12);
+/// A text string, taken byte by byte into UTF-8: it is ASCII, or UTF-16 after a byte order mark.
+class TextString {
+public:
+    void take(unsigned char byte) {
+        if (count_++ == 0 && byte == 0xFE) {
+            is_utf16_ = true;
+        } else if (!is_utf16_) {
+            is_wrong_ |= byte >= 0x80;
+            put(byte);
+        } else if (count_ == 2) {
+            is_wrong_ |= byte != 0xFF;
+        } else if (count_ % 2 == 1) {
+            first_ = byte;
         } else {
-            put(0xF0 | code >> 18);
-            put(0x80 | (code >> 12 & 0x3F));
+            take_unit(first_ << 8 | byte);
         }
-        put(0x80 | (code >> 6 & 0x3F));
     }
-    put(0x80 | (code & 0x3F));
-}
+    /// The whole text, or nullopt if it is malformed.
+    std::optional<std::string> finish() {
+        const bool is_cut = is_utf16_ && (count_ % 2 != 0 || high_ != 0);
+        return is_wrong_ || is_cut ? std::nullopt : std::optional(std::move(text_));
+    }
 
-/// The bytes of the string in parentheses that begins at `at`, which moves behind its end.
-std::optional<std::string> read_literal(std::string_view text, std::size_t& at) {
+private:
+    void put(std::uint32_t code) {
+        require_length(text_.size() + 1);
+        if (code < 0x80) {
+            text_ += static_cast<char>(code);
+        } else {
+            append_utf8(code, text_);
+        }
+    }
+    void take_unit(std::uint32_t unit) {
+        const bool is_second = unit >= 0xDC00 && unit < 0xE000;
+        is_wrong_ |= is_second != (high_ != 0);
+        if (unit >= 0xD800 && unit < 0xDC00) {
+            high_ = unit;
+        } else {
+            if (!is_wrong_) put(is_second ? 0x10000 + ((high_ - 0xD800) << 10) + (unit - 0xDC00) : unit);
+            high_ = 0;
+        }
+    }
+
+    std::string text_;
+    std::uint64_t count_ = 0;
+    std::uint32_t first_ = 0;  // the first byte of two
+    std::uint32_t high_ = 0;   // the first half of a pair, while the second is awaited
+    bool is_utf16_ = false, is_wrong_ = false;
+};
+
+/// Hands the bytes of the string in parentheses that comes next to `take`. False if it does not end.
+template <typename Take>
+bool read_literal(InputStream& in, Take take) {
     constexpr std::string_view names = "nrtbf";
     constexpr std::string_view meanings = "\n\r\t\b\f";
-    std::string bytes;
-    int depth = 1;
-    for (++at; at < text.size(); ++at) {
-        if (text[at] == ')' && --depth == 0) {
-            ++at;
-            return bytes;
+    in.skip(1);
+    for (int depth = 1;;) {
+        const std::string_view bytes = in.ahead();
+        if (bytes.empty()) return false;
+        std::size_t plain = 0;
+        for (; plain < bytes.size(); ++plain) {
+            const char byte = bytes[plain];
+            if (byte == '\\' || byte == '(' || byte == ')') break;
+            take(static_cast<unsigned char>(byte));
         }
-        if (text[at] == '(') ++depth;
-        if (text[at] != '\\') {
-            bytes += text[at];
+        in.skip(plain);
+        if (plain == bytes.size()) continue;
+        const int byte = in.take();
+        if (byte != '\\') {
+            depth += byte == '(' ? 1 : -1;
+            if (depth == 0) return true;
+            take(static_cast<unsigned char>(byte));
             continue;
         }
-        if (++at == text.size()) break;
-        if (const std::size_t name = names.find(text[at]); name != std::string_view::npos) {
-            bytes += meanings[name];
-        } else if (text[at] >= '0' && text[at] <= '7') {
-            unsigned byte = 0;
-            const std::size_t end = std::min(at + 3, text.size());
-            for (; at < end && text[at] >= '0' && text[at] <= '7'; ++at) {
-                byte = byte * 8 + static_cast<unsigned>(text[at] - '0');
+        const int escaped = in.take();
+        if (escaped < 0) return false;
+        if (const std::size_t name = names.find(static_cast<char>(escaped)); name != std::string_view::npos) {
+            take(static_cast<unsigned char>(meanings[name]));
+        } else if (escaped >= '0' && escaped <= '7') {
+            int value = escaped - '0';
+            for (int i = 0; i < 2; ++i) {
+                const std::string_view rest = in.ahead();
+                if (rest.empty() || rest.front() < '0' || rest.front() > '7') break;
+                value = value * 8 + in.take() - '0';
             }
-            bytes += static_cast<char>(static_cast<unsigned char>(byte));
-            --at;
-        } else if (text[at] != '\n') {  // which continues a line
-            bytes += text[at];
+            take(static_cast<unsigned char>(value));
+        } else if (escaped != '\n') {  // which continues a line
+            take(static_cast<unsigned char>(escaped));
         }
     }
-    return std::nullopt;
 }
 
-/// The bytes of the string in hexadecimal digits that begins at `at`, which moves behind its end.
-std::optional<std::string> read_hexadecimal(std::string_view text, std::size_t& at) {
-    const std::size_t end = text.find('>', at);
-    if (text[at] != '<' || end == std::string_view::npos) return std::nullopt;
-    const std::string_view digits = text.substr(at + 1, end - at - 1);
-    at = end + 1;
-    if (digits.size() % 2 != 0) return std::nullopt;
-    std::string bytes;
-    bytes.reserve(digits.size() / 2);
-    for (std::size_t i = 0; i < digits.size(); i += 2) {
-        unsigned byte = 0;
-        const char* const stop = digits.data() + i + 2;
-        const auto [stopped, error] = std::from_chars(digits.data() + i, stop, byte, 16);
-        if (error != std::errc() || stopped != stop) return std::nullopt;
-        bytes += static_cast<char>(static_cast<unsigned char>(byte));
-    }
-    return bytes;
+int digit_of(char byte) {
+    if (byte >= '0' && byte <= '9') return byte - '0';
+    if (byte >= 'A' && byte <= 'F') return byte - 'A' + 10;
+    return byte >= 'a' && byte <= 'f' ? byte - 'a' + 10 : -1;
 }
 
-/// A text string in UTF-8: it is ASCII, or UTF-16 after a byte order mark.
-std::optional<std::string> decoded(std::string bytes) {
-    if (!bytes.starts_with("\xFE\xFF")) {
-        const bool ascii = std::all_of(bytes.begin(), bytes.end(),
-                                       [](char byte) { return static_cast<unsigned char>(byte) < 0x80; });
-        return ascii ? std::optional(std::move(bytes)) : std::nullopt;
-    }
-    if (bytes.size() % 2 != 0) return std::nullopt;
-    const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])); };
-    std::string text;
-    std::uint32_t high = 0;  // the first half of a pair, while the second is awaited
-    for (std::size_t i = 2; i < bytes.size(); i += 2) {
-        const std::uint32_t unit = byte(i) << 8 | byte(i + 1);
-        const bool is_second = unit >= 0xDC00 && unit < 0xE000;
-        if (is_second != (high != 0)) return std::nullopt;
-        if (unit >= 0xD800 && unit < 0xDC00) {
-            high = unit;
-            continue;
+/// The same of a string in hexadecimal digits.
+template <typename Take>
+bool read_hexadecimal(InputStream& in, Take take) {
+    in.skip(1);
+    for (int high = -1;;) {
+        const std::string_view bytes = in.ahead();
+        if (bytes.empty()) return false;
+        for (std::size_t i = 0; i < bytes.size(); ++i) {
+            const int digit = digit_of(bytes[i]);
+            if (digit < 0) {
+                in.skip(i + 1);
+                return bytes[i] == '>' && high < 0;
+            }
+            if (high < 0) {
+                high = digit;
+            } else {
+                take(static_cast<unsigned char>(std::exchange(high, -1) * 16 + digit));
+            }
         }
-        append_utf8(is_second ? 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00) : unit, text);
-        high = 0;
+        in.skip(bytes.size());
     }
-    return high == 0 ? std::optional(std::move(text)) : std::nullopt;
+}
+
+/// The text that comes next, or nullopt if it is malformed.
+std::optional<std::string> read_text(InputStream& in) {
+    TextString text;
+    const auto take = [&text](unsigned char byte) { text.take(byte); };
+    const std::string_view next = in.ahead();
+    const bool is_whole = next.starts_with('(')   ? read_literal(in, take)
+                          : next.starts_with('<') ? read_hexadecimal(in, take)
+                                                  : false;
+    return is_whole ? text.finish() : std::nullopt;
+}
+
+/// Moves behind the text that comes next. False if it does not end.
+bool skip_text(InputStream& in) {
+    const std::string_view next = in.ahead();
+    if (next.starts_with('<')) return in.skip_past(">");
+    return next.starts_with('(') && read_literal(in, [](unsigned char) {});
 }
 
 /// The texts of the object in the writer's layout: a dictionary of strings.
-std::optional<Texts> read_texts(std::string_view object) {
-    Texts texts;
+std::optional<Provenance> read_dictionary(InputStream& in) {
     constexpr std::string_view head = " 0 obj\n<< ";
-    std::size_t at = object.find(head);
+    const std::size_t at = in.ahead(64).find(head);
     if (at == std::string_view::npos || at > 20) return std::nullopt;
-    for (at += head.size(); at < object.size() && object[at] == '/'; ++at) {
-        const std::size_t blank = std::min(object.find(' ', at), object.size());
-        std::string name(object.substr(at + 1, blank - at - 1));
-        at = blank + 1;
-        if (at >= object.size()) return std::nullopt;
-        auto bytes = object[at] == '(' ? read_literal(object, at) : read_hexadecimal(object, at);
-        auto text = bytes ? decoded(std::move(*bytes)) : std::nullopt;
-        if (!text) return std::nullopt;
-        texts.emplace(std::move(name), std::move(*text));
+    in.skip(at + head.size());
+    Provenance found;
+    bool is_ours = false;
+    for (int entry = 0; entry < most_entries && in.skip_text("/"); ++entry) {
+        const std::string_view bytes = in.ahead(64);
+        const std::string name(bytes.substr(0, std::min<std::size_t>(bytes.find(' '), 64)));
+        in.skip(name.size() + 1);
+        if (name == "Creator" || name == "SikkuPattern" || name == "Subject") {
+            auto text = read_text(in);
+            if (!text) return std::nullopt;
+            if (name == "Creator") {
+                is_ours = *text == "Sikku";
+            } else {
+                (name == "Subject" ? found.made : found.pattern) = std::move(*text);
+                limit_made(found.made);
+            }
+        } else if (!skip_text(in)) {
+            return std::nullopt;
+        }
+        in.skip_text("\n") || in.skip_text(" ");
     }
-    return object.substr(std::min(at, object.size())).starts_with(">>") ? std::optional(std::move(texts))
-                                                                        : std::nullopt;
+    return is_ours && in.skip_text(">>") ? std::optional(std::move(found)) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Provenance> pdf_provenance(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    const std::streamoff length = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-    if (length <= 0) return std::nullopt;
-    const auto size = static_cast<std::uint64_t>(length);
-    const std::string end = read_bytes(stream, size - std::min<std::uint64_t>(size, 64), size);
-    const auto table_at = number_after(end, "startxref\n");
-    if (!table_at || *table_at >= size || size - *table_at > most_table_bytes) return std::nullopt;
+std::optional<Provenance> read_pdf_provenance(const InputFile& file) {
+    const std::uint64_t size = file.size();
+    const std::string end = file.read(size - std::min<std::uint64_t>(size, 256), 256);
+    const auto table = number_after(end, "startxref\n");
+    const auto info = number_after(end, " /Info ");
+    if (!table || !info || *table >= size || *info >= size / entry_bytes) return std::nullopt;
 
-    const std::string table = read_bytes(stream, *table_at, size);
-    const auto number = number_after(table, " /Info ");
-    if (!number || *number > table.size() || !table.starts_with("xref\n0 ")) return std::nullopt;
-    const std::size_t entries = table.find('\n', std::string_view("xref\n").size()) + 1;
-    const auto begin = number_at(table, entries + entry_bytes * static_cast<std::size_t>(*number));
+    const std::string head = file.read(*table, 64);
+    const std::size_t entries = head.find('\n', std::string_view("xref\n").size()) + 1;
+    if (!head.starts_with("xref\n0 ") || entries == 0) return std::nullopt;
+    const auto begin = number_at(file.read(*table + entries + entry_bytes * *info, entry_bytes), 0);
     // The texts are the last object before the table.
-    if (!begin || *begin >= *table_at || *table_at - *begin > most_dictionary_bytes) return std::nullopt;
-
-    const auto texts = read_texts(read_bytes(stream, *begin, *table_at));
-    if (!texts) return std::nullopt;
-    const auto creator = texts->find("Creator");
-    const auto pattern = texts->find("SikkuPattern");
-    const auto made = texts->find("Subject");
-    if (creator == texts->end() || creator->second != "Sikku" || pattern == texts->end()) return std::nullopt;
-    return Provenance{pattern->second, made == texts->end() ? std::string() : made->second};
+    if (!begin || *begin >= *table || *table - *begin > most_dictionary_bytes) return std::nullopt;
+    InputStream in(file, *begin, *table);
+    return read_dictionary(in);
 }
 
 }  // namespace sikku

@@ -10,18 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <optional>
-#include <pugixml.hpp>
 #include <utility>
 #include <vector>
 
 namespace sikku {
 namespace {
-
-constexpr std::string_view name_space = "urn:sikku:print";
-constexpr std::string_view head_end = "</metadata>";
 
 /// libxml2, and with it xmllint and rsvg, refuses attributes of 10 MB, and also 10 MB in which it did not come by the
 /// end of what it has buffered when an element began, about one chance in eight. So a file begins with long paths and
@@ -34,21 +29,6 @@ constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 /// the short ones share paths of about this size.
 constexpr int single_strokes = 256;
 constexpr std::uint64_t shared_path_bytes = 4096;
-
-std::optional<std::string> from_hex(std::string_view digits) {
-    std::string result;
-    if (digits.size() % 2 != 0) return std::nullopt;
-    for (std::size_t i = 0; i < digits.size(); i += 2) {
-        int value = 0;
-        for (const char digit : {digits[i], digits[i + 1]}) {
-            const std::size_t at = std::string_view("0123456789abcdef").find(digit);
-            if (at == std::string_view::npos) return std::nullopt;
-            value = value * 16 + static_cast<int>(at);
-        }
-        result += static_cast<char>(value);
-    }
-    return result;
-}
 
 /// ` name="0.5"`, or nothing for an opaque colour.
 std::string opacity(std::string_view name, Colour colour) {
@@ -200,14 +180,14 @@ private:
                         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
                         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" xmlns:sikku=\"{}\"\n"
                         "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\">\n",
-                        name_space, width, height, width, height));
+                        svg_name_space, width, height, width, height));
         file_.write(fmt::format("<title>{}</title>\n<desc>", xml_escaped(print_.title)));
         file_.write(xml_escaped(print_.pattern));
         file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(print_.made)));
         if (!fits_xml(print_.pattern)) {
             file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
         }
-        file_.write(fmt::format("{}\n", head_end));
+        file_.write("</metadata>\n");
         write_ground(print_.style.ground, fmt::format("width=\"{}\" height=\"{}\"", width, height));
     }
 
@@ -434,48 +414,6 @@ private:
 
 std::unique_ptr<PrintWriter> write_svg(const Print& print, OutputFile& file) {
     return std::make_unique<Writer>(print, file);
-}
-
-std::optional<Provenance> svg_provenance(const std::filesystem::path& file) {
-    // Patterns are at most 64 MB, escaped perhaps six times as long, or twice that in hexadecimal digits.
-    constexpr std::size_t most_bytes = std::size_t{640} << 20;
-    constexpr std::size_t first_bytes = 4096;
-    std::ifstream stream(file, std::ios::binary);
-    std::string head;
-    std::string block(first_bytes, '\0');
-    std::size_t desc = std::string::npos;
-    std::size_t metadata = std::string::npos;
-    while (stream && head.size() < most_bytes) {
-        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        // A marker may lie across two blocks.
-        const std::size_t from = head.size() - std::min<std::size_t>(head.size(), 16);
-        head.append(block, 0, static_cast<std::size_t>(stream.gcount()));
-        if (block.size() == first_bytes) {
-            if (head.find(name_space) == std::string::npos) return std::nullopt;
-            block.resize(std::size_t{1} << 16);
-        }
-        if (desc == std::string::npos) desc = head.find("</desc>", from);
-        if (metadata == std::string::npos) metadata = head.find(head_end, from);
-        if (desc != std::string::npos && metadata != std::string::npos) break;
-    }
-    if (desc == std::string::npos || metadata == std::string::npos) return std::nullopt;
-    head.resize(std::max(desc + std::string_view("</desc>").size(), metadata + head_end.size()));
-
-    // The elements around the head are left open: the parser complains, and keeps what it has read.
-    pugi::xml_document document;
-    document.load_buffer(head.data(), head.size(), pugi::parse_default | pugi::parse_ws_pcdata);
-    const pugi::xml_node root = document.document_element();
-    const pugi::xml_node made = root.child("metadata").child("sikku:made");
-    if (!root.child("desc") || !made) return std::nullopt;
-    Provenance provenance;
-    provenance.made = made.child_value();
-    provenance.pattern = root.child("desc").child_value();
-    if (const pugi::xml_node exact = root.child("metadata").child("sikku:pattern")) {
-        const auto bytes = from_hex(exact.child_value());
-        if (!bytes) return std::nullopt;
-        provenance.pattern = *bytes;
-    }
-    return provenance;
 }
 
 }  // namespace sikku

@@ -1,6 +1,9 @@
-// cli/check_midi.cpp: `sikku check FILE.mid`: what is wrong with MIDI files.
+// cli/check_midi.cpp: MIDI files: what is wrong with them, and what they were made from.
+#include "art/input_file.h"
 #include "cli/command.h"
+#include "engine/pattern.h"
 #include "music/midi_check.h"
+#include "music/midi_texts.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +19,16 @@
 namespace sikku {
 namespace {
 
-std::vector<std::uint8_t> read_bytes(const std::string& file) {
+constexpr std::size_t most_midi_bytes = std::size_t{128} << 20;
+/// The texts come first; what surrounds them is small.
+constexpr std::size_t texts_bytes = most_pattern_bytes + (std::size_t{2} << 20);
+
+std::span<const std::uint8_t> span_of(const std::string& bytes) {
+    return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+}
+
+/// @throws UsageError if there are more than can be checked
+std::string read_bytes(const std::string& file) {
     if (std::error_code error; std::filesystem::is_directory(file, error)) {
         throw UsageError(fmt::format("{} is a folder", file));
     }
@@ -27,15 +39,15 @@ std::vector<std::uint8_t> read_bytes(const std::string& file) {
         if (errno != EINTR) throw UsageError(fmt::format("{}: {}", file, std::strerror(errno)));
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(opened, &std::fclose);
-    std::vector<std::uint8_t> bytes;
-    std::error_code unknown;
-    const auto size = std::filesystem::file_size(file, unknown);
-    if (!unknown) bytes.reserve(size);
-    std::vector<std::uint8_t> block(std::size_t{1} << 16);
+    std::string bytes;
+    std::vector<char> block(std::size_t{1} << 16);
     for (;;) {
         const std::size_t got = std::fread(block.data(), 1, block.size(), stream.get());
         const int error = errno;
-        bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(got));
+        bytes.append(block.data(), got);
+        if (bytes.size() > most_midi_bytes) {
+            throw UsageError(fmt::format("{}: MIDI files of more than 128 MB cannot be checked", file));
+        }
         if (interrupted()) throw Interrupted();
         if (std::ferror(stream.get()) != 0) {
             if (error != EINTR) throw UsageError(fmt::format("{}: {}", file, std::strerror(error)));
@@ -48,12 +60,20 @@ std::vector<std::uint8_t> read_bytes(const std::string& file) {
 
 }  // namespace
 
-MidiFile read_midi_file(const std::string& file) {
-    return read_midi(read_bytes(file));
+Provenance read_score_provenance(const std::string& file) {
+    const std::string bytes = InputFile(file).read(0, texts_bytes);
+    try {
+        MidiTexts texts = read_midi_texts(span_of(bytes));
+        if (!texts.pattern.empty()) return {std::move(texts.pattern), std::move(texts.made)};
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: this MIDI file {}", file, error.what()));
+    }
+    throw std::runtime_error(file + ": this MIDI file contains no pattern");
 }
 
 bool check_midi_file(const std::string& file) {
-    const auto faults = check_midi(read_bytes(file));
+    const std::string bytes = read_bytes(file);
+    const auto faults = check_midi(span_of(bytes));
     for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);
     if (faults.size() == most_midi_faults) {
         fmt::print("{}: no more than {} faults are told\n", printable(file), most_midi_faults);

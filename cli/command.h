@@ -1,9 +1,9 @@
 // cli/command.h: what the commands share: finding and loading patterns, progress, errors.
 #pragma once
 
+#include "art/provenance.h"
 #include "cli/signals.h"
 #include "engine/grammar.h"
-#include "music/midi_check.h"
 
 #include <fmt/format.h>
 
@@ -143,10 +143,12 @@ double expected_symbols(const Grammar& grammar, bool interpreted);
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();
 
-/// @throws UsageError if the file cannot be read
-MidiFile read_midi_file(const std::string& file);
+/// What a MIDI file (a regular file) was made from. @throws std::runtime_error, which names the file, if it contains
+/// no pattern or is damaged
+Provenance read_score_provenance(const std::string& file);
 
-/// `sikku check` of a MIDI file: prints its faults; true if there is none.
+/// `sikku check` of a MIDI file of up to 128 MB: prints its faults; true if there is none.
+/// @throws UsageError if the file cannot be read or is larger
 bool check_midi_file(const std::string& file);
 
 void add_derive(CLI::App& app, bool& quiet);

@@ -407,13 +407,14 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     for (const std::size_t i : chosen) {
         const GalleryJob& job = jobs[i];
         if (json) {
-            fmt::print("{}\n", job.text());
+            fmt::print("{}\n", plain_json(job.text()));
             continue;
         }
         std::string settings = job.pattern->shown;
         for (const auto& [key, value] : job.keys) settings += fmt::format("  {}={}", key, value);
         for (const auto& [key, value] : job.overrides) settings += fmt::format("  {}={}", key, value);
-        fmt::print("{:<{}}  {}\n", job.file(), std::min<std::size_t>(width, 60), settings);
+        fmt::print("{:<{}}  {}\n", printable(job.file(), 2000), std::min<std::size_t>(width, 60),
+                   printable(settings, std::string::npos));
     }
 }
 
@@ -430,11 +431,12 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
         const std::string problem = each.problem.empty() ? too_much_memory(each, memory) : each.problem;
         if (!problem.empty()) {
             ++impossible;
-            fmt::print("{:<40} {}\n", jobs[job].file(), printable(problem.substr(0, problem.find('\n')), 200));
+            fmt::print("{:<40} {}\n", printable(jobs[job].file(), 2000),
+                       printable(problem.substr(0, problem.find('\n')), 200));
             continue;
         }
-        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", jobs[job].file(), each.symbols, time_text(each.seconds),
-                   bytes_text(each.bytes), bytes_text(each.memory));
+        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(jobs[job].file(), 2000), each.symbols,
+                   time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
         sum.seconds += each.seconds;
         sum.bytes += each.bytes;
         sum.memory = std::max(sum.memory, each.memory);
@@ -688,7 +690,7 @@ void run(Options& options, bool quiet) {
         for (const auto& [job, result] : batch.finished) {
             for (const std::string& text : result.told) {
                 if (text.find("warning:") == std::string::npos) continue;
-                if (++told <= 20) tell("{}: {}\n", result.file, text);
+                if (++told <= 20) tell("{}: {}\n", printable(result.file, 2000), printable(text, 2000));
             }
         }
         if (told > 20)
@@ -710,9 +712,10 @@ void run(Options& options, bool quiet) {
         const GalleryJob& job = jobs[failure.job];
         std::string message = failure.message;
         while (message.ends_with('\n')) message.pop_back();
-        tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", job.file(), message);
+        tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", printable(job.file(), 2000),
+             printable(message, 2000));
     }
-    for (const std::string& trouble : troubles) tell("sikku: {}\n", trouble);
+    for (const std::string& trouble : troubles) tell("sikku: {}\n", printable(trouble, 2000));
     if (!batch.failures.empty() || !troubles.empty()) throw CLI::RuntimeError(1);
 }
 

@@ -20,17 +20,11 @@ std::string script_string(std::string_view text) {
         i += length == 0 ? 1 : length;
     }
     std::string result;
-    const std::string json = json_string(clean);
-    result.reserve(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const std::string_view rest = std::string_view(json).substr(i);
-        if (rest.front() == '<') {  // </script> and <!-- mean something to HTML
+    for (const char byte : json_string(clean)) {
+        if (byte == '<') {  // </script> and <!-- mean something to HTML
             result += "\\u003c";
-        } else if (rest.starts_with("\xE2\x80\xA8") || rest.starts_with("\xE2\x80\xA9")) {
-            result += rest[2] == '\xA8' ? "\\u2028" : "\\u2029";
-            i += 2;
         } else {
-            result += rest.front();
+            result += byte;
         }
     }
     return result;

@@ -66,7 +66,7 @@ std::vector<std::size_t> chosen(const std::vector<ImportedSystem>& systems, cons
 void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices) {
     for (const std::size_t i : indices) {
         const ImportedSystem& system = systems[i];
-        fmt::print("{:<24} line {:<6} {}\n", system.name, system.line,
+        fmt::print("{:<24} line {:<6} {}\n", printable(system.name), system.line,
                    system.pattern.empty() ? "has mistakes"
                    : system.losses.empty()
                        ? "exact"

@@ -105,7 +105,7 @@ std::string prose(const std::string& title, const Measurement& m) {
     line("symbols", plain(m.symbols));
     std::string counts;
     for (const auto& [letter, count] : m.counts) {
-        counts += fmt::format("{}{} {}", counts.empty() ? "" : "   ", letter, plain(count));
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : "   ", printable(letter), plain(count));
     }
     if (!counts.empty()) line("counts", counts);
     line("drawn", plain(m.drawn));

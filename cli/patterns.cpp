@@ -1,10 +1,7 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
-#include "art/image_file.h"
-#include "art/pdf_provenance.h"
-#include "art/svg.h"
+#include "art/provenance.h"
 #include "cli/command.h"
 #include "engine/text.h"
-#include "music/midi_check.h"
 #include "music/scale.h"
 
 #include <fmt/format.h>
@@ -28,14 +25,15 @@ void list_patterns(const std::string& kind, bool names_only) {
         if (!kind.empty() && known.kind != kind) continue;
         any = true;
         if (names_only) {
-            fmt::print("{}\n", known.name);
+            fmt::print("{}\n", printable(known.name));
             continue;
         }
-        if (known.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", known.kind);
+        if (known.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", printable(known.kind));
         last = known.kind;
         Diagnostics diagnostics;
         const Pattern pattern = parse_pattern(known.name, read_pattern_text(known.file.string()).text, diagnostics);
-        fmt::print("  {:<22} {:<42} {}\n", known.name, pattern.text("title"), pattern.text("source"));
+        fmt::print("  {:<22} {:<42} {}\n", printable(known.name), printable(pattern.text("title")),
+                   printable(pattern.text("source")));
     }
     if (any) return;
     std::set<std::string_view> kinds;
@@ -45,12 +43,6 @@ void list_patterns(const std::string& kind, bool names_only) {
     throw UsageError(fmt::format("there are no patterns '{}'; {}", kind,
                                  near.empty() ? fmt::format("there are: {}", fmt::join(kinds, ", "))
                                               : fmt::format("did you mean '{}'?", near)));
-}
-
-bool is_picture(const std::string& name) {
-    constexpr std::array<std::string_view, 6> endings = {".png", ".tif", ".tiff", ".jpg", ".jpeg", ".exr"};
-    return std::any_of(endings.begin(), endings.end(),
-                       [&](std::string_view ending) { return lower_case(name).ends_with(ending); });
 }
 
 /// Also a MIDI file of another name.
@@ -63,44 +55,24 @@ bool begins_as_midi(const std::string& file) {
 }
 
 void show(const std::string& what, bool quiet) {
-    for (const char* ending : {".gif", ".obj", ".mtl", ".glb", ".hpgl", ".plt", ".gcode", ".nc"}) {
+    for (const char* ending : {".obj", ".mtl", ".hpgl", ".plt", ".gcode", ".nc"}) {
         if (lower_case(what).ends_with(ending)) {
-            throw UsageError(fmt::format("{}: {} files hold no pattern", what, ending));
+            throw UsageError(fmt::format("{}: {} files contain no pattern", what, ending));
         }
     }
-    Provenance found;
-    const bool is_print =
-        lower_case(what).ends_with(".svg") || lower_case(what).ends_with(".pdf") || is_picture(what);
-    if (std::error_code error; is_print && !std::filesystem::exists(what, error)) {
-        throw UsageError(what + ": No such file or directory");
+    std::optional<Provenance> found = read_provenance(what);
+    if (!found && begins_as_midi(what)) found = read_score_provenance(what);
+    if (found) {
+        std::fwrite(found->pattern.data(), 1, found->pattern.size(), stdout);
+        if (!found->made.empty() && !quiet) tell("made with {}\n", printable(found->made, std::string::npos));
+        return;
     }
-    if (lower_case(what).ends_with(".svg")) {
-        const auto provenance = svg_provenance(what);
-        if (!provenance) throw std::runtime_error(what + ": this is no SVG of sikku's");
-        found = *provenance;
-    } else if (lower_case(what).ends_with(".pdf")) {
-        const auto provenance = pdf_provenance(what);
-        if (!provenance) throw std::runtime_error(what + ": this PDF holds no pattern");
-        found = *provenance;
-    } else if (is_picture(what)) {
-        const auto text = read_image_text(what);
-        if (!text) throw std::runtime_error(what + ": this cannot be read as an image");
-        if (text->description.empty()) throw std::runtime_error(what + ": this image holds no pattern");
-        found = {text->description, text->software};
-    } else if (begins_as_midi(what)) {
-        const MidiFile score = read_midi_file(what);
-        if (score.pattern.empty()) throw std::runtime_error(what + ": this MIDI file holds no pattern");
-        found = {score.pattern, score.made};
-    } else {
-        PatternText text = read_pattern_text(what);
-        if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
-        Diagnostics diagnostics;
-        parse_pattern(text.name, text.text, diagnostics);
-        if (diagnostics.is_unreadable()) diagnostics.throw_if_errors();
-        found.pattern = std::move(text.text);
-    }
-    std::fwrite(found.pattern.data(), 1, found.pattern.size(), stdout);
-    if (!found.made.empty() && !quiet) tell("made with {}\n", found.made);
+    PatternText text = read_pattern_text(what);
+    if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
+    Diagnostics diagnostics;
+    const auto source = read_source(std::move(text.name), std::move(text.text), diagnostics);
+    if (diagnostics.is_unreadable()) diagnostics.throw_if_errors();
+    std::fwrite(source->text().data(), 1, source->text().size(), stdout);
 }
 
 /// True if the file is without mistakes.

@@ -331,29 +331,30 @@ std::string Pattern::text(std::string_view name) const {
     return key ? std::string(key->value.view()) : std::string();
 }
 
-Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics) {
-    Pattern pattern;
+SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics) {
     if (text.size() > most_pattern_bytes) {
         text.resize(most_pattern_bytes);
         while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
-        const auto source = std::make_shared<const Source>(std::move(name), std::move(text));
+        auto source = std::make_shared<const Source>(std::move(name), std::move(text));
         diagnostics.unreadable({source, source->text().size(), 0}, "a pattern file is at most 64 MB");
-        pattern.source = source;
-        return pattern;
+        return source;
     }
     const std::size_t bad = first_bad_byte(text);
-    pattern.source = std::make_shared<const Source>(std::move(name), std::move(text));
+    auto source = std::make_shared<const Source>(std::move(name), std::move(text));
     if (bad != std::string::npos) {
-        diagnostics.unreadable({pattern.source, bad, 1}, pattern.source->text()[bad] == 0
-                                                             ? "a NUL byte: this is no pattern file"
-                                                             : "a byte that is no UTF-8: this is no pattern file");
-        return pattern;
+        diagnostics.unreadable({source, bad, 1}, source->text()[bad] == 0
+                                                     ? "a NUL byte: this is no pattern file"
+                                                     : "a byte that is no UTF-8: this is no pattern file");
+    } else if (source->open_comment() != std::string::npos) {
+        diagnostics.unreadable({source, source->open_comment(), 2}, open_comment_message);
     }
-    if (pattern.source->open_comment() != std::string::npos) {
-        diagnostics.unreadable({pattern.source, pattern.source->open_comment(), 2}, open_comment_message);
-        return pattern;
-    }
-    Parser(pattern, diagnostics).run();
+    return source;
+}
+
+Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics) {
+    Pattern pattern;
+    pattern.source = read_source(std::move(name), std::move(text), diagnostics);
+    if (!diagnostics.is_unreadable()) Parser(pattern, diagnostics).run();
     return pattern;
 }
 

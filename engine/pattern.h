@@ -74,6 +74,10 @@ struct Pattern {
 /// A longer text is no pattern file.
 constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 
+/// Takes the text of a pattern file without parsing it. Refuses (as unreadable) more than 64 MB, NUL bytes, invalid
+/// UTF-8, and comments without end. Cost: linear; memory: the text, twice if it has comments.
+SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics);
+
 /// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
 /// Refuses over 64 MB, NUL bytes and what is no UTF-8. Cost: linear.
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);

@@ -78,19 +78,53 @@ std::string to_hex(std::string_view bytes) {
     return result;
 }
 
+void append_utf8(std::uint32_t code, std::string& text) {
+    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+    if (code < 0x80) return put(code);
+    if (code < 0x800) {
+        put(0xC0 | code >> 6);
+    } else {
+        if (code < 0x10000) {
+            put(0xE0 | code >> 12);
+        } else {
+            put(0xF0 | code >> 18);
+            put(0x80 | (code >> 12 & 0x3F));
+        }
+        put(0x80 | (code >> 6 & 0x3F));
+    }
+    put(0x80 | (code & 0x3F));
+}
+
+std::string plain_json(std::string_view json) {
+    std::string result;
+    result.reserve(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const auto code = static_cast<unsigned char>(json[i]);
+        const std::string_view rest = json.substr(i);
+        const bool is_c1 = rest.size() > 1 && code == 0xC2 && static_cast<unsigned char>(rest[1]) >= 0x80 &&
+                           static_cast<unsigned char>(rest[1]) < 0xA0;
+        if (code < 0x20 || code == 0x7F) {
+            result += "\\u00" + to_hex(rest.substr(0, 1));
+        } else if (is_c1) {
+            result += "\\u00" + to_hex(rest.substr(1, 1));
+            i += 1;
+        } else if (rest.starts_with("\xE2\x80\xA8") || rest.starts_with("\xE2\x80\xA9")) {
+            result += rest[2] == '\xA8' ? "\\u2028" : "\\u2029";
+            i += 2;
+        } else {
+            result += json[i];
+        }
+    }
+    return result;
+}
+
 std::string json_string(std::string_view text) {
     std::string result = "\"";
     for (const char byte : text) {
-        if (byte == '"' || byte == '\\') {
-            result += '\\';
-            result += byte;
-        } else if (static_cast<unsigned char>(byte) < 0x20) {
-            result += "\\u00" + to_hex(std::string_view(&byte, 1));
-        } else {
-            result += byte;
-        }
+        if (byte == '"' || byte == '\\') result += '\\';
+        result += byte;
     }
-    return result + '"';
+    return plain_json(result + '"');
 }
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 // engine/text.h: texts, for all who write them to files.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,14 @@ bool fits_xml(std::string_view text);
 /// For XML and HTML, in elements and in attributes between double quotes. What XML cannot hold becomes U+FFFD.
 std::string xml_escaped(std::string_view text);
 
-/// A string of JSON with its quotes; `text` is UTF-8.
+/// JSON on one line with its control characters (C0, DEL, C1) and the line separators U+2028 and U+2029 as escapes,
+/// so that a terminal, JavaScript and readers of lines see plain text. They can only be in strings.
+std::string plain_json(std::string_view json);
+/// A string of such JSON with its quotes; `text` is UTF-8.
 std::string json_string(std::string_view text);
+
+/// Appends a code point (up to U+10FFFF) in UTF-8.
+void append_utf8(std::uint32_t code, std::string& text);
 
 /// Two small digits for each byte.
 std::string to_hex(std::string_view bytes);

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <limits>
-#include <map>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -96,17 +93,15 @@ struct TrackState {
     std::size_t sounding = 0;  ///< notes that have not ended
 };
 
-/// Reads a file once, tells what is wrong and, if wanted, keeps what is in it.
+/// Reads a file once and finds what is wrong.
 class Walk {
 public:
-    Walk(std::span<const std::uint8_t> bytes, MidiFile* file) : bytes_(bytes), file_(file) {
-        if (!file_) sounding_.resize(16 * 128);
-    }
+    explicit Walk(std::span<const std::uint8_t> bytes) : bytes_(bytes), sounding_(std::size_t{16} * 128) {}
 
     std::vector<MidiFault> run() {
         if (read_header()) {
             read_chunks();
-            if (!is_done()) check_tracks();
+            if (!is_full()) check_tracks();
         }
         std::stable_sort(faults_.begin(), faults_.end(),
                          [](const MidiFault& a, const MidiFault& b) { return a.at < b.at; });
@@ -115,7 +110,6 @@ public:
 
 private:
     bool is_full() const { return faults_.size() == most_midi_faults; }
-    bool is_done() const { return is_full() && !file_; }
 
     void fault(std::size_t at, std::string what) {
         if (!is_full()) faults_.push_back({at, std::move(what)});
@@ -183,11 +177,6 @@ private:
         declared_ = static_cast<int>(big_endian(10, 2));
         division_ = static_cast<int>(big_endian(12, 2));
         if (division_ >= 0x8000) division_ -= 0x10000;
-        if (file_) {
-            file_->format = format;
-            file_->declared_tracks = declared_;
-            file_->division = division_;
-        }
         if (format > 2) {
             fault(8, fmt::format("header: format {}, but there are only 0, 1 and 2", format));
         } else if (format == 2) {
@@ -217,7 +206,7 @@ private:
     }
 
     void read_chunks() {
-        while (at_ < size() && !is_done()) {
+        while (at_ < size() && !is_full()) {
             if (has(at_, "MTrk") && is_chunk(at_)) {
                 read_track();
             } else if (is_chunk(at_)) {
@@ -269,9 +258,9 @@ private:
         const std::size_t length = big_endian(at_ + 4, 4);
         track.end = track.at + length;
         track.limit = std::min(track.end, size());
-        while (!is_done() && read_next(track)) {
+        while (!is_full() && read_next(track)) {
         }
-        if (is_done()) return;
+        if (is_full()) return;
         if (!track.ended && track.end > size()) {
             track.is_readable = false;
             fault(track, size(), fmt::format("the file ends within it; {} missing", bytes_of(track.end - size())));
@@ -283,7 +272,6 @@ private:
             fault(track, track.sysex_at, "a sysex message that is not ended by F7");
         }
         end_notes(track);
-        if (file_) file_->ends.push_back(track.tick);
         at_ = track.ended ? track.at : track.limit;
     }
 
@@ -434,7 +422,6 @@ private:
                 fault(track, event.at, fmt::format("status byte {:02X}, which no MIDI file may have", event.status));
             }
         }
-        keep(track, event);
         if (is_end) {
             track.ended = true;
             ends_.push_back({track.number, track.tick, event.at});
@@ -447,20 +434,13 @@ private:
 
     void note_event_at(std::int64_t tick) { last_tick_ = std::max(last_tick_, tick); }
 
-    void keep(const TrackState& track, const Layout& event) {
-        if (!file_) return;
-        const auto data = bytes_.subspan(event.data, event.size);
-        file_->events.push_back(
-            {track.number - 1, track.tick, event.at, event.status, event.type, {data.begin(), data.end()}});
-    }
-
     void read_channel_event(TrackState& track, const Layout& event) {
         track.running = track.last_channel_status = event.status;
         for (std::size_t i = event.data; i < event.next; ++i) {
             if (bytes_[i] > 0x7F) fault(track, i, fmt::format("data byte {:02X} is above 7F", bytes_[i]));
         }
         const int kind = event.status & 0xF0;
-        if (file_ || (kind != 0x80 && kind != 0x90)) return;
+        if (kind != 0x80 && kind != 0x90) return;
         const int channel = event.status & 0x0F;
         const int key = bytes_[event.data] & 0x7F;
         if (kind == 0x90 && (bytes_[event.data + 1] & 0x7F) > 0) {
@@ -608,7 +588,6 @@ private:
     };
 
     std::span<const std::uint8_t> bytes_;
-    MidiFile* file_;
     std::vector<MidiFault> faults_;
     std::size_t at_ = 0;  // the next chunk
     int declared_ = 0;
@@ -621,128 +600,10 @@ private:
     std::vector<End> ends_;
 };
 
-constexpr int any_program = -1;
-
-/// What controllers, bends and tunings make of a channel.
-struct Channel {
-    int parameter = -1;  ///< the registered parameter that data entry sets; -1: none
-    int parameter_high = 0x7F;
-    int parameter_low = 0x7F;
-    double bend_range = 2.0;
-    int bend = 0;  ///< -8192 to 8191
-    int tuning = any_program;
-};
-
-/// Turns events into notes.
-class Notes {
-public:
-    std::vector<MidiNote> read(const std::vector<MidiEvent>& events) {
-        std::vector<const MidiEvent*> order;
-        order.reserve(events.size());
-        for (const MidiEvent& event : events) order.push_back(&event);
-        std::stable_sort(order.begin(), order.end(),
-                         [](const MidiEvent* a, const MidiEvent* b) { return a->tick < b->tick; });
-        for (const MidiEvent* event : order) read(*event);
-        std::stable_sort(notes_.begin(), notes_.end(), [](const MidiNote& a, const MidiNote& b) {
-            return std::tie(a.onset, a.channel, a.key) < std::tie(b.onset, b.channel, b.key);
-        });
-        return std::move(notes_);
-    }
-
-private:
-    static int byte(const MidiEvent& event, std::size_t i) { return static_cast<unsigned char>(event.data[i]); }
-
-    void read(const MidiEvent& event) {
-        if (event.status == 0xF0) return tune(event);
-        if (event.status >= 0xF0) return;
-        Channel& channel = channels_[static_cast<std::size_t>(event.status & 0x0F)];
-        switch (event.status & 0xF0) {
-            case 0x90:
-                if (byte(event, 1) > 0) return begin(event, channel);
-                [[fallthrough]];
-            case 0x80:
-                return end(event);
-            case 0xB0:
-                return control(channel, byte(event, 0), byte(event, 1));
-            case 0xE0:
-                channel.bend = (byte(event, 1) << 7 | byte(event, 0)) - 8192;
-                return;
-            default:
-                return;
-        }
-    }
-
-    static void control(Channel& channel, int number, int value) {
-        if (number == 101) channel.parameter_high = value;
-        if (number == 100) channel.parameter_low = value;
-        if (channel.parameter_high != 0) return;
-        if (number == 6 && channel.parameter_low == 0) channel.bend_range = value;
-        if (number == 38 && channel.parameter_low == 0) {
-            channel.bend_range = static_cast<int>(channel.bend_range) + value / 100.0;
-        }
-        if (number == 6 && channel.parameter_low == 3) channel.tuning = value;
-    }
-
-    /// Single note tuning changes: F0 7F device 08 02 program count [key, semitones, fraction] F7.
-    void tune(const MidiEvent& event) {
-        const auto& data = event.data;
-        if (data.size() < 6 || byte(event, 0) != 0x7F || byte(event, 2) != 8 || byte(event, 3) != 2) return;
-        const int count = byte(event, 5);
-        for (int i = 0; i < count && data.size() >= static_cast<std::size_t>(10 + 4 * i); ++i) {
-            const auto at = static_cast<std::size_t>(6 + 4 * i);
-            const double pitch = byte(event, at + 1) + (byte(event, at + 2) * 128 + byte(event, at + 3)) / 16384.0;
-            tunings_[{byte(event, 4), byte(event, at)}] = pitch;
-        }
-    }
-
-    void begin(const MidiEvent& event, const Channel& channel) {
-        MidiNote note;
-        note.onset = event.tick;
-        note.key = byte(event, 0);
-        note.velocity = byte(event, 1);
-        note.channel = event.status & 0x0F;
-        note.track = event.track;
-        note.bend = channel.bend * channel.bend_range / 8192.0;
-        if (const auto found = tunings_.find({channel.tuning, note.key}); found != tunings_.end()) {
-            note.bend += found->second - note.key;
-        }
-        sounding_[{event.track, note.channel, note.key}].push_back(note);
-    }
-
-    /// The first that began ends first.
-    void end(const MidiEvent& event) {
-        const auto found = sounding_.find({event.track, event.status & 0x0F, byte(event, 0)});
-        if (found == sounding_.end()) return;
-        MidiNote note = found->second.front();
-        found->second.pop_front();
-        if (found->second.empty()) sounding_.erase(found);
-        note.duration = event.tick - note.onset;
-        notes_.push_back(note);
-    }
-
-    std::array<Channel, 16> channels_;
-    std::map<std::pair<int, int>, double> tunings_;  // of program and key
-    std::map<std::tuple<int, int, int>, std::deque<MidiNote>> sounding_;
-    std::vector<MidiNote> notes_;
-};
-
 }  // namespace
 
 std::vector<MidiFault> check_midi(std::span<const std::uint8_t> bytes) {
-    return Walk(bytes, nullptr).run();
-}
-
-MidiFile read_midi(std::span<const std::uint8_t> bytes) {
-    MidiFile file;
-    Walk(bytes, &file).run();
-    file.notes = Notes().read(file.events);
-    int texts = 0;
-    for (const MidiEvent& event : file.events) {
-        if (event.track != 0) break;
-        if (event.type == 3 && file.title.empty()) file.title = event.data;
-        if (event.type == 1 && ++texts <= 2) (texts == 1 ? file.pattern : file.made) = event.data;
-    }
-    return file;
+    return Walk(bytes).run();
 }
 
 }  // namespace sikku

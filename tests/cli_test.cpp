@@ -480,7 +480,7 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
     EXPECT_TRUE(has(run({"show", folder.file("missing.png")}).errors, "No such file"));
     EXPECT_TRUE(has(run({"show", folder.file("missing.pdf")}).errors, "No such file"));
     EXPECT_EQ(run({"show", folder.write("other.svg", "<svg/>")}).status, 1);
-    expect_failure(run({"show", folder.write("other.pdf", "%PDF-1.4\n")}), 1, "this PDF holds no pattern");
+    expect_failure(run({"show", folder.write("other.pdf", "%PDF-1.4\n")}), 1, "this PDF file contains no pattern");
     // Any text comes back as it was, beyond ASCII and with the line ends of others.
     const std::string words = "title: கோலம் (1) \\ \"x\"\r\naxiom: F(1)\\F \\\r\n+F\r\n";
     for (const char* name : {"words.svg", "words.pdf", "words.png"}) {

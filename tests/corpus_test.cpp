@@ -1,8 +1,13 @@
 // tests/corpus_test.cpp: what the fuzzers do, done with every file of the corpus and every pattern.
+#include "art/image_file.h"
+#include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
 
 namespace sikku {
 namespace {
@@ -31,6 +36,66 @@ TEST(Corpus, EveryFileGoesThroughTheFuzzTargets) {
             EXPECT_NO_THROW(try_pattern(text));
             EXPECT_NO_THROW(try_derivation(text));
         }
+    }
+}
+
+std::vector<std::filesystem::path> files_of(const std::string& folder) {
+    std::vector<std::filesystem::path> list;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / folder)) {
+        list.push_back(entry.path());
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+/// Calls `attempt` with the bytes, with each of their beginnings, and with one byte changed in many ways.
+void mutate(const std::string& bytes, const std::function<void(const std::string&)>& attempt) {
+    attempt(bytes);
+    const std::size_t step = 1 + bytes.size() / 2000;
+    for (std::size_t length = 0; length < bytes.size(); length += step) attempt(bytes.substr(0, length));
+    for (std::size_t at = 0; at < bytes.size(); at += step) {
+        for (const char byte : {'\0', '\x7F', '\xFF', static_cast<char>(bytes[at] + 1)}) {
+            std::string changed = bytes;
+            changed[at] = byte;
+            attempt(changed);
+        }
+    }
+}
+
+TEST(Corpus, PrintsAndScoresAreReadOrRefused) {
+    for (const char* folder : {"tests/corpus/show", "tests/corpus/midi"}) {
+        const auto list = files_of(folder);
+        EXPECT_FALSE(list.empty()) << folder;
+        for (const auto& file : list) {
+            SCOPED_TRACE(file.string());
+            const std::string bytes = contents(file);
+            mutate(bytes, [&](const std::string& changed) {
+                ASSERT_NO_THROW(try_show(changed));
+                ASSERT_NO_THROW(try_midi(changed));
+            });
+            const auto shown = try_show(bytes);
+            for (const char* kind : {"print", "exact", "plain", "packed", "international", "big", "score"}) {
+                if (file.filename().string().starts_with(kind)) {
+                    ASSERT_TRUE(shown);
+                    EXPECT_NE(shown->find("axiom: F"), std::string::npos);
+                }
+            }
+        }
+    }
+}
+
+TEST(Corpus, ProfilesAreReadOrRefused) {
+    const ScratchFolder folder;
+    for (const auto& file : files_of("tests/corpus/icc")) {
+        SCOPED_TRACE(file.string());
+        EXPECT_NO_THROW(check_cmyk_profile(file));
+        mutate(contents(file), [&](const std::string& changed) {
+            try {
+                check_cmyk_profile(folder.write("changed.icc", changed));
+            } catch (const std::runtime_error& error) {
+                ASSERT_NE(std::string_view(error.what()).find("changed.icc"), std::string_view::npos);
+            }
+        });
     }
 }
 

@@ -1,6 +1,7 @@
 #include "music/midi_check.h"
 
 #include "tests/files.h"
+#include "tests/fuzz/file_targets.h"
 #include "tests/midi_tools.h"
 #include "tests/program.h"
 
@@ -325,8 +326,7 @@ TEST(MidiCheck, MutationsDoNoHarm) {
             ASSERT_FALSE(faults[k].what.empty());
             ASSERT_TRUE(k == 0 || faults[k - 1].at <= faults[k].at);
         }
-        const MidiFile file = read_midi(bytes);
-        for (const MidiNote& note : file.notes) ASSERT_GE(note.duration, 0);
+        ASSERT_NO_THROW(try_midi(bytes));
     }
     // Some flips are in velocities, deltas and texts.
     EXPECT_GT(without_fault, 500u);
@@ -361,13 +361,26 @@ TEST(MidiRead, TellsEventsAndNotes) {
     expect_note(2, 480, 16, 62, 0.0, 127, 1);
 }
 
-TEST(MidiRead, TakesWhatItCanFromFilesWithFaults) {
-    EXPECT_TRUE(read_midi(std::string()).events.empty());
-    EXPECT_TRUE(read_midi(std::string("no MIDI")).notes.empty());
-    const std::string good = good_file();
-    EXPECT_EQ(read_midi(good.substr(0, 60)).notes.size(), 1u);
-    EXPECT_EQ(read_midi(with_byte(good, 21, 9)).notes.size(), 2u);
-    EXPECT_EQ(read_midi(with_byte(good, 11, 9)).notes.size(), 2u);
+TEST(MidiTexts, AreReadFromTheFirstTrackAlone) {
+    const auto texts = [](const std::string& bytes) { return read_midi_texts(midi_span(bytes)); };
+    const std::string head = hex_bytes("4D 54 68 64 00 00 00 06 00 01 00 02 01 E0");
+    const std::string other = hex_bytes("58 46 49 48 00 00 00 02 00 00");
+    const std::string first = hex_bytes(
+        "4D 54 72 6B 00 00 00 20  00 FF 03 01 61  00 90 3C 50  10 3C 00  00 F0 02 7E F7  "
+        "00 FF 01 02 78 0A  00 FF 01 01 79  00 FF 01 01 7A  00 FF 2F 00");
+    EXPECT_EQ(texts(head + other + first).pattern, "x\n");
+    EXPECT_EQ(texts(head + first).made, "y");
+    // What comes after the second text does not matter.
+    const std::size_t needed = head.size() + 8 + 5 + 4 + 3 + 5 + 6 + 5;
+    for (std::size_t length = 4; length < needed; ++length) {
+        if (length != head.size()) {
+            EXPECT_THROW(texts((head + first).substr(0, length)), std::runtime_error) << length;
+        }
+    }
+    EXPECT_EQ(texts((head + first).substr(0, needed)).made, "y");
+    EXPECT_EQ(texts(head).pattern, "") << "no track";
+    const std::string empty = hex_bytes("4D 54 72 6B 00 00 00 04  00 FF 2F 00");
+    EXPECT_EQ(texts(head + empty + first).pattern, "") << "the texts of another track";
 }
 
 TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {

@@ -3,6 +3,7 @@
 
 #include "music/midi.h"
 #include "music/midi_check.h"
+#include "tests/midi_reader.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -41,9 +42,6 @@ inline std::span<const std::uint8_t> midi_span(const std::string& bytes) {
 }
 inline std::vector<MidiFault> check_midi(const std::string& bytes) {
     return check_midi(midi_span(bytes));
-}
-inline MidiFile read_midi(const std::string& bytes) {
-    return read_midi(midi_span(bytes));
 }
 
 /// What check_midi says, one line each.

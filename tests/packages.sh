@@ -1,9 +1,9 @@
 # What Debian 12 packages the project needs; sourced by ./demo and ./check.
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
-    libpugixml-dev libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
+    libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
 # For tests: the framework, and independent readers of what the program writes.
-test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
+test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
     midicsv python3-mido)
 # For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.

@@ -1,5 +1,3 @@
-#include "art/pdf_provenance.h"
-
 #include "art/pdf.h"
 #include "tests/print_tools.h"
 
@@ -33,14 +31,14 @@ TEST(PdfProvenance, EveryTextComesBackByteForByte) {
           std::string(300'000, '\\') + std::string(300'000, '(')}) {
         for (const std::string title : {"", "A (test) \\", "கோலம்", "/SikkuPattern (axiom: H) >>"}) {
             write(path, text, "sikku 0.1.0, -n 4 --set 'title=(ü)'", title);
-            const auto provenance = pdf_provenance(path);
+            const auto provenance = provenance_of(path);
             ASSERT_TRUE(provenance) << text.substr(0, 100);
             EXPECT_EQ(provenance->pattern, text);
             EXPECT_EQ(provenance->made, "sikku 0.1.0, -n 4 --set 'title=(ü)'");
         }
     }
     write(path, "axiom: F\n", "");
-    EXPECT_EQ(pdf_provenance(path)->made, "");
+    EXPECT_EQ(provenance_of(path)->made, "");
 }
 
 TEST(PdfProvenance, WhatOthersRewriteIsReadRightOrNotAtAll) {
@@ -52,7 +50,7 @@ TEST(PdfProvenance, WhatOthersRewriteIsReadRightOrNotAtAll) {
         for (const std::string options : {"", "--qdf", "--linearize", "--object-streams=generate"}) {
             ASSERT_TRUE(
                 run("qpdf " + options + " '" + folder.file("print.pdf") + "' '" + folder.file("other.pdf") + "'").ok);
-            const auto provenance = pdf_provenance(folder / "other.pdf");
+            const auto provenance = provenance_of(folder / "other.pdf");
             if (provenance) {
                 EXPECT_EQ(provenance->pattern, text) << options;
             }
@@ -64,21 +62,21 @@ TEST(PdfProvenance, OtherFilesHoldNoPattern) {
     const ScratchFolder folder;
     const auto path = folder / "print.pdf";
     write(path, "", "sikku");
-    EXPECT_FALSE(pdf_provenance(path)) << "a print without a pattern";
-    EXPECT_FALSE(pdf_provenance(folder / "missing.pdf"));
-    EXPECT_FALSE(pdf_provenance(folder.path()));
-    EXPECT_FALSE(pdf_provenance("/dev/null"));
+    EXPECT_FALSE(provenance_of(path)) << "a print without a pattern";
+    EXPECT_FALSE(provenance_of(folder / "missing.pdf"));
+    EXPECT_FALSE(provenance_of(folder.path()));
+    EXPECT_FALSE(provenance_of("/dev/null"));
     write(path, "axiom: (\\) ü F\n", "sikku");
     const std::string whole = contents(path);
     const auto write_bytes = [&](const std::string& bytes) {
         std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
     };
     write_bytes("");
-    EXPECT_FALSE(pdf_provenance(path));
+    EXPECT_FALSE(provenance_of(path));
     // Cut off anywhere, or with any one byte of its end changed, it is read or refused, and never beyond its end.
     for (std::size_t length = whole.size() - 1; length > whole.size() - 1200; length -= 7) {
         write_bytes(whole.substr(0, length));
-        const auto provenance = pdf_provenance(path);
+        const auto provenance = provenance_of(path);
         if (provenance) {
             EXPECT_EQ(provenance->pattern, "axiom: (\\) ü F\n");
         }
@@ -88,14 +86,14 @@ TEST(PdfProvenance, OtherFilesHoldNoPattern) {
             std::string bytes = whole;
             bytes[at] = byte;
             write_bytes(bytes);
-            pdf_provenance(path);
+            provenance_of(path);
         }
     }
     for (const char* end : {"startxref\n0\n%%EOF\n", "startxref\n99999999999999999999\n", "startxref\n-1\n",
                             "xref\n0 1\ntrailer\n<< /Info 18446744073709551615 0 R >>\nstartxref\n0\n%%EOF\n",
                             "xref\n0 1\ntrailer\n<< /Info 1 0 R >>\nstartxref\n0\n%%EOF\n", "startxref\n"}) {
         write_bytes(end);
-        EXPECT_FALSE(pdf_provenance(path)) << end;
+        EXPECT_FALSE(provenance_of(path)) << end;
     }
 }
 

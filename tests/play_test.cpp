@@ -1,6 +1,6 @@
 // tests/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
-#include "music/midi_check.h"
 #include "tests/files.h"
+#include "tests/midi_reader.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -100,7 +100,7 @@ TEST(Play, AHumanPlaysThePieceAsTheWhole) {
         arguments.insert(arguments.end(), piece.begin(), piece.end());
         EXPECT_EQ(run(arguments).status, 0);
         const std::string bytes = contents(file);
-        return read_midi({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}).notes;
+        return read_midi(bytes).notes;
     };
     const auto whole = notes({});
     const auto piece = notes({"--from-bar", "3", "--bars", "2"});

@@ -2,7 +2,6 @@
 
 #include "art/draw.h"
 #include "art/pdf.h"
-#include "art/pdf_provenance.h"
 #include "art/raster.h"
 #include "art/svg.h"
 #include "tests/print_tools.h"
@@ -448,7 +447,7 @@ TEST_F(PressPdf, TheSameBytesAndThePatternComesBack) {
     print.press = {.bleed = 3.0, .marks = true, .spots = {{"Black ink", black}, {"Red ink", {255, 0, 0, 255}}}};
     const auto path = write(print, draw_sampler);
     EXPECT_EQ(contents(path), contents(write(print, draw_sampler, "again.pdf")));
-    const auto provenance = pdf_provenance(path);
+    const auto provenance = provenance_of(path);
     ASSERT_TRUE(provenance);
     EXPECT_EQ(provenance->pattern, print.pattern);
     EXPECT_EQ(provenance->made, print.made);

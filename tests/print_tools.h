@@ -3,6 +3,7 @@
 
 #include "art/output_file.h"
 #include "art/print.h"
+#include "art/provenance.h"
 #include "tests/files.h"
 #include "tests/tools.h"
 
@@ -11,7 +12,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -79,6 +82,15 @@ inline Print plain_print() {
     print.pattern = "axiom: F\n";
     print.made = "sikku 0.1.0, -n 4";
     return print;
+}
+
+/// What is read back from a file, or nothing if it is refused.
+inline std::optional<Provenance> provenance_of(const std::filesystem::path& file) {
+    try {
+        return read_provenance(file);
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
 }
 
 /// Makes a file of `print` with write_svg or write_pdf.

@@ -12,15 +12,21 @@ seconds=${FUZZ_SECONDS:-60}
 if command -v clang++ > /dev/null; then
     mkdir -p build
     cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
-    cmake --build --preset fuzz -j "$(nproc)" --target pattern_fuzz derivation_fuzz import_fuzz
-    for target in pattern_fuzz derivation_fuzz import_fuzz; do
+    targets=(pattern_fuzz derivation_fuzz import_fuzz show_fuzz midi_fuzz icc_fuzz)
+    cmake --build --preset fuzz -j "$(nproc)" --target "${targets[@]}"
+    for target in "${targets[@]}"; do
         corpus=build/fuzz/corpus-$target
         mkdir -p "$corpus"
+        case $target in
+            show_fuzz) seeds=(tests/corpus/show tests/corpus/midi) ;;
+            midi_fuzz) seeds=(tests/corpus/midi) ;;
+            icc_fuzz) seeds=(tests/corpus/icc) ;;
+            *) seeds=(-dict=tests/fuzz/words.dict tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/) ;;
+        esac
         echo "fuzzing: $target for $seconds s"
         # What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
         build/fuzz/bin/"$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
-            -dict=tests/fuzz/words.dict -artifact_prefix="build/fuzz/$target-" \
-            "$corpus" tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/ > "build/fuzz/$target.log" 2>&1 ||
+            -artifact_prefix="build/fuzz/$target-" "$corpus" "${seeds[@]}" > "build/fuzz/$target.log" 2>&1 ||
             { tail -n 60 "build/fuzz/$target.log"; echo "$target failed: see build/fuzz/"; exit 1; }
         tail -n 1 "build/fuzz/$target.log"
     done
