@@ -1,4 +1,5 @@
 // tests/corpus_test.cpp: what the fuzzers do, done with every file of the corpus and every pattern.
+#include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
 
@@ -31,6 +32,17 @@ TEST(Corpus, EveryFileGoesThroughTheFuzzTargets) {
             EXPECT_NO_THROW(try_pattern(text));
             EXPECT_NO_THROW(try_derivation(text));
         }
+    }
+}
+
+TEST(Corpus, EveryFileOfScalesGoesThroughTheFuzzTargets) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / "tests/corpus")) {
+        if (!entry.is_regular_file()) continue;
+        SCOPED_TRACE(entry.path().string());
+        const std::string text = contents(entry.path());
+        EXPECT_NO_THROW(try_scl(text));
+        EXPECT_NO_THROW(try_kbm(text));
     }
 }
 

@@ -9,18 +9,19 @@ program=$(realpath "$1")
 cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 
+fuzz_targets="pattern_fuzz derivation_fuzz import_fuzz scl_fuzz kbm_fuzz"
 if command -v clang++ > /dev/null; then
     mkdir -p build
     cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
-    cmake --build --preset fuzz -j "$(nproc)" --target pattern_fuzz derivation_fuzz import_fuzz
-    for target in pattern_fuzz derivation_fuzz import_fuzz; do
+    cmake --build --preset fuzz -j "$(nproc)" --target $fuzz_targets
+    for target in $fuzz_targets; do
         corpus=build/fuzz/corpus-$target
         mkdir -p "$corpus"
         echo "fuzzing: $target for $seconds s"
         # What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
         build/fuzz/bin/"$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
             -dict=tests/fuzz/words.dict -artifact_prefix="build/fuzz/$target-" \
-            "$corpus" tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/ > "build/fuzz/$target.log" 2>&1 ||
+            "$corpus" tests/corpus/*/ patterns/*/ > "build/fuzz/$target.log" 2>&1 ||
             { tail -n 60 "build/fuzz/$target.log"; echo "$target failed: see build/fuzz/"; exit 1; }
         tail -n 1 "build/fuzz/$target.log"
     done
