@@ -138,7 +138,8 @@ std::vector<std::string> read_formats(const std::vector<std::string>& words, con
             while (format.starts_with(' ') || format.starts_with('.')) format.erase(0, 1);
             while (format.ends_with(' ')) format.pop_back();
             check_format(format, place);
-            if (is_one_of(format, formats)) fail(place, fmt::format("format: '{}' is listed twice", format));
+            if (std::find(formats.begin(), formats.end(), format) != formats.end())
+                fail(place, fmt::format("format: '{}' is listed twice", format));
             formats.push_back(format);
             at = comma + 1;
         }
@@ -434,8 +435,6 @@ void read_gallery(const std::string& file, const std::string& text, GalleryItem&
                   GalleryItems& items) {
     const GalleryValue root = read_gallery_toml(file, text);
     const GalleryValue* listed = nullptr;
-    defaults.folder = std::filesystem::path(file).parent_path();
-    defaults.place = file + ":1:1";
     for (const auto& [key, value] : root.table) {
         if (key == "item") {
             listed = &value;

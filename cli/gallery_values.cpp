@@ -15,7 +15,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_toml_bytes = std::size_t{16} << 20;
 constexpr std::size_t most_toml_values = 250'000;
 constexpr std::size_t most_depth = 50;
 
@@ -196,7 +195,7 @@ void fail(const std::string& place, const std::string& message) {
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
-    if (text.size() > most_toml_bytes) fail(file, "a gallery file is at most 16 MB");
+    if (text.size() > most_gallery_bytes) fail(file, "a gallery file is at most 16 MB");
     TomlScan(file, text).run();
     try {
         return value_of(toml::parse(text, file), file);

@@ -20,6 +20,8 @@ struct GalleryValue {
     std::pair<std::uint32_t, std::uint32_t> order{0, 0};
 };
 
+/// A longer gallery file is refused.
+constexpr std::size_t most_gallery_bytes = std::size_t{16} << 20;
 /// A table has at most so many keys.
 constexpr std::size_t most_table_keys = 1000;
 
