@@ -16,9 +16,9 @@ constexpr std::size_t most_nesting = std::size_t{1} << 20;
 // Of a pattern file, counted while it is read, so that no small file takes much memory.
 constexpr std::size_t most_keys = 1024;  // together with those that settings add
 constexpr std::size_t most_defines = std::size_t{1} << 18;
-constexpr std::size_t most_productions = std::size_t{1} << 18;  // of all tables together
+constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables together
 constexpr std::size_t most_tables = std::size_t{1} << 16;
-constexpr std::size_t most_variants = std::size_t{1} << 14;
+constexpr std::size_t most_variants = std::size_t{1} << 16;
 constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
 
 constexpr std::array<std::string_view, 19> engine_keys = {

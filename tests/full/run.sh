@@ -9,7 +9,7 @@ program=$(realpath "$1")
 cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 
-fuzz_targets="pattern_fuzz derivation_fuzz import_fuzz scl_fuzz kbm_fuzz"
+fuzz_targets="pattern_fuzz derivation_fuzz import_fuzz scl_fuzz kbm_fuzz gallery_toml_fuzz gallery_jsonl_fuzz"
 if command -v clang++ > /dev/null; then
     mkdir -p build
     cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
