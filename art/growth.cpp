@@ -4,6 +4,7 @@
 #include "art/image_file.h"
 #include "art/output_file.h"
 #include "art/raster.h"
+#include "engine/forecast.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>
@@ -106,6 +107,12 @@ std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t
 
 DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOptions& given_options,
                        const GrowthOptions& growth, const std::filesystem::path& file) {
+    if (growth.first < 0 || growth.last > most_steps || growth.last - growth.first >= most_frames) {
+        throw std::runtime_error(
+            fmt::format("up to {} generations can be drawn one after the other, of derivation "
+                        "lengths up to {}",
+                        most_frames, most_steps));
+    }
     Print print = given;
     DrawOptions options = given_options;
     if (!is_vector(options.format)) prepare_images(options.threads);

@@ -10,6 +10,9 @@
 
 namespace sikku {
 
+/// More generations are refused.
+constexpr std::int64_t most_frames = 10'000;
+
 struct GrowthOptions {
     std::int64_t first = 0, last = 0;  ///< derivation lengths, both included
     double seconds = 0.5;              ///< that each is shown
@@ -25,7 +28,7 @@ std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t
 /// say what they say of a PNG, on white paper. Generations that draw nothing are empty pages. Files
 /// of their own appear one after the other, each whole; what is wrong with a later one leaves those before it.
 /// @return what became of the last
-/// @throws as draw(); std::runtime_error if all are empty
+/// @throws as draw(); std::runtime_error if all are empty, or are more than most_frames
 DrawReport draw_growth(const Grammar& grammar, const Print& print, const DrawOptions& options,
                        const GrowthOptions& growth, const std::filesystem::path& file);
 

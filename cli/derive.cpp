@@ -139,6 +139,7 @@ void add_derive(CLI::App& app, bool& quiet) {
         derivation.interpreted = *interpreted;
         // Modules with parameters take more than symbols.
         derivation.longest_word = memory_budget() / (grammar.is_plain() ? 1 : 4);
+        derivation.compared = 500'000'000;  // which takes a second
         derivation.watch = progress.watch();
         try {
             derive(grammar, sink, derivation);

@@ -143,6 +143,10 @@ std::pair<std::int64_t, std::int64_t> parse_generations(const std::string& text)
     };
     const std::int64_t first = whole(std::string_view(text).substr(0, colon));
     const std::int64_t last = colon == std::string::npos ? first : whole(std::string_view(text).substr(colon + 1));
+    if (last > most_steps) {
+        throw UsageError(fmt::format("--generations {}: derivation lengths up to {} can be drawn one after the other",
+                                     text, most_steps));
+    }
     return {first, last};
 }
 
@@ -167,9 +171,9 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = parse_generations(options.generations);
     growth.seconds = options.frame_time.value_or(growth.seconds);
-    if (growth.last < growth.first || growth.last - growth.first >= 10'000) {
-        throw UsageError(fmt::format("--generations {}: up to 10,000 frames, the lowest derivation length first",
-                                     options.generations));
+    if (growth.last < growth.first || growth.last - growth.first >= most_frames) {
+        throw UsageError(fmt::format("--generations {}: up to {} frames, the lowest derivation length first",
+                                     options.generations, most_frames));
     }
     if (is_gif(options.output)) {
         const PixelSize size = pixel_size(print.page, print.dpi);

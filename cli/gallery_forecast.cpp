@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -22,6 +23,27 @@ double drawn_symbols(const Grammar& grammar, const Forecast& known) {
         if (action == Action::draw || action == Action::disc) drawn += known.rough_counts[symbol];
     }
     return drawn;
+}
+
+/// Seconds for matching contexts, at most: as if every candidate were compared as a whole at every symbol of the
+/// first word, in every step that looks at neighbours. The budget ends it before that.
+double matching_seconds(const Grammar& grammar, double budget) {
+    constexpr double seconds_a_symbol = 2e-9;
+    if (grammar.whole_word_steps() == 0) return 0;
+    double compared = 0;
+    for (const Table& table : grammar.tables()) {
+        if (table.context_free()) continue;
+        std::vector<double> lengths(grammar.symbols().size(), 0);
+        for (const Production& production : table.productions()) {
+            lengths[production.predecessor.front()] +=
+                static_cast<double>(production.left.size() + production.predecessor.size() + production.right.size());
+        }
+        double sum = 0;
+        for (const Symbol symbol : grammar.axiom()) sum += lengths[symbol];
+        compared = std::max(compared, sum);
+    }
+    compared *= static_cast<double>(grammar.whole_word_steps());
+    return std::min(compared, budget / 4) * seconds_a_symbol;
 }
 
 /// @throws what draw() throws before it draws
@@ -45,6 +67,7 @@ void forecast_print(const DrawSettings& settings, const LoadedPattern& loaded, J
     const double text = static_cast<double>(loaded.pattern.source->text().size());
     const bool spline = planned.print.style.line == Line::spline;
     result.seconds = 0.0005 + cost.nodes * (spline ? 3 : 1.5) * 8e-9;
+    result.seconds += matching_seconds(grammar, settings.budget);
     result.memory = cost.memory + text;
     switch (format) {
         case PrintFormat::svg:
@@ -78,7 +101,7 @@ void forecast_score(const GalleryJob& job, const PlaySettings& settings, const G
     double nodes = std::min(known ? known->nodes : unknown_symbols, settings.budget);
     double notes = std::min(known ? drawn_symbols(grammar, *known) : nodes / 2, nodes);
     if (job.keys.contains("bars") || job.keys.contains("seconds")) nodes = notes = std::min(notes, 10'000.0);
-    result.seconds = 0.001 + nodes * 15e-9 + notes * 80e-9;
+    result.seconds = 0.001 + nodes * 15e-9 + notes * 80e-9 + matching_seconds(grammar, settings.budget);
     result.bytes = 600 + notes * 9;
     result.memory = 8e6;
     if (job.format == "wav" || job.format == "flac") {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/draw.h"
+#include "cli/gallery_patterns.h"
 #include "cli/play.h"
 
 #include <cstdint>
@@ -18,16 +19,6 @@ namespace sikku {
 
 /// More jobs are refused before they are expanded.
 constexpr double most_gallery_jobs = 1'000'000;
-
-/// A pattern of a gallery, read once.
-struct GalleryPattern {
-    std::string name;                         ///< without folder and ending
-    std::string kind;                         ///< the folder it lies in
-    std::string path;                         ///< to read it, and to find what lies beside it
-    std::string shown;                        ///< as a manifest names it
-    std::shared_ptr<const PatternText> text;  ///< null if it cannot be read
-    std::string problem;                      ///< then: why
-};
 
 /// Everything that it takes to make one file, whoever makes it, wherever and when.
 struct GalleryJob {
@@ -68,14 +59,19 @@ struct GalleryRequest {
     std::vector<std::string> patterns;  ///< names, globs, folders, files
     std::string gallery_file;
     std::string manifest;
-    std::map<std::string, std::string> keys;  ///< these go before what the files say
-    std::vector<std::string> overrides;       ///< KEY=VALUE
-    std::string poster, contact;              ///< sizes of sheets; where empty, the gallery file's are filled in
-    std::string title;                        ///< of the page; where empty, the gallery file's, or what it shows
+    std::optional<std::string> gallery_text;   ///< instead of reading the gallery file; its name is for messages
+    std::optional<std::string> manifest_text;  ///< likewise
+    bool bundled_only = false;                 ///< patterns are not looked for in files
+    std::map<std::string, std::string> keys;   ///< these go before what the files say
+    std::vector<std::string> overrides;        ///< KEY=VALUE
+    std::string poster, contact;               ///< sizes of sheets; where empty, the gallery file's are filled in
+    std::string title;                         ///< of the page; where empty, the gallery file's, or what it shows
 };
 
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
-/// @throws UsageError with file, line and column for every mistake that can be seen before a pattern is compiled
+/// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
+/// @throws UsageError with file, line and column for every mistake that can be seen before a pattern is compiled;
+/// Interrupted
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request);
 
 /// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.

@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <set>
-#include <vector>
+#include <string_view>
 
 namespace sikku {
 namespace {
 
 constexpr std::size_t most_depth = 50;
+constexpr std::size_t most_values = 100'000;
+constexpr std::size_t most_object_keys = 1000;  // an ordered object looks for a key one by one
 
-void require_shallow(const std::string& text) {
+/// Counts brackets and values before memory is spent on them. The places of all keys, in the order of the text.
+std::vector<std::size_t> find_keys(std::string_view text) {
+    std::vector<std::size_t> keys;
     std::size_t depth = 0;
+    std::size_t values = 0;
+    std::size_t last_text = 0;
     bool in_text = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char letter = text[i];
@@ -19,19 +25,27 @@ void require_shallow(const std::string& text) {
             ++i;
         } else if (letter == '"') {
             in_text = !in_text;
-        } else if (!in_text && (letter == '[' || letter == '{')) {
+            if (in_text) last_text = i;
+        } else if (in_text) {
+            continue;
+        } else if (letter == '[' || letter == '{') {
             if (++depth > most_depth) throw JsonError("too many brackets in each other", i + 1);
-        } else if (!in_text && (letter == ']' || letter == '}')) {
+        } else if (letter == ']' || letter == '}') {
             depth -= depth > 0 ? 1 : 0;
+        } else if (letter == ',' || letter == ':') {
+            if (++values > most_values) throw JsonError("too many values: at most 100000 are read", i + 1);
+            if (letter == ':') keys.push_back(last_text);
         }
     }
+    return keys;
 }
 
 }  // namespace
 
-nlohmann::ordered_json read_json(const std::string& text) {
+nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_t>* key_places) {
     using Json = nlohmann::ordered_json;
-    require_shallow(text);
+    std::vector<std::size_t> places = find_keys(text);
+    std::size_t met = 0;                      // keys so far
     std::vector<std::set<std::string>> keys;  // of the objects that are open
     const Json::parser_callback_t look = [&](int, Json::parse_event_t event, Json& value) {
         if (event == Json::parse_event_t::object_start) {
@@ -39,17 +53,23 @@ nlohmann::ordered_json read_json(const std::string& text) {
         } else if (event == Json::parse_event_t::object_end) {
             keys.pop_back();
         } else if (event == Json::parse_event_t::key) {
+            // The parser hands over a key before it sees the colon.
+            const std::size_t place = met < places.size() ? places[met] : 0;
+            ++met;
             const auto key = value.get<std::string>();
             if (!keys.back().insert(key).second) {
-                const std::string written = '"' + key + '"';
-                const std::size_t at = text.find(written, text.find(written) + 1);
-                throw JsonError(fmt::format("the key '{}' stands twice", key), std::min(at, text.size()) + 1);
+                throw JsonError(fmt::format("the key '{}' stands twice", key), place + 1);
+            }
+            if (keys.back().size() > most_object_keys) {
+                throw JsonError("too many keys: an object has at most 1000", place + 1);
             }
         }
         return true;
     };
     try {
-        return Json::parse(text, look);
+        Json json = Json::parse(text, look);
+        if (key_places) *key_places = std::move(places);
+        return json;
     } catch (const Json::parse_error& error) {
         throw JsonError("this is no JSON", std::max<std::size_t>(error.byte, 1));
     } catch (const Json::exception&) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -15,8 +16,10 @@ public:
     std::size_t byte;
 };
 
-/// Objects keep the order of their keys. @throws JsonError for what is no JSON, more than 50 brackets deep, a number
-/// that doubles do not hold, or a key that stands twice in an object
-nlohmann::ordered_json read_json(const std::string& text);
+/// Objects keep the order of their keys. Time: linear, as objects and the text are limited.
+/// @param key_places  gets the offset of each key of each object, in the order of the text
+/// @throws JsonError for what is not JSON, more than 50 brackets deep, more than 100,000 values, more than 1,000 keys
+/// in an object, a number that doubles do not hold, or a key that stands twice in an object
+nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_t>* key_places = nullptr);
 
 }  // namespace sikku

@@ -89,6 +89,26 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
+/// Every variant has to hold as well. Each is compiled as a whole: many of a large pattern would take minutes.
+void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
+    constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
+    const std::size_t size = pattern.source->text().size();
+    if (pattern.variants.size() > 1 && size > most_bytes / pattern.variants.size()) {
+        diagnostics.error(
+            pattern.variants.front().name,
+            fmt::format("too many variants of a pattern of {} bytes to check: {}; together at most 256 MB", size,
+                        pattern.variants.size()));
+        return;
+    }
+    for (const Variant& variant : pattern.variants) {
+        if (interrupted()) throw Interrupted("interrupted");
+        if (diagnostics.has_errors()) return;
+        Pattern varied = pattern;
+        apply_overrides(varied, variant.name.view(), {}, diagnostics);
+        compile(varied, diagnostics);
+    }
+}
+
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
     Diagnostics diagnostics;
@@ -96,13 +116,7 @@ bool check(const std::string& file) {
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     if (!diagnostics.is_unreadable()) {
         compile(pattern, diagnostics);
-        // Every variant has to hold as well.
-        for (const Variant& variant : pattern.variants) {
-            if (diagnostics.has_errors()) break;
-            Pattern varied = pattern;
-            apply_overrides(varied, variant.name.view(), {}, diagnostics);
-            compile(varied, diagnostics);
-        }
+        if (!diagnostics.has_errors()) check_variants(pattern, diagnostics);
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());
     return !diagnostics.has_errors();

@@ -1,5 +1,7 @@
 #include "engine/derivation.h"
 
+#include "engine/neighbourhood.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -319,119 +321,6 @@ private:
     Word pending_;
 };
 
-/// Looks at the neighbours of a place of a word, across branches, as the pfg program does.
-/// For each place it knows the next symbol to the left and to the right that contexts see, so that a long stretch of
-/// ignored symbols, or a large branch, is passed in one step.
-/// Source: Prusinkiewicz & Hanan 1989, section 3.4 and appendix A.
-class Neighbourhood {
-public:
-    Neighbourhood(const Grammar& grammar, const Word& word, bool with_branches) : grammar_(grammar), word_(word) {
-        if (with_branches) find_branches();
-        const auto size = static_cast<std::uint32_t>(word.size());
-        before_.resize(word.size() + 1);
-        after_.resize(word.size() + 1);
-        std::vector<std::uint32_t> open;
-        before_[0] = nothing;
-        for (std::uint32_t i = 0; i < size; ++i) {
-            const Symbol symbol = word[i];
-            before_[i + 1] = i;
-            if (grammar.is_push(symbol)) open.push_back(before_[i]);
-            // What came before a branch is seen after it; its end closes it even where brackets are ignored.
-            std::uint32_t opened = nothing;
-            if (grammar.is_pop(symbol) && !open.empty()) {
-                opened = open.back();
-                open.pop_back();
-            }
-            if (grammar.ignored(symbol) || grammar.is_push(symbol)) {
-                before_[i + 1] = before_[i];
-            } else if (grammar.is_pop(symbol)) {
-                before_[i + 1] = opened;
-            }
-        }
-        open.clear();
-        after_[size] = nothing;
-        for (std::uint32_t i = size; i-- > 0;) {
-            const Symbol symbol = word[i];
-            after_[i] = i;
-            if (grammar.is_pop(symbol)) open.push_back(after_[i + 1]);
-            std::uint32_t closed = nothing;
-            if (grammar.is_push(symbol) && !open.empty()) {
-                closed = open.back();
-                open.pop_back();
-            }
-            if (grammar.ignored(symbol)) {
-                after_[i] = after_[i + 1];
-            } else if (grammar.is_push(symbol)) {
-                after_[i] = closed;
-            }
-        }
-    }
-
-    /// Where the symbols of a context were seen, from left to right, is written to `seen` if there is one.
-    bool left_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) const {
-        for (std::size_t k = context.size(); k > 0; --k) {
-            const std::uint32_t seen = before_[at];
-            if (seen == nothing || word_[seen] != context[k - 1]) return false;
-            if (seen_at) seen_at[k - 1] = seen;
-            at = seen;
-        }
-        return true;
-    }
-
-    bool right_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) {
-        ends_.clear();
-        for (const Symbol wanted : context) {
-            if (!branch_.empty() && grammar_.is_push(wanted)) {
-                // Nothing but what is ignored may lie before the branch.
-                const std::size_t begin =
-                    at < word_.size() && !grammar_.is_push(word_[at]) ? std::size_t{branch_[at]} : at;
-                if (begin >= word_.size()) return false;
-                ends_.push_back(branch_[begin]);
-                at = begin + 1;
-                if (seen_at) *seen_at++ = nothing;
-            } else if (!branch_.empty() && grammar_.is_pop(wanted)) {
-                at = ends_.back() == nothing ? word_.size() : std::size_t{ends_.back()} + 1;
-                ends_.pop_back();
-                if (seen_at) *seen_at++ = nothing;
-            } else {
-                const std::uint32_t seen = after_[at];
-                if (seen == nothing || word_[seen] != wanted) return false;
-                if (seen_at) *seen_at++ = seen;
-                at = std::size_t{seen} + 1;
-            }
-        }
-        return true;
-    }
-
-private:
-    /// Of a '[', its ']'; of another place, the '[' that follows with nothing but what is ignored before it.
-    void find_branches() {
-        branch_.assign(word_.size(), nothing);
-        std::vector<std::uint32_t> closed;
-        for (auto i = static_cast<std::uint32_t>(word_.size()); i-- > 0;) {
-            const Symbol symbol = word_[i];
-            if (grammar_.is_pop(symbol)) {
-                closed.push_back(i);
-            } else if (grammar_.is_push(symbol)) {
-                if (!closed.empty()) {
-                    branch_[i] = closed.back();
-                    closed.pop_back();
-                }
-            } else if (grammar_.ignored(symbol) && std::size_t{i} + 1 < word_.size()) {
-                branch_[i] = grammar_.is_push(word_[i + 1]) ? i + 1 : branch_[i + 1];
-            }
-        }
-    }
-
-    static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
-    const Grammar& grammar_;
-    const Word& word_;
-    std::vector<std::uint32_t> before_;  // the place seen from the left end of each symbol
-    std::vector<std::uint32_t> after_;   // the place seen from there to the right, its own included
-    std::vector<std::uint32_t> branch_;  // empty if no context looks into branches
-    std::vector<std::uint32_t> ends_;    // of the branches of a context being matched
-};
-
 bool looks_into_branches(const Grammar& grammar, const Table& table) {
     return std::any_of(table.productions().begin(), table.productions().end(), [&](const Production& production) {
         return std::any_of(production.right.begin(), production.right.end(),
@@ -517,13 +406,25 @@ ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word) {
     return result;
 }
 
+/// Does the predecessor, of which the first symbol is known to be there, stand in the word at that place?
+bool stands_at(const Word& predecessor, const Word& word, std::size_t at, MatchingWork& work) {
+    if (predecessor.size() == 1) return true;
+    if (predecessor.size() > word.size() - at) return false;
+    const auto [end, there] =
+        std::mismatch(predecessor.begin() + 1, predecessor.end(), word.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    work.add(static_cast<std::uint64_t>(end - predecessor.begin()));
+    return end == predecessor.end();
+}
+
 /// One step of a system with parameters or chance.
 class ModuleRewriter {
 public:
     ModuleRewriter(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
-                   const DerivationOptions& options)
-        : grammar_(grammar), table_(table), word_(word), step_(step), options_(options) {
-        if (!table.context_free()) neighbourhood_.emplace(grammar, word.symbols, looks_into_branches(grammar, table));
+                   MatchingWork& work)
+        : grammar_(grammar), table_(table), word_(word), step_(step), work_(work) {
+        if (!table.context_free()) {
+            neighbourhood_.emplace(grammar, word.symbols, looks_into_branches(grammar, table), work);
+        }
         if (grammar.is_parametric() && neighbourhood_) {
             if (word.arguments.size() > UINT32_MAX) throw BudgetError("the word has more than 2^32 parameters");
             begin_.reserve(word.symbols.size());
@@ -541,14 +442,13 @@ public:
         result.arguments.reserve(word_.arguments.size());
         const bool has_places = grammar_.is_stochastic();
         if (has_places) result.places.reserve(word_.symbols.size());
-        std::uint64_t visited = 0;
         const auto fault = [&](const char* message) {
             throw WordError(fmt::format("step {}: symbol {} of the word before it, '{}': {}", step_, at_ + 1,
                                         symbol_text(info(at_), {word_.arguments.data() + argument_, info(at_).arity}),
                                         message));
         };
         while (at_ < word_.symbols.size()) {
-            if (++visited % between_watches == 0 && options_.watch) options_.watch(0);
+            work_.add(1);
             const Symbol symbol = word_.symbols[at_];
             const std::uint64_t place = !has_places            ? 0
                                         : word_.places.empty() ? axiom_place(grammar_.seed(), at_)
@@ -589,10 +489,8 @@ private:
 
     bool matches(const Production& production) {
         const std::size_t end = at_ + production.predecessor.size();
-        if (end > word_.symbols.size() || !std::equal(production.predecessor.begin(), production.predecessor.end(),
-                                                      word_.symbols.begin() + static_cast<std::ptrdiff_t>(at_))) {
-            return false;
-        }
+        work_.add(1);
+        if (!stands_at(production.predecessor, word_.symbols, at_, work_)) return false;
         std::size_t own = 0;
         for (std::size_t i = at_; i < end; ++i) own += info(i).arity;
         formals_ = std::span(word_.arguments).subspan(argument_, own);
@@ -626,7 +524,7 @@ private:
     const Table& table_;
     const ModuleWord& word_;
     std::int64_t step_;
-    const DerivationOptions& options_;
+    MatchingWork& work_;
     std::optional<Neighbourhood> neighbourhood_;
     std::vector<std::uint32_t> begin_;  // of each symbol's arguments, where contexts ask for them
     std::size_t at_ = 0;
@@ -1028,7 +926,10 @@ private:
 
 }  // namespace
 
-Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options) {
+namespace {
+
+Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options,
+             MatchingWork& work) {
     // Places are counted in 32 bits.
     const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
     const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
@@ -1043,25 +944,21 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
     auto choose = [&, neighbourhood = context_free
                                           ? std::nullopt
                                           : std::optional<Neighbourhood>(std::in_place, grammar, word,
-                                                                         looks_into_branches(grammar, table))](
+                                                                         looks_into_branches(grammar, table), work)](
                       std::size_t at) mutable -> const Production* {
         for (const std::uint32_t i : table.candidates(word[at])) {
             const Production& production = table.production(i);
-            const std::size_t end = at + production.predecessor.size();
-            if (end > word.size() || !std::equal(production.predecessor.begin(), production.predecessor.end(),
-                                                 word.begin() + static_cast<std::ptrdiff_t>(at))) {
-                continue;
-            }
+            work.add(1);
+            if (!stands_at(production.predecessor, word, at, work)) continue;
             if (neighbourhood->left_matches(production.left, at) &&
-                neighbourhood->right_matches(production.right, end)) {
+                neighbourhood->right_matches(production.right, at + production.predecessor.size())) {
                 return &production;
             }
         }
         return nullptr;
     };
-    std::uint64_t visited = 0;
     for (std::size_t at = 0; at < word.size();) {
-        if (++visited % between_watches == 0 && options.watch) options.watch(0);
+        work.add(1);
         const Word* successor = nullptr;
         std::size_t replaced = 1;
         if (context_free) {
@@ -1082,19 +979,34 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
 }
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
-                   const DerivationOptions& options) {
+                   const DerivationOptions& options, MatchingWork& work) {
     std::optional<ModuleWord> trimmed;
     if (grammar.cut() &&
         std::find(given.symbols.begin(), given.symbols.end(), *grammar.cut()) != given.symbols.end()) {
         trimmed = without_cuts(grammar, given);
     }
     const ModuleWord& word = trimmed ? *trimmed : given;
-    if (grammar.is_plain()) return {rewrite(grammar, table, word.symbols, options), {}, {}};
+    work.begin_step(step, word.symbols.size());
+    if (grammar.is_plain()) return {rewrite(grammar, table, word.symbols, options, work), {}, {}};
     // Places are counted in 32 bits.
     const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
     const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
     if (word.symbols.size() > longest) refuse();
-    return ModuleRewriter(grammar, table, word, step, options).run(longest, refuse);
+    return ModuleRewriter(grammar, table, word, step, work).run(longest, refuse);
+}
+
+}  // namespace
+
+Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options) {
+    MatchingWork work(options);
+    work.begin_step(1, word.size());
+    return rewrite(grammar, table, word, options, work);
+}
+
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
+                   const DerivationOptions& options) {
+    MatchingWork work(options);
+    return rewrite(grammar, table, word, step, options, work);
 }
 
 namespace {
@@ -1116,6 +1028,7 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
     const std::int64_t done = grammar.steps_done();
     std::int64_t step = 0;
     std::uint64_t visited = 0;
+    MatchingWork work(options);
     for (const ScheduleRun& run : grammar.schedule()) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
             const ModuleWord& before = word ? *word : grammar.axiom_modules();
@@ -1133,7 +1046,9 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
             if (visited > options.whole_words) refuse("all words up to that", options.whole_words);
             ModuleWord next;
             try {
-                next = rewrite(grammar, grammar.tables()[run.table], before, done + step + 1, options);
+                next = rewrite(grammar, grammar.tables()[run.table], before, done + step + 1, options, work);
+            } catch (const MatchingError&) {
+                throw;
             } catch (const BudgetError&) {
                 refuse("that", options.longest_word);
             }

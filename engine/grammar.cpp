@@ -24,6 +24,8 @@ constexpr std::size_t most_symbols = std::size_t{1} << 19;
 constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
 constexpr std::size_t most_places = std::size_t{1} << 22;
 constexpr std::size_t most_parameters = 64;                   // of a module that states them for itself
+constexpr std::size_t most_arguments = std::size_t{1} << 16;  // of any module
+constexpr std::size_t most_items = std::size_t{1} << 20;      // of a schedule
 constexpr std::int64_t largest_term = std::int64_t{1} << 40;  // of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
@@ -168,6 +170,10 @@ private:
             }
             if (name.size() > longest_allowed_name) {
                 diagnostics_.error(key->value.part(begin), "a name has at most 64 characters");
+                return;
+            }
+            if (name_set_.size() >= most_symbols) {
+                diagnostics_.error(key->value.part(begin), "there are more than 524,288 different symbols");
                 return;
             }
             if (!name_set_.insert(std::string(name)).second) {
@@ -693,6 +699,10 @@ private:
                 if (!quiet) diagnostics_.error(span.part(begin), "expected a parameter");
                 return false;
             }
+            if (parts.size() >= most_arguments) {
+                if (!quiet) diagnostics_.error(part, "a module has at most 65,536 parameters");
+                return false;
+            }
             parts.push_back(part);
             begin = at + 1;
             if (last) {
@@ -1087,6 +1097,10 @@ private:
         };
         for (std::size_t at = skip(0); at < text.size(); at = skip(at)) {
             const std::size_t begin = at;
+            if (items.size() >= most_items) {
+                diagnostics_.error(value.part(begin), "a schedule has at most 1,048,576 entries");
+                return std::nullopt;
+            }
             while (at < text.size() && text[at] != ' ' && text[at] != '\t' && text[at] != '*' && text[at] != ',')
                 ++at;
             const std::string_view name = text.substr(begin, at - begin);

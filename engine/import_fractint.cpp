@@ -24,10 +24,12 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_entries = 10'000;
-constexpr std::size_t most_word_bytes = std::size_t{1} << 20;     // of all words of an entry
-constexpr std::size_t most_factors = 32;                          // different numbers after @
-constexpr std::size_t most_levels = 20;                           // that differ
-constexpr double most_digits = 300;                               // of a length, before or after the point
+constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // of all words of an entry
+constexpr std::size_t most_pattern = std::size_t{4} << 20;     // bytes that one entry may become
+constexpr std::size_t most_written = std::size_t{32} << 20;    // for all of them, some twice; 4 times the file more
+constexpr std::size_t most_factors = 32;                       // different numbers after @
+constexpr std::size_t most_levels = 20;                        // that differ
+constexpr double most_digits = 300;                            // of a length, before or after the point
 constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
 constexpr int palette_size = 16;
 constexpr int first_colour = 15;
@@ -80,8 +82,10 @@ struct BadEntry {};
 
 class Entry {
 public:
-    Entry(const SourcePointer& file, Diagnostics& diagnostics, ImportLosses& losses, std::string name, std::size_t at)
-        : file_(file), diagnostics_(diagnostics), losses_(losses), name_(std::move(name)), at_(at) {}
+    /// @param room  bytes that may still be written; what is written is taken from it
+    Entry(const SourcePointer& file, Diagnostics& diagnostics, ImportLosses& losses, std::string name, std::size_t at,
+          std::size_t& room)
+        : file_(file), diagnostics_(diagnostics), losses_(losses), name_(std::move(name)), at_(at), room_(room) {}
 
     /// Reads what stands between the braces and writes the pattern. @throws BadEntry
     std::string pattern(std::size_t begin, std::size_t end) {
@@ -458,8 +462,11 @@ private:
             text += ' ';
             text += more;
         }
-        written_ += more.size() + 1;
-        if (written_ > most_import_bytes) fail(at_, "this system makes a pattern longer than 64 MB");
+        const std::size_t bytes = more.size() + 1;
+        if (bytes > room_) fail(at_, "the patterns of this collection are longer than 16 MB and twice the file");
+        room_ -= bytes;
+        written_ += bytes;
+        check_size(written_);
     }
 
     bool inert(char letter) const {
@@ -551,7 +558,7 @@ private:
                 for (std::size_t i = begins_late ? 0 : 1; i < lines.size(); ++i) {
                     if (all_same(lines[i].right)) continue;
                     text += lines[i].left + " --> " + lines[i].right[level] + '\n';
-                    check_size(text);
+                    check_size(text.size());
                 }
             };
             std::string schedule = "\nschedule:";
@@ -567,12 +574,12 @@ private:
             text += schedule + '\n';
         }
         text += interpretation();
-        check_size(text);
+        check_size(text.size());
         return text;
     }
 
-    void check_size(const std::string& text) {
-        if (text.size() > most_import_bytes) fail(at_, "this system makes a pattern longer than 64 MB");
+    void check_size(std::size_t bytes) {
+        if (bytes > most_pattern) fail(at_, "this system makes a pattern longer than 4 MB");
     }
 
     static bool all_same(const std::vector<std::string>& list) {
@@ -717,6 +724,7 @@ private:
     std::set<std::pair<char, std::string>> step_letters_;
     std::set<char> dropped_;
     bool has_turn_around_ = false;
+    std::size_t& room_;
     std::size_t written_ = 0;
 };
 
@@ -734,6 +742,7 @@ std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnosti
         return systems;
     }
     ImportLosses losses(file, diagnostics);
+    std::size_t room = most_written + 4 * text.size();
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t line_end = find_before(text, '\n', at, text.size());
         const std::size_t brace = find_before(text, '{', at, line_end);
@@ -762,7 +771,7 @@ std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnosti
             diagnostics.error({file, brace, 1}, fmt::format("the entry '{}' has no end: expected '}}'", system.name));
         } else {
             try {
-                system.pattern = Entry(file, diagnostics, losses, system.name, begin).pattern(brace + 1, end);
+                system.pattern = Entry(file, diagnostics, losses, system.name, begin, room).pattern(brace + 1, end);
                 if (!import_compiles(system.name, system.pattern, {file, begin, 1}, diagnostics)) {
                     system.pattern.clear();
                 }

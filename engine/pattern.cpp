@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <unordered_map>
 
 namespace sikku {
 namespace {
@@ -12,6 +13,13 @@ namespace {
 constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
 
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
+// Of a pattern file, counted while it is read, so that no small file takes much memory.
+constexpr std::size_t most_keys = 1024;  // together with those that settings add
+constexpr std::size_t most_defines = std::size_t{1} << 18;
+constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables together
+constexpr std::size_t most_tables = std::size_t{1} << 16;
+constexpr std::size_t most_variants = std::size_t{1} << 16;
+constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
 
 constexpr std::array<std::string_view, 19> engine_keys = {
     "axiom",       "derivation length", "angle factor", "angle increment", "turn",     "heading", "forward", "move",
@@ -73,7 +81,7 @@ public:
 
     void run() {
         const std::string_view text = pattern_.source->cleaned();
-        for (std::size_t at = 0; at < text.size();) {
+        for (std::size_t at = 0; at < text.size() && !diagnostics_.is_unreadable();) {
             std::size_t end = text.find('\n', at);
             if (end == std::string_view::npos) end = text.size();
             line(Span{pattern_.source, at, end - at}.trimmed());
@@ -116,6 +124,13 @@ private:
         return folded(text.substr(0, word.size())) == word && (text[word.size()] == ' ' || text[word.size()] == '\t');
     }
 
+    /// Is there room for one more of them? If not, the file is not read any further.
+    bool has_room(const Span& where, std::size_t count, std::size_t most, std::string_view what) {
+        if (count < most) return true;
+        diagnostics_.unreadable(where, fmt::format("too many {}: a pattern has at most {}", what, most));
+        return false;
+    }
+
     bool nesting_is_sane(const Span& whole) {
         std::size_t depth = 0;
         const std::string_view text = whole.view();
@@ -146,6 +161,7 @@ private:
 
     void add_key(const Span& whole, const std::string& name, std::size_t colon) {
         const Key key{name, whole.part(0, colon).trimmed(), whole.part(colon + 1).trimmed()};
+        if (!has_room(key.name_at, pattern_.keys.size(), most_keys, "keys")) return;
         if (!key_names_.insert(name).second) {
             return diagnostics_.error(key.name_at, fmt::format("'{}:' is given twice", name));
         }
@@ -169,6 +185,7 @@ private:
         if (value.empty()) {
             return diagnostics_.error(name, fmt::format("'{}' is defined without a value", name.view()));
         }
+        if (!has_room(name, pattern_.defines.size(), most_defines, "defines")) return;
         if (!define_names_.insert(std::string(name.view())).second) {
             return diagnostics_.error(name, fmt::format("'{}' is defined twice", name.view()));
         }
@@ -178,6 +195,7 @@ private:
     void table(const Span& whole, std::size_t colon) {
         const Span name = whole.part(5, colon - 5).trimmed();
         if (name.empty()) return diagnostics_.error(whole, "expected the table's name: 'table NAME:'");
+        if (!has_room(name, pattern_.tables.size(), most_tables, "tables")) return;
         const Span rest = whole.part(colon + 1).trimmed();
         if (!rest.empty()) {
             diagnostics_.error(rest, "a table's productions stand on the lines after its name");
@@ -200,6 +218,7 @@ private:
     void variant(const Span& whole, std::size_t colon) {
         const Span name = whole.part(7, colon - 7).trimmed();
         if (name.empty()) return diagnostics_.error(whole, "expected the variant's name: 'variant NAME:'");
+        if (!has_room(name, pattern_.variants.size(), most_variants, "variants")) return;
         if (!variant_names_.insert(std::string(name.view())).second) {
             return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
         }
@@ -213,6 +232,7 @@ private:
                 continue;
             }
             const Span key = item.part(0, equals).trimmed();
+            if (!has_room(key, settings_++, most_settings, "settings of variants")) return;
             result.settings.push_back({std::string(key.view()), key, item.part(equals + 1).trimmed()});
         }
         pattern_.variants.push_back(std::move(result));
@@ -225,6 +245,7 @@ private:
         std::size_t begin = 0;
         for (std::size_t comma = find_outside(text, ","); comma != std::string_view::npos;
              comma = find_outside(text, ",", comma + 1)) {
+            if (items.size() > most_settings) return items;
             const std::size_t next = text.find_first_of(",=", comma + 1);
             if (next != std::string_view::npos && text[next] == ',') continue;
             items.push_back(list.part(begin, comma - begin).trimmed());
@@ -268,6 +289,7 @@ private:
         if (result.predecessor.empty()) {
             return diagnostics_.error(whole, "expected a predecessor before '-->'");
         }
+        if (!has_room(whole, productions_++, most_productions, "productions")) return;
         switch (section_) {
             case Section::common:
                 pattern_.common.push_back(std::move(result));
@@ -285,37 +307,57 @@ private:
     Diagnostics& diagnostics_;
     Section section_ = Section::common;
     bool interpret_seen_ = false;
+    std::size_t productions_ = 0;
+    std::size_t settings_ = 0;
     std::set<std::string, std::less<>> key_names_;
     std::set<std::string, std::less<>> define_names_;
     std::set<std::string, std::less<>> table_names_;
     std::set<std::string, std::less<>> variant_names_;
 };
 
-void override_one(Pattern& pattern, std::string_view name, const Span& name_at, const Span& value) {
-    for (Define& define : pattern.defines) {
-        if (define.name.view() == name) {
-            define.value = value;
+/// Puts other values in the place of those that a pattern states.
+class Overrides {
+public:
+    Overrides(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {
+        for (std::size_t i = 0; i < pattern.defines.size(); ++i) defines_.emplace(pattern.defines[i].name.view(), i);
+    }
+
+    void set(std::string_view name, const Span& name_at, const Span& value) {
+        if (const auto define = defines_.find(name); define != defines_.end()) {
+            pattern_.defines[define->second].value = value;
             return;
         }
-    }
-    const std::string key = folded(name);
-    // Of two keys that exclude each other the one set later wins.
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 2> exclusive = {
-        std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
-    for (const auto& [one, other] : exclusive) {
-        if (key != one && key != other) continue;
-        std::erase_if(pattern.keys,
-                      [excluded = key == one ? other : one](const Key& present) { return present.name == excluded; });
-    }
-    for (Key& present : pattern.keys) {
-        if (present.name == key) {
-            present.name_at = name_at;
-            present.value = value;
+        const std::string key = folded(name);
+        // Of two keys that exclude each other the one set later wins.
+        constexpr std::array<std::pair<std::string_view, std::string_view>, 2> exclusive = {
+            std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
+        for (const auto& [one, other] : exclusive) {
+            if (key != one && key != other) continue;
+            std::erase_if(pattern_.keys, [excluded = key == one ? other : one](const Key& present) {
+                return present.name == excluded;
+            });
+        }
+        for (Key& present : pattern_.keys) {
+            if (present.name == key) {
+                present.name_at = name_at;
+                present.value = value;
+                return;
+            }
+        }
+        if (pattern_.keys.size() >= most_keys) {
+            if (!diagnostics_.is_unreadable()) {
+                diagnostics_.unreadable(name_at, fmt::format("too many keys: a pattern has at most {}", most_keys));
+            }
             return;
         }
+        pattern_.keys.push_back({key, name_at, value});
     }
-    pattern.keys.push_back({key, name_at, value});
-}
+
+private:
+    Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    std::unordered_map<std::string_view, std::size_t> defines_;
+};
 
 }  // namespace
 
@@ -360,6 +402,8 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
 
 void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
                      Diagnostics& diagnostics) {
+    if (variant.empty() && settings.empty()) return;
+    Overrides overrides(pattern, diagnostics);
     if (!variant.empty()) {
         const auto chosen = std::find_if(pattern.variants.begin(), pattern.variants.end(),
                                          [&](const Variant& other) { return other.name.view() == variant; });
@@ -377,7 +421,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                                                                : fmt::format("no such variant; there are: {}", list));
         } else {
             for (const Key& setting : chosen->settings) {
-                override_one(pattern, setting.name, setting.name_at, setting.value);
+                overrides.set(setting.name, setting.name_at, setting.value);
             }
         }
     }
@@ -399,7 +443,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
             diagnostics.error(whole, "expected key=value");
             continue;
         }
-        override_one(pattern, name.view(), name, whole.part(setting.key.size() + 1).trimmed());
+        overrides.set(name.view(), name, whole.part(setting.key.size() + 1).trimmed());
     }
 }
 

@@ -1,6 +1,7 @@
 // tests/corpus_test.cpp: what the fuzzers do, done with every file of the corpus and every pattern.
 #include "art/image_file.h"
 #include "tests/fuzz/file_targets.h"
+#include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
 
@@ -96,6 +97,17 @@ TEST(Corpus, ProfilesAreReadOrRefused) {
                 ASSERT_NE(std::string_view(error.what()).find("changed.icc"), std::string_view::npos);
             }
         });
+    }
+}
+
+TEST(Corpus, EveryFileOfScalesGoesThroughTheFuzzTargets) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / "tests/corpus")) {
+        if (!entry.is_regular_file()) continue;
+        SCOPED_TRACE(entry.path().string());
+        const std::string text = contents(entry.path());
+        EXPECT_NO_THROW(try_scl(text));
+        EXPECT_NO_THROW(try_kbm(text));
     }
 }
 

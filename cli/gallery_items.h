@@ -1,0 +1,129 @@
+// cli/gallery_items.h: what a gallery file, a manifest and the command line ask for together: items, each a list of
+// patterns and formats and keys with the values that they take one after the other. Nothing is expanded yet.
+#pragma once
+
+#include "cli/gallery_jobs.h"
+#include "cli/gallery_values.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+enum class GalleryUse { any, print, score };
+enum class GalleryKind { text, number, whole, flag };
+
+/// What is known about a key of gallery files.
+struct GalleryKeyFacts {
+    GalleryKey shown;
+    GalleryUse use = GalleryUse::any;
+    GalleryKind kind = GalleryKind::text;
+    bool overrides = false;  ///< it is a key of the pattern, not an option
+    double least = -1e300;
+    double most = 1e300;
+};
+const std::vector<GalleryKeyFacts>& all_gallery_keys();
+/// Null if there is none of that name.
+const GalleryKeyFacts* find_gallery_key(std::string_view name);
+/// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
+std::string folded_key(std::string key);
+
+bool is_score_format(std::string_view format);
+
+/// `60:90:5`, not written out.
+struct GalleryRange {
+    double first = 0;
+    double step = 1;
+    double count = 1;  ///< perhaps infinite
+
+    std::string value(std::uint64_t index) const;
+};
+
+/// A key and the values it takes one after the other. Ranges are kept as they are written, so that memory is linear
+/// in the file.
+class GalleryAxis {
+public:
+    GalleryAxis(std::string its_key, std::string its_place, bool is_in_set)
+        : key(std::move(its_key)), place(std::move(its_place)), in_set(is_in_set) {}
+
+    void add(std::string text) { add({std::move(text), std::nullopt, count_}, 1); }
+    void add(const GalleryRange& range) { add({{}, range, count_}, range.count); }
+
+    double count() const { return count_; }
+    std::string value(std::uint64_t index) const;
+    /// Is it a single value, or the first or last of a range?
+    bool is_end(std::uint64_t index) const;
+
+    std::string key;
+    std::string place;
+    bool in_set;
+
+private:
+    struct Part {
+        std::string text;
+        std::optional<GalleryRange> range;  ///< instead of the text
+        double begin = 0;                   ///< index of its first value
+    };
+    void add(Part part, double count) {
+        parts_.push_back(std::move(part));
+        count_ += count;
+    }
+    const Part& part_of(std::uint64_t index) const;
+    std::vector<Part> parts_;
+    double count_ = 0;
+};
+
+/// What is asked for together. Copies share the values, which may be many.
+struct GalleryItem {
+    using Axis = std::shared_ptr<const GalleryAxis>;
+    std::string place;
+    bool needs_pattern = false;
+    std::filesystem::path folder;
+    std::shared_ptr<const std::vector<std::string>> patterns;  ///< null: those that are bundled
+    std::string patterns_place;
+    std::vector<std::string> formats;
+    std::shared_ptr<const std::string> name;  ///< with placeholders; null: as usual
+    std::string name_place;
+    std::vector<Axis> axes;
+
+    void drop(std::string_view key);
+    /// Takes the place of one of the same key.
+    void take(Axis axis);
+};
+
+/// A list of items, counted while it grows: each makes one job at least.
+class GalleryItems {
+public:
+    /// @throws UsageError if they, or the settings of all of them, are too many
+    void add(GalleryItem item);
+    std::vector<GalleryItem> list;
+
+private:
+    std::size_t settings_ = 0;
+};
+
+/// A longer name, or form of one, is refused.
+constexpr std::size_t longest_job_name = 1000;
+
+/// Sets a key of an item to what a file says. @throws UsageError
+void read_gallery_key(const std::string& written, const GalleryValue& value, GalleryItem& item);
+/// The axis of a key; of one of the pattern's own where `facts` is null. @throws UsageError
+GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKeyFacts* facts);
+
+/// @throws UsageError if that is not the size of a sheet
+void check_sheet_size(const std::string& key, const std::string& size, const std::string& place);
+
+/// The defaults go into `defaults`; title and sizes of sheets into `request`, unless it has them already.
+void read_gallery(const std::string& file, const std::string& text, GalleryItem& defaults, GalleryRequest& request,
+                  GalleryItems& items);
+/// Reads line by line.
+void read_manifest(const std::string& file, std::istream& stream, const GalleryItem& defaults, GalleryItems& items);
+
+}  // namespace sikku

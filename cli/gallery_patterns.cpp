@@ -1,0 +1,262 @@
+#include "cli/gallery_patterns.h"
+
+#include "cli/gallery_values.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_entries = 1'000'000;
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t longest_word = 4096;
+
+bool has_wildcards(std::string_view word) {
+    return word.find_first_of("*?[") != std::string_view::npos;
+}
+
+/// The place after the set `[…]` that begins at `at`; npos if it does not end. `fits`: is the byte one of it?
+std::size_t read_set(std::string_view form, std::size_t at, char byte, bool& fits) {
+    const bool is_not = at + 1 < form.size() && (form[at + 1] == '!' || form[at + 1] == '^');
+    std::size_t i = at + (is_not ? 2 : 1);
+    const std::size_t first = i;
+    bool is_listed = false;
+    for (; i < form.size() && (form[i] != ']' || i == first); ++i) {
+        if (form[i] == '\\' && i + 1 < form.size()) ++i;
+        const auto low = static_cast<unsigned char>(form[i]);
+        auto high = low;
+        if (i + 2 < form.size() && form[i + 1] == '-' && form[i + 2] != ']') {
+            i += 2;
+            if (form[i] == '\\' && i + 1 < form.size()) ++i;
+            high = static_cast<unsigned char>(form[i]);
+        }
+        const auto value = static_cast<unsigned char>(byte);
+        is_listed = is_listed || (low <= value && value <= high);
+    }
+    if (i >= form.size()) return std::string_view::npos;
+    fits = is_listed != is_not;
+    return i + 1;
+}
+
+/// The place after what stands for one byte at `at`, if that byte fits; npos if it does not.
+std::size_t fit_one(std::string_view form, std::size_t at, char byte) {
+    if (form[at] == '?') return at + 1;
+    if (form[at] == '[') {
+        bool fits = false;
+        const std::size_t end = read_set(form, at, byte, fits);
+        if (end != std::string_view::npos) return fits ? end : std::string_view::npos;
+    }
+    if (form[at] == '\\' && at + 1 < form.size()) ++at;
+    return form[at] == byte ? at + 1 : std::string_view::npos;
+}
+
+/// Follows a path with wildcards from folder to folder. Folders that are reached in several ways are entered once,
+/// so that `*/../*/..` costs no more than `*`.
+class Walk {
+public:
+    Walk(std::size_t& entries, const std::string& place) : entries_(entries), place_(place) {}
+
+    /// Files that end in `.lsys`, sorted.
+    std::vector<std::filesystem::path> find(const std::filesystem::path& folder, const std::string& word) {
+        const std::filesystem::path form = word;
+        std::vector<std::filesystem::path> reached = {form.is_absolute() ? "/" : folder};
+        const auto parts = form.relative_path();
+        for (auto part = parts.begin(); part != parts.end(); ++part) {
+            const bool is_last = std::next(part) == parts.end();
+            reached = step(reached, part->string(), is_last);
+        }
+        std::sort(reached.begin(), reached.end(),
+                  [](const auto& a, const auto& b) { return a.native() < b.native(); });
+        return reached;
+    }
+
+    /// Files that end in `.lsys` in the folder and below it, sorted. Links to folders are not followed.
+    std::vector<std::filesystem::path> below(const std::filesystem::path& folder) {
+        std::vector<std::filesystem::path> files;
+        std::error_code error;
+        for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+             entry.increment(error)) {
+            count();
+            if (entry->path().extension() == ".lsys") files.push_back(entry->path());
+        }
+        if (error) fail(place_, fmt::format("{}: {}", folder.string(), error.message()));
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+
+private:
+    void count() {
+        if (++entries_ % 256 == 0 && interrupted()) throw Interrupted();
+        if (entries_ > most_entries) {
+            fail(place_, fmt::format("more than {} files and folders would be looked through", most_entries));
+        }
+    }
+
+    std::vector<std::filesystem::path> step(const std::vector<std::filesystem::path>& folders,
+                                            const std::string& part, bool is_last) {
+        std::vector<std::filesystem::path> reached;
+        std::set<std::pair<dev_t, ino_t>> seen;
+        const auto add = [&](const std::filesystem::path& path) {
+            count();
+            struct stat status {};
+            if (is_last && path.extension() != ".lsys") return;
+            if (::stat(path.c_str(), &status) != 0 || (!is_last && !S_ISDIR(status.st_mode))) return;
+            if (is_last || seen.emplace(status.st_dev, status.st_ino).second) reached.push_back(path);
+        };
+        for (const auto& folder : folders) {
+            if (!has_wildcards(part)) {
+                add(folder / without_escapes(part));
+                continue;
+            }
+            std::vector<std::filesystem::path> names;
+            std::error_code error;
+            const std::filesystem::path here = folder.empty() ? "." : folder;
+            for (std::filesystem::directory_iterator entry(here, error), end; !error && entry != end;
+                 entry.increment(error)) {
+                count();
+                const std::string name = entry->path().filename().string();
+                const bool is_hidden = name.starts_with('.') && !part.starts_with('.');
+                if (!is_hidden && fits_wildcards(part, name)) names.push_back(folder / name);
+            }
+            std::sort(names.begin(), names.end());
+            for (const auto& name : names) add(name);
+        }
+        return reached;
+    }
+
+    static std::string without_escapes(const std::string& part) {
+        std::string text;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            if (part[i] == '\\' && i + 1 < part.size()) ++i;
+            text += part[i];
+        }
+        return text;
+    }
+
+    std::size_t& entries_;
+    const std::string& place_;
+};
+
+}  // namespace
+
+bool fits_wildcards(std::string_view form, std::string_view name) {
+    constexpr std::size_t none = std::string_view::npos;
+    std::size_t at = 0;
+    std::size_t i = 0;
+    // The last star and what it stands for: earlier ones need not be tried again.
+    std::size_t star = none;
+    std::size_t star_end = 0;
+    while (i < name.size()) {
+        if (at < form.size() && form[at] == '*') {
+            star = at++;
+            star_end = i;
+            continue;
+        }
+        const std::size_t next = at < form.size() ? fit_one(form, at, name[i]) : none;
+        if (next != none) {
+            at = next;
+            ++i;
+        } else if (star != none) {
+            at = star + 1;
+            i = ++star_end;
+        } else {
+            return false;
+        }
+    }
+    while (at < form.size() && form[at] == '*') ++at;
+    return at == form.size();
+}
+
+std::vector<PatternShelf::Pointer> PatternShelf::find_files(const std::string& word,
+                                                            const std::filesystem::path& folder,
+                                                            const std::string& place, bool& is_folder) {
+    std::vector<Pointer> found;
+    if (bundled_only_) return found;
+    const std::filesystem::path path = folder / word;
+    std::error_code error;
+    is_folder = std::filesystem::is_directory(path, error);
+    if (is_folder) {
+        for (const auto& file : Walk(entries_, place).below(path)) found.push_back(of_file(file));
+    } else if (std::filesystem::exists(path, error)) {
+        found.push_back(of_file(path));
+    } else if (has_wildcards(word)) {
+        for (const auto& file : Walk(entries_, place).find(folder, word)) found.push_back(of_file(file));
+    }
+    return found;
+}
+
+PatternShelf::List PatternShelf::find(const std::string& word, const std::filesystem::path& folder,
+                                      const std::string& place) {
+    List& list = found_[{folder, word}];
+    if (list) return list;
+    if (interrupted()) throw Interrupted();
+    if (word == "-") fail(place, "a gallery reads no pattern from standard input");
+    if (word.size() > longest_word) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    bool is_folder = false;
+    std::vector<Pointer> found = find_files(word, folder, place, is_folder);
+    if (found.empty()) {
+        // The folder of a gallery may be called as a kind is.
+        for (const KnownPattern& pattern : known()) {
+            const std::string full = pattern.kind + "/" + pattern.name;
+            const bool is_full = word.find('/') != std::string::npos;
+            if (pattern.kind == word || fits_wildcards(word, is_full ? full : pattern.name)) {
+                found.push_back(of_known(pattern));
+            }
+        }
+    }
+    if (!found.empty()) {
+        list = std::make_shared<const std::vector<Pointer>>(std::move(found));
+        return list;
+    }
+    if (is_folder) fail(place, fmt::format("{}: there is no pattern in this folder", (folder / word).string()));
+    if (has_wildcards(word)) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    std::vector<std::string_view> names;
+    for (const KnownPattern& pattern : known()) names.push_back(pattern.name);
+    const std::string_view near = nearest(word, names);
+    fail(place, fmt::format("there is no file and no pattern '{}'{}", printable(word, 80),
+                            near.empty() ? "; `sikku patterns` lists those that come along"
+                                         : fmt::format("; did you mean '{}'?", near)));
+}
+
+PatternShelf::List PatternShelf::all() {
+    std::vector<Pointer> found;
+    for (const KnownPattern& pattern : known()) {
+        if (pattern.kind != "words") found.push_back(of_known(pattern));
+    }
+    if (found.empty()) throw UsageError("no patterns were found");
+    return std::make_shared<const std::vector<Pointer>>(std::move(found));
+}
+
+const std::vector<KnownPattern>& PatternShelf::known() {
+    if (!is_listed_) known_ = known_patterns();
+    is_listed_ = true;
+    return known_;
+}
+
+PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, const std::string& shown,
+                                         const std::string& called) {
+    Pointer& known = read_[file.string()];
+    if (known) return known;
+    if (interrupted()) throw Interrupted();
+    GalleryPattern pattern;
+    pattern.name = file.stem().string();
+    pattern.kind = file.parent_path().filename().string();
+    pattern.path = file.string();
+    pattern.shown = shown;
+    try {
+        pattern.text = std::make_shared<PatternText>(PatternText{called, read_pattern_text(file.string()).text});
+        bytes_ += pattern.text->text.size();
+    } catch (const UsageError& error) {
+        pattern.problem = error.what();
+    }
+    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery are over 1 GB together");
+    known = std::make_shared<const GalleryPattern>(std::move(pattern));
+    return known;
+}
+
+}  // namespace sikku

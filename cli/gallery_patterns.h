@@ -1,0 +1,61 @@
+// cli/gallery_patterns.h: finds the patterns that a gallery names, by name, file, folder or wildcards, and reads each
+// once.
+#pragma once
+
+#include "cli/command.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A pattern of a gallery, read once.
+struct GalleryPattern {
+    std::string name;                         ///< without folder and ending
+    std::string kind;                         ///< the folder it lies in
+    std::string path;                         ///< to read it, and to find what lies beside it
+    std::string shown;                        ///< as a manifest names it
+    std::shared_ptr<const PatternText> text;  ///< null if it cannot be read
+    std::string problem;                      ///< then: why
+};
+
+/// Does the whole of `name` fit `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]` for one
+/// that is listed or is not, and `\` takes the next byte literally? Time: at most the product of both lengths.
+bool fits_wildcards(std::string_view form, std::string_view name);
+
+/// Finds patterns and reads each once. At most a million folder entries are looked through, and at most 1 GB is read.
+class PatternShelf {
+public:
+    using Pointer = std::shared_ptr<const GalleryPattern>;
+    using List = std::shared_ptr<const std::vector<Pointer>>;
+
+    /// @param bundled_only  files are not looked for
+    explicit PatternShelf(bool bundled_only) : bundled_only_(bundled_only) {}
+
+    /// @throws UsageError if there is none, or there is too much to look through; Interrupted
+    List find(const std::string& word, const std::filesystem::path& folder, const std::string& place);
+    /// All that are bundled and draw.
+    List all();
+
+private:
+    std::vector<Pointer> find_files(const std::string& word, const std::filesystem::path& folder,
+                                    const std::string& place, bool& is_folder);
+    const std::vector<KnownPattern>& known();
+    Pointer of_known(const KnownPattern& known) { return read(known.file, known.name, known.name + ".lsys"); }
+    Pointer of_file(const std::filesystem::path& file) { return read(file, file.string(), file.string()); }
+    Pointer read(const std::filesystem::path& file, const std::string& shown, const std::string& called);
+
+    bool bundled_only_;
+    bool is_listed_ = false;
+    std::vector<KnownPattern> known_;
+    std::map<std::string, Pointer> read_;
+    std::map<std::pair<std::filesystem::path, std::string>, List> found_;
+    std::size_t bytes_ = 0;    // of all texts
+    std::size_t entries_ = 0;  // of folders looked through
+};
+
+}  // namespace sikku

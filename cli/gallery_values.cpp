@@ -1,0 +1,217 @@
+#include "cli/gallery_values.h"
+
+#include "cli/command.h"
+#include "cli/json.h"
+
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_toml_values = 250'000;
+constexpr std::size_t most_depth = 50;
+
+std::string place_of(const std::string& file, std::size_t line, std::size_t column) {
+    return fmt::format("{}:{}:{}", file, line, column);
+}
+
+std::string place_of(const std::string& file, const toml::source_position& position) {
+    return place_of(file, position.line, position.column);
+}
+
+/// Counts what nests and what takes memory before the parser, which calls itself for each level, sees it. Strings and
+/// comments are passed over as the parser does up to its first mistake.
+class TomlScan {
+public:
+    TomlScan(const std::string& file, std::string_view text) : file_(file), text_(text) {}
+
+    void run() {
+        std::size_t depth = 0;
+        std::size_t dots = 0;  // of the key or number that is being read
+        std::size_t values = 0;
+        for (at_ = 0; at_ < text_.size();) {
+            const char letter = text_[at_];
+            if (letter == '#') {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+                continue;
+            }
+            if (letter == '"' || letter == '\'') {
+                pass_string(letter);
+                continue;
+            }
+            if (letter == '.') {
+                require(++dots <= most_depth, "too many dots: keys nest at most 50 deep");
+            } else if (letter == '[' || letter == '{') {
+                require(++depth <= most_depth, "too many brackets in each other: values nest at most 50 deep");
+            } else if (letter == ']' || letter == '}') {
+                depth -= depth > 0 ? 1 : 0;
+            }
+            if (letter == ',' || letter == '=' || letter == '[' || letter == '{' || letter == '\n') dots = 0;
+            if (letter == ',' || letter == '=' || letter == '[') {
+                require(++values <= most_toml_values, "too many values: a gallery file has at most 250000");
+            }
+            ++at_;
+        }
+    }
+
+private:
+    void require(bool holds, const char* message) const {
+        if (holds) return;
+        const std::string_view before = text_.substr(0, at_);
+        const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+        fail(place_of(file_, static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1,
+                      at_ - line_begin + 1),
+             message);
+    }
+
+    void pass_string(char quote) {
+        const std::string three(3, quote);
+        const bool is_long = text_.compare(at_, 3, three) == 0;
+        at_ += is_long ? 3 : 1;
+        while (at_ < text_.size()) {
+            if (quote == '"' && text_[at_] == '\\') {
+                at_ += 2;
+            } else if (!is_long && (text_[at_] == quote || text_[at_] == '\n')) {
+                ++at_;
+                return;
+            } else if (is_long && text_.compare(at_, 3, three) == 0) {
+                at_ += 3;
+                // Up to two quotes may stand before the three that end it.
+                while (at_ < text_.size() && text_[at_] == quote) ++at_;
+                return;
+            } else {
+                ++at_;
+            }
+        }
+    }
+
+    const std::string& file_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+GalleryValue value_of(const toml::node& node, const std::string& file) {
+    GalleryValue value;
+    value.place = place_of(file, node.source().begin);
+    value.order = {node.source().begin.line, node.source().begin.column};
+    if (const auto* text = node.as_string()) {
+        value.text = text->get();
+    } else if (const auto* whole = node.as_integer()) {
+        value.text = fmt::format("{}", whole->get());
+    } else if (const auto* number = node.as_floating_point()) {
+        if (!std::isfinite(number->get())) fail(value.place, "expected a finite number");
+        value.text = fmt::format("{}", number->get());
+        if (value.text.ends_with(".0")) value.text.resize(value.text.size() - 2);
+    } else if (const auto* flag = node.as_boolean()) {
+        value.text = flag->get() ? "true" : "false";
+    } else if (const auto* array = node.as_array()) {
+        value.type = GalleryValue::Type::list;
+        value.list.reserve(array->size());
+        for (const toml::node& element : *array) value.list.push_back(value_of(element, file));
+    } else if (const auto* table = node.as_table()) {
+        value.type = GalleryValue::Type::table;
+        if (table->size() > most_table_keys) {
+            fail(value.place, fmt::format("too many keys: a table has at most {}", most_table_keys));
+        }
+        for (const auto& [key, element] : *table) {
+            GalleryValue inner = value_of(element, file);
+            inner.place = place_of(file, key.source().begin);
+            inner.order = {key.source().begin.line, key.source().begin.column};
+            value.table.emplace_back(std::string(key.str()), std::move(inner));
+        }
+        std::stable_sort(value.table.begin(), value.table.end(),
+                         [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+    } else {
+        value.type = GalleryValue::Type::other;
+    }
+    return value;
+}
+
+/// Turns the JSON of a line into values; keys come in the order of the line.
+class JsonLine {
+public:
+    JsonLine(const std::string& place, const std::string& line) : place_(place), line_(line) {
+        json_ = read_json(line, &keys_);
+    }
+
+    bool is_object() const { return json_.is_object(); }
+    GalleryValue value() { return value_of(json_, place_ + ":1"); }
+
+private:
+    GalleryValue value_of(const nlohmann::ordered_json& json, const std::string& place) {
+        GalleryValue value;
+        value.place = place;
+        if (json.is_string()) {
+            value.text = json.get<std::string>();
+        } else if (json.is_number_float()) {
+            value.text = fmt::format("{}", json.get<double>());
+            if (value.text.ends_with(".0")) value.text.resize(value.text.size() - 2);
+        } else if (json.is_number() || json.is_boolean()) {
+            value.text = json.dump();
+        } else if (json.is_array()) {
+            value.type = GalleryValue::Type::list;
+            value.list.reserve(json.size());
+            for (const auto& element : json) value.list.push_back(value_of(element, place));
+        } else if (json.is_object()) {
+            value.type = GalleryValue::Type::table;
+            value.table.reserve(json.size());
+            for (const auto& [key, element] : json.items()) {
+                const std::string key_place = next_key();
+                value.table.emplace_back(key, value_of(element, key_place));
+            }
+        } else {
+            value.type = GalleryValue::Type::other;
+        }
+        return value;
+    }
+
+    /// The place of the next key, in columns as editors count.
+    std::string next_key() {
+        const std::size_t end = met_ < keys_.size() ? keys_[met_++] : at_;
+        for (; at_ < end; ++at_) column_ += (static_cast<unsigned char>(line_[at_]) & 0xC0) != 0x80 ? 1 : 0;
+        return fmt::format("{}:{}", place_, column_);
+    }
+
+    const std::string& place_;
+    const std::string& line_;
+    std::vector<std::size_t> keys_;
+    nlohmann::ordered_json json_;
+    std::size_t met_ = 0;     // keys
+    std::size_t at_ = 0;      // in the line
+    std::size_t column_ = 1;  // of that
+};
+
+}  // namespace
+
+void fail(const std::string& place, const std::string& message) {
+    throw UsageError(place.empty() ? message : place + ": " + message);
+}
+
+GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
+    if (text.size() > most_gallery_bytes) fail(file, "a gallery file is at most 16 MB");
+    TomlScan(file, text).run();
+    try {
+        return value_of(toml::parse(text, file), file);
+    } catch (const toml::parse_error& error) {
+        fail(place_of(file, error.source().begin), printable(error.description(), 300));
+    }
+}
+
+GalleryValue read_manifest_line(const std::string& place, const std::string& line) {
+    try {
+        JsonLine read(place, line);
+        if (!read.is_object()) fail(place + ":1", "expected a job: { \"pattern\": … }");
+        return read.value();
+    } catch (const JsonError& error) {
+        fail(fmt::format("{}:{}", place, error.byte), error.what());
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,42 @@
+// cli/gallery_values.h: what gallery files (TOML) and manifests (JSON lines) state, as plain values with places.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// A value with its place.
+struct GalleryValue {
+    enum class Type { text, list, table, other };
+    Type type = Type::text;
+    std::string text;  ///< numbers and flags too
+    std::vector<GalleryValue> list;
+    std::vector<std::pair<std::string, GalleryValue>> table;  ///< in the order of the file; the place is its key's
+    std::string place;                                        ///< `gallery.toml:3:1`
+    std::pair<std::uint32_t, std::uint32_t> order{0, 0};
+};
+
+/// A longer gallery file is refused.
+constexpr std::size_t most_gallery_bytes = std::size_t{16} << 20;
+/// A table has at most so many keys.
+constexpr std::size_t most_table_keys = 1000;
+
+/// @param place  may be empty
+/// @throws UsageError always
+[[noreturn]] void fail(const std::string& place, const std::string& message);
+
+/// A gallery file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes a value.
+/// @param file  its name, for places
+/// @throws UsageError for mistakes, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
+GalleryValue read_gallery_toml(const std::string& file, const std::string& text);
+
+/// A line of a manifest.
+/// @param place  file and line
+/// @throws UsageError for what is not an object of JSON
+GalleryValue read_manifest_line(const std::string& place, const std::string& line);
+
+}  // namespace sikku

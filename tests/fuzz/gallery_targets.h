@@ -1,0 +1,59 @@
+// tests/fuzz/gallery_targets.h: what the fuzzers do with any bytes as a gallery file or a manifest.
+#pragma once
+
+#include "cli/gallery_jobs.h"
+#include "tests/fuzz/targets.h"
+
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// Reads up to the list of jobs, with bundled patterns only. A mistake is a UsageError; jobs have files of their own
+/// below the gallery's folder, and read back from their texts as the same jobs.
+inline void try_gallery(GalleryRequest request) {
+    constexpr std::size_t most_read_back = 50;
+    request.bundled_only = true;
+    try {
+        const std::vector<GalleryJob> jobs = gallery_jobs(request);
+        require(static_cast<double>(jobs.size()) <= most_gallery_jobs, "more jobs than are allowed");
+        std::set<std::string> files;
+        std::string manifest;
+        for (const GalleryJob& job : jobs) {
+            const std::string file = job.file();
+            require(files.insert(file).second, "two jobs have the same file: " + file);
+            require(is_utf8(file) && !file.starts_with('/') && ("/" + file).find("/.") == std::string::npos,
+                    "a file lies outside the gallery: " + file);
+            if (jobs.size() <= most_read_back) manifest += job.text() + '\n';
+        }
+        if (jobs.size() > most_read_back) return;
+        GalleryRequest again;
+        again.manifest = "again.jsonl";
+        again.manifest_text = manifest;
+        again.bundled_only = true;
+        const std::vector<GalleryJob> same = gallery_jobs(again);
+        require(same.size() == jobs.size(), "a manifest of the jobs has another number of them");
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            require(same[i].file() == jobs[i].file(), "a job reads back with another file: " + jobs[i].text());
+        }
+    } catch (const UsageError& error) {
+        require(is_utf8(error.what()), "a message is not valid UTF-8");
+    }
+}
+
+inline void try_gallery_toml(std::string_view bytes) {
+    GalleryRequest request;
+    request.gallery_file = "fuzz.toml";
+    request.gallery_text = std::string(bytes);
+    try_gallery(std::move(request));
+}
+
+inline void try_gallery_jsonl(std::string_view bytes) {
+    GalleryRequest request;
+    request.manifest = "fuzz.jsonl";
+    request.manifest_text = std::string(bytes);
+    try_gallery(std::move(request));
+}
+
+}  // namespace sikku
