@@ -12,7 +12,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -148,11 +147,8 @@ bool is_summary(std::string_view file) {
     return false;
 }
 
-bool is_gallery_page(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(4096, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return text.find("<meta name=\"generator\" content=\"Sikku\"/>") != std::string::npos;
+bool is_gallery_page(std::string_view beginning) {
+    return beginning.find("<meta name=\"generator\" content=\"Sikku\"/>") != std::string_view::npos;
 }
 
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,

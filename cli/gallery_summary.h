@@ -13,8 +13,8 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Whether the file is a page that write_gallery_index() wrote.
-bool is_gallery_page(const std::filesystem::path& file);
+/// Whether a file that begins so, with 4096 bytes, is a page that write_gallery_index() wrote.
+bool is_gallery_page(std::string_view beginning);
 
 struct SheetRequest {
     std::string name;       ///< of the files: poster, contact
