@@ -133,6 +133,38 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
+/// The sheets that are asked for.
+std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
+    std::vector<SheetRequest> sheets;
+    if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
+    if (!request.poster.empty()) sheets.push_back({"poster", request.poster, true, threads, memory});
+    return sheets;
+}
+
+/// @param jobs  those that can be made
+/// @returns false if a sheet cannot be made
+bool tell_sheet_forecast(const std::vector<const GalleryJob*>& jobs, const Options& options, double memory) {
+    bool can_be_made = true;
+    for (const SheetRequest& sheet : sheets_of(options.request, options.threads, memory)) {
+        for (const std::string& file : sheet_files(sheet)) {
+            std::string problem;
+            JobForecast forecast;
+            try {
+                forecast.memory = gallery_sheet_memory(jobs, sheet, file);
+                problem = too_much_memory(forecast, memory);
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+            can_be_made = can_be_made && problem.empty();
+            if (problem.empty() && forecast.memory == 0) continue;
+            if (problem.empty()) problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "",
+                                                       bytes_text(forecast.memory));
+            fmt::print("{:<40} {}\n", file, printable(problem.substr(0, problem.find('\n')), 200));
+        }
+    }
+    return can_be_made;
+}
+
 /// @param memory  bytes for jobs
 /// @returns false if one cannot be made
 bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
@@ -140,6 +172,7 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
     forecast_all(jobs, chosen, options, forecasts);
     JobForecast sum;
     std::size_t impossible = 0;
+    std::vector<const GalleryJob*> possible;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
     for (const std::size_t job : chosen) {
         const JobForecast& each = *forecasts[job];
@@ -151,6 +184,7 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
         }
         fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", jobs[job].file(), each.symbols, time_text(each.seconds),
                    bytes_text(each.bytes), bytes_text(each.memory));
+        possible.push_back(&jobs[job]);
         sum.seconds += each.seconds;
         sum.bytes += each.bytes;
         sum.memory = std::max(sum.memory, each.memory);
@@ -158,7 +192,8 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size() - impossible, "job"), "",
                time_text(sum.seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
     if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
-    return impossible == 0;
+    const bool is_whole = chosen.size() == jobs.size();
+    return (!is_whole || tell_sheet_forecast(possible, options, memory)) && impossible == 0;
 }
 
 /// The words that this program was started with, without `--slurm`.
@@ -209,13 +244,13 @@ bool is_in_path(const std::string& program) {
 void write_script(const GalleryFolder& folder, const std::string& name, const std::string& text, bool replaces) {
     const GalleryPlace place = folder.place(name);
     const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;
-    if (const auto there = folder.status(name); there && !S_ISDIR(there->st_mode)) {
+    if (const auto there = place.status(); there && !S_ISDIR(there->st_mode)) {
         if (!replaces && !is_ours) {
             throw std::runtime_error(
                 fmt::format("'{}' is there already and is not a script of a gallery; --force replaces it",
                             folder.shown(name)));
         }
-        if (!S_ISREG(there->st_mode)) folder.remove(name);
+        if (!S_ISREG(there->st_mode)) place.remove();
     }
     try {
         OutputFile output(place.path());
@@ -273,17 +308,20 @@ public:
     /// @param troubles  why others are not
     void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order,
               std::vector<std::string>& troubles) {
-        const auto draw = [&](const SheetRequest& sheet) {
-            if (sheet.size.empty()) return;
-            for (const std::string& file : sheet_files(sheet)) {
-                make(file, sheet.size, order, troubles,
-                     [&](const std::filesystem::path& path) { draw_gallery_sheet(jobs_, sheet, path, telling_); });
+        const auto draw = [&](bool posters) {
+            for (const SheetRequest& sheet : sheets_of(request, options_.threads, memory)) {
+                if (sheet.is_poster != posters) continue;
+                for (const std::string& file : sheet_files(sheet)) {
+                    make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
+                        draw_gallery_sheet(jobs_, sheet, path, telling_);
+                    });
+                }
             }
         };
-        draw({"contact", request.contact, false, options_.threads, memory});
+        draw(false);
         make("index.html", request.title, order, troubles,
              [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path); });
-        draw({"poster", request.poster, true, options_.threads, memory});
+        draw(true);
     }
 
 private:
@@ -502,7 +540,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
     }
     command->footer(
         "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
-        "alone. Files that others made are never touched.\n\n"
+        "alone. Files that others made are never touched. Several runs may work in one folder at the same time.\n\n"
         "Examples:\n"
         "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"

@@ -115,13 +115,13 @@ std::string too_much_memory(const JobForecast& forecast, double memory) {
 FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
                               const FileMaker& make) {
     const GalleryPlace place = folder.place(file.file);
-    const auto there = folder.status(file.file);
+    const auto there = place.status();
     if (there && !replaces) {
         throw std::runtime_error(fmt::format(
             "'{}' is there already and was not made by this gallery; --force replaces it", folder.shown(file.file)));
     }
     // What a link points to is not in the way.
-    if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) folder.remove(file.file);
+    if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
         make(place.path(), file.told);

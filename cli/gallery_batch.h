@@ -61,8 +61,9 @@ struct BatchOptions {
 class BatchProgress;
 
 /// Makes jobs in parallel, within a budget of memory. What another run is making is left for the end, and is finished
-/// then, as a rule. The dearest come first, as what is begun last should end soon; but those that an earlier run began
-/// and did not finish come last, the cheapest of them first, so that runs that are killed again and again get on.
+/// then, as a rule. The dearest come first, as what is begun last should end soon; but those that an earlier run
+/// began and did not finish come last, the cheapest of them first, so that runs that are killed again and again get
+/// on.
 class Batch {
 public:
     Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes, const GalleryFolder& folder,

@@ -20,10 +20,16 @@ namespace {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
+/// Says an error that there is no such file, or none for this user?
+bool is_absent(int error) {
+    return error == ENOENT || error == ENOTDIR || error == ELOOP || error == EACCES || error == EPERM;
+}
+
 std::optional<struct stat> status_at(int folder, const std::string& name) {
     struct stat status {};
-    if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
-    return status;
+    if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return status;
+    if (!is_absent(errno)) fail(name, errno);
+    return std::nullopt;
 }
 
 /// Hands what a regular file holds to `take`, block by block; false if it cannot be read.
@@ -56,9 +62,17 @@ void Descriptor::close() {
 }
 
 GalleryPlace::GalleryPlace(Descriptor folder, std::string name, std::filesystem::path shown)
-    : folder_(std::move(folder)), shown_(std::move(shown)) {
+    : folder_(std::move(folder)), name_(std::move(name)), shown_(std::move(shown)) {
     const std::filesystem::path held = fmt::format("/proc/{}/fd/{}", ::getpid(), folder_.get());
-    path_ = ::access((held / ".").c_str(), F_OK) == 0 ? held / name : shown_;
+    path_ = ::access((held / ".").c_str(), F_OK) == 0 ? held / name_ : shown_;
+}
+
+std::optional<struct stat> GalleryPlace::status() const {
+    return status_at(folder_.get(), name_);
+}
+
+void GalleryPlace::remove() const {
+    ::unlinkat(folder_.get(), name_.c_str(), 0);
 }
 
 std::string GalleryPlace::readable(std::string text, const std::string& shown) const {
@@ -86,12 +100,12 @@ void GalleryFolder::refuse(int folder, const std::string& name, const std::strin
     fail(shown(file), error);
 }
 
-/// The folder that `file` lies in. Without `creates`, no descriptor if it cannot be reached.
+/// The folder that `file` lies in. Without `creates`, no descriptor if it is not there.
 Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
     const std::filesystem::path path = file;
     std::filesystem::path so_far;
     Descriptor folder(::openat(descriptor_.get(), ".", O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (!folder && creates) fail(shown(file), errno);
+    if (!folder) fail(shown(file), errno);
     for (const std::filesystem::path& part : path.parent_path()) {
         if (!folder) return folder;
         so_far /= part;
@@ -103,7 +117,7 @@ Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
             fail(shown(so_far.string()), errno);
         }
         Descriptor next(::openat(folder.get(), part.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-        if (!next && creates) refuse(folder.get(), part.string(), so_far.string(), errno);
+        if (!next && (creates || !is_absent(errno))) refuse(folder.get(), part.string(), so_far.string(), errno);
         folder = std::move(next);
     }
     return folder;
@@ -122,6 +136,7 @@ Descriptor GalleryFolder::open(const std::string& file) const {
     const auto before = folder ? status_at(folder.get(), name) : std::nullopt;
     if (!before || !S_ISREG(before->st_mode)) return {};
     Descriptor opened(::openat(folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!opened && !is_absent(errno)) fail(shown(file), errno);
     struct stat status {};
     if (!opened || ::fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
     return opened;
@@ -158,8 +173,8 @@ std::string GalleryFolder::content_hash(const std::string& file) const {
 }
 
 void GalleryFolder::synchronise(const std::string& file) const {
-    const Descriptor opened = file.empty() ? Descriptor(::openat(descriptor_.get(), ".", O_RDONLY | O_CLOEXEC))
-                                           : open(file);
+    const Descriptor opened =
+        file.empty() ? Descriptor(::openat(descriptor_.get(), ".", O_RDONLY | O_CLOEXEC)) : open(file);
     if (opened) ::fsync(opened.get());
 }
 
@@ -173,6 +188,7 @@ std::vector<std::string> GalleryFolder::names(const std::string& below) const {
     const Descriptor folder = parent(below.empty() ? "x" : below + "/x", false);
     if (!folder) return list;
     const int opened = ::openat(folder.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (opened < 0 && !is_absent(errno)) fail(shown(below), errno);
     if (opened < 0) return list;
     const std::unique_ptr<DIR, int (*)(DIR*)> stream(::fdopendir(opened), ::closedir);
     if (!stream) {

@@ -37,12 +37,16 @@ public:
     /// open, whatever stands in the folder's place by now, and other programs can follow it. OutputFile follows no
     /// link of that name. Where there is no /proc it is the plain path, which nobody must exchange during the run.
     const std::filesystem::path& path() const { return path_; }
+    /// The state of the file itself, be it a link; nullopt if it is not there.
+    std::optional<struct stat> status() const;
+    void remove() const;
     /// Replaces that path by what the user calls it.
     std::string readable(std::string text) const { return readable(std::move(text), shown_.string()); }
     std::string readable(std::string text, const std::string& shown) const;
 
 private:
     Descriptor folder_;
+    std::string name_;
     std::filesystem::path shown_;
     std::filesystem::path path_;
 };
@@ -61,9 +65,10 @@ public:
     /// The path of `file` as the user sees it, for messages.
     std::string shown(const std::string& file) const { return (path_ / file).string(); }
 
-    /// The state of the file itself, be it a link; nullopt if it is not there.
+    /// The state of the file itself, be it a link; nullopt if it is not there or behind a link.
+    /// @throws std::runtime_error, as all below, if that cannot be found out, as with too many open files
     std::optional<struct stat> status(const std::string& file) const;
-    /// Opens a regular file for reading; no descriptor if that is not what it is.
+    /// Opens a regular file for reading; no descriptor if that is not what it is, or if it may not be read.
     Descriptor open(const std::string& file) const;
     /// Opens a regular file, and makes it if it is not there.
     /// @param flags  of open(2): O_RDWR, O_APPEND

@@ -8,7 +8,7 @@
 
 #include <array>
 #include <cerrno>
-#include <limits.h>
+#include <climits>
 #include <stdexcept>
 #include <string_view>
 
@@ -43,8 +43,8 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
         file_ = folder_.create(lock_name, O_RDWR | O_APPEND);
         const std::string held = folder_.read(lock_name, line_start.size());
         if (!line_start.starts_with(held)) {
-            throw std::runtime_error(fmt::format("'{}' is there already and was not made by a gallery",
-                                                 folder_.shown(lock_name)));
+            throw std::runtime_error(
+                fmt::format("'{}' is there already and was not made by a gallery", folder_.shown(lock_name)));
         }
         if (lock(F_RDLCK, presence, true) == Result::unsupported) {
             file_.close();
@@ -63,7 +63,11 @@ GalleryLocks::~GalleryLocks() {
     // One after the other, so that one of two runs that end at a time sees that it is the last.
     lock(F_WRLCK, turn, true);
     if (lock(F_WRLCK, presence, false) == Result::locked) {
-        if (is_named()) folder_.remove(lock_name);
+        try {
+            if (is_named()) folder_.remove(lock_name);
+        } catch (const std::exception&) {
+            // The next run removes it.
+        }
     } else {
         lock(F_UNLCK, presence, false);
     }

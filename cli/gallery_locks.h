@@ -10,9 +10,9 @@ namespace sikku {
 
 /// Locks of the runs that are at work in a folder, whole ones, shards and restarts alike. They are locks on bytes of
 /// the file `.gallery.lock` (a line in it for each run: host and process), which the last run removes. The system
-/// drops the locks of a process that ends, however it ends; so a file whose lock is free has no living owner, and what
-/// is left unfinished of it may be removed. Network file systems pass the locks on to other hosts; where there are no
-/// locks at all nothing is known of other runs.
+/// drops the locks of a process that ends, however it ends; so a file whose lock is free has no living owner, and
+/// what is left unfinished of it may be removed. Network file systems pass the locks on to other hosts; where there
+/// are no locks at all nothing is known of other runs.
 class GalleryLocks {
 public:
     /// @throws std::runtime_error if the file cannot be written or is not what it should be

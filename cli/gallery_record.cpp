@@ -129,7 +129,8 @@ std::string read_from(const Descriptor& file, off_t from) {
     while (true) {
         const ssize_t got = ::pread(file.get(), block.data(), block.size(), from + static_cast<off_t>(text.size()));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return text;
+        if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read the record of a gallery");
+        if (got == 0) return text;
         text.append(block.data(), static_cast<std::size_t>(got));
     }
 }
@@ -162,7 +163,7 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
                              const std::function<void()>& waiting)
     : folder_(folder), name_(std::move(name)), descriptor_(open(waiting)), locks_(folder) {
     const GalleryLocks::Turn turn(locks_, false);
-    const RecordText own = read_record(folder_.read(name_));
+    const RecordText own = read_record(read_from(descriptor_, 0));
     if (!own.is_ours && !replaces) {
         throw std::runtime_error(fmt::format(
             "'{}' is there already and was not made by a gallery; --force replaces it", folder_.shown(name_)));

@@ -38,10 +38,10 @@ public:
     /// Locks the record against other runs of the same shard and removes what a killed run left unfinished.
     /// @param name      of the file of this run, in the folder
     /// @param replaces  also a file of that name that others made, which is an error otherwise
-    /// @param waiting   called ten times a second while another run of the same shard is at work; may throw to give up
+    /// @param waiting   called ten times a second while another run of the same shard is at work; may throw to give
+    /// up
     /// @throws std::runtime_error if the folder or the record cannot be written, or if it is a link
-    GalleryRecord(const GalleryFolder& folder, std::string name, bool replaces,
-                  const std::function<void()>& waiting);
+    GalleryRecord(const GalleryFolder& folder, std::string name, bool replaces, const std::function<void()>& waiting);
     GalleryRecord(const GalleryRecord&) = delete;
     GalleryRecord& operator=(const GalleryRecord&) = delete;
 

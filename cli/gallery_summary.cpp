@@ -168,8 +168,10 @@ std::vector<std::string> sheet_files(const SheetRequest& request) {
     return files;
 }
 
-void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Telling& telling) {
+namespace {
+
+/// The prints among the jobs.
+std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request) {
     std::vector<SheetCell> cells;
     std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
     // What tells the prints of a pattern apart.
@@ -191,7 +193,6 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
             }
         }
     }
-    if (prints.empty()) return;
     const bool has_rows =
         std::all_of(lengths.begin(), lengths.end(), [](const auto& one) { return one.second.size() > 1; });
     const GalleryPattern* row = nullptr;
@@ -222,6 +223,10 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
         }
         cells.push_back(std::move(cell));
     }
+    return cells;
+}
+
+SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
     DrawSettings settings;
     settings.size = request.size;
     settings.output = file.string();
@@ -236,8 +241,23 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
     options.made = fmt::format("sikku {}", SIKKU_VERSION);
     options.threads = request.threads;
     options.memory = request.memory;
+    return options;
+}
+
+}  // namespace
+
+void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                        const std::filesystem::path& file, const Telling& telling) {
+    const std::vector<SheetCell> cells = cells_of(jobs, request);
+    if (cells.empty()) return;
+    SheetOptions options = options_of(request, file);
     options.watch = telling.watch;
     draw_sheet(cells, options, file);
+}
+
+double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                            const std::filesystem::path& file) {
+    return sheet_memory(cells_of(jobs, request), options_of(request, file));
 }
 
 }  // namespace sikku
