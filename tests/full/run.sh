@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What needs heavy tools: the fuzz targets for a minute each (clang), an SVG through Inkscape, scores through LilyPond
 # and MuseScore, sound through FluidSynth, pages and an animated kolam in Chromium, models through the glTF validator, kolams
-# enumerated, an array of Slurm.
+# enumerated, an array of Slurm, a gallery under disturbance.
 # usage: tests/full/run.sh PROGRAM
 set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: tests/full/run.sh PROGRAM" >&2; exit 2; }
@@ -44,6 +44,6 @@ else
     echo "skipped: export through Inkscape (it is not installed)"
 fi
 
-for part in scores sound page model kolam gallery slurm; do
+for part in scores sound page model kolam gallery slurm chaos; do
     tests/full/"$part".sh "$program"
 done
