@@ -270,7 +270,8 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
         pieces *= curve_lines(step);
     }
     cost.thread_memory = band_bytes(size);
-    cost.memory = picture_bytes + pieces * line_bytes + cost.thread_memory;
+    cost.lines_memory = pieces * line_bytes;
+    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory;
     return cost;
 }
 
@@ -329,6 +330,7 @@ DrawingCost drawing_cost(const Grammar& grammar, const Parts<double>* parts, con
     const double rows = std::min(strip_rows(width, pixel, size), size.height);
     const double lines = walk.lines * share * (reads_steps ? curve_lines(longest_step(grammar) * step / pixel) : 1);
     const double strips = std::max(1.0, size.height / rows);
+    cost.lines_memory = lines * line_bytes;
     cost.thread_memory = size.width * rows * (has_blots ? 7 : 3) + band_bytes({size.width, static_cast<int>(rows)}) +
                          std::min(lines, 2 * lines / strips) * line_bytes;
     if (has_blots) cost.thread_memory += (parts_count + clumps) * 8 + std::min(parts_count + clumps, walk.blots) * 64;

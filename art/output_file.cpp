@@ -106,6 +106,23 @@ std::optional<int> named_descriptor(const std::string& name) {
     return std::nullopt;
 }
 
+/// `/proc/PID/fd/N/NAME`: a name in a folder that somebody holds open.
+bool is_in_held_folder(const std::string& name) {
+    std::string_view rest = name;
+    const auto take = [&](std::string_view piece) {
+        if (!rest.starts_with(piece)) return false;
+        rest.remove_prefix(piece.size());
+        return true;
+    };
+    const auto take_number = [&] {
+        const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+        rest.remove_prefix(digits);
+        return digits > 0;
+    };
+    return take("/proc/") && take_number() && take("/fd/") && take_number() && take("/") && !rest.empty() &&
+           rest.find('/') == std::string_view::npos;
+}
+
 std::string random_letters() {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
     std::array<unsigned char, 6> bytes{};
@@ -137,6 +154,7 @@ OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)),
         if (descriptor_ < 0) fail(errno);
         return;
     }
+    const bool is_held = is_in_held_folder(name_.string());
     for (int links = 0;; ++links) {
         struct stat status {};
         if (::lstat(target_.c_str(), &status) != 0) {
@@ -144,6 +162,8 @@ OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)),
             if (target_.filename().empty()) fail(target_.empty() ? ENOENT : EISDIR);
             break;
         }
+        // Whoever holds a folder open trusts nothing that lies in it: the name is taken, not what it leads to.
+        if (is_held && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) break;
         if (S_ISLNK(status.st_mode)) {
             if (links == most_links) fail(ELOOP);
             std::error_code error;

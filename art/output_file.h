@@ -14,7 +14,8 @@ struct UnfinishedFile;
 /// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
 /// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
 /// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
-/// and /dev/stdout are written straight to.
+/// and /dev/stdout are written straight to. In a folder that is named by its descriptor, `/proc/PID/fd/N/NAME`, links,
+/// devices and pipes are themselves replaced.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path target);

@@ -52,7 +52,7 @@ struct Subject {
     std::shared_ptr<const Grammar> grammar;
     std::unique_ptr<SeenDrawing> seen;  ///< or
     std::unique_ptr<Drawing> drawing;
-    double memory = 0;  ///< bytes, of a picture
+    DrawingCost cost;  ///< of a picture
     const DrawnExtent& extent() const { return seen ? seen->extent() : drawing->extent(); }
     glm::dvec2 size{0.0};  ///< in steps, without the pen
     std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
@@ -78,6 +78,32 @@ struct Plan {
     std::vector<PlacedCell> cells;
 };
 
+/// A cell as pixels of the sheet.
+struct CellPicture {
+    std::size_t cell = 0;
+    Print print;
+    int left = 0, right = 0;
+    int top = 0, bottom = 0;
+};
+
+/// Rows of the sheet with whole cells.
+struct Strip {
+    int top = 0, bottom = 0;
+    std::vector<CellPicture> cells;
+};
+
+/// Rows of the sheet that are made at a time.
+struct SheetBand {
+    int top = 0, bottom = 0;
+    std::vector<std::uint8_t> pixels;
+};
+
+/// How much of a picture is made at a time.
+struct Room {
+    int readers = 1;  ///< drawings
+    int rows = 0;     ///< of a strip; 0: all
+};
+
 /// Rethrows what a drawing throws with the name of its cell; exceptions of the caller pass as they are.
 template <class Work>
 auto named(const SheetCell& cell, Work&& work) {
@@ -92,6 +118,26 @@ auto named(const SheetCell& cell, Work&& work) {
         if (typeid(error) != typeid(std::runtime_error)) throw;
         throw std::runtime_error(told(error));
     }
+}
+
+DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
+    DrawOptions drawing;
+    drawing.format = options.format;
+    drawing.placement = cell.placement;
+    drawing.placement.scale = 1.0;
+    drawing.window = cell.window;
+    drawing.budget = cell.budget;
+    return drawing;
+}
+
+/// A print about as large as a cell among `count` will be.
+Print cell_print(const SheetCell& cell, const SheetOptions& options, std::size_t count) {
+    Print print;
+    print.style = cell.style;
+    print.dpi = options.dpi;
+    const double side = std::sqrt(static_cast<double>(count));
+    print.page = {std::max(options.page.width / side, 1.0), std::max(options.page.height / side, 1.0), 0.0};
+    return print;
 }
 
 class Sheet {
@@ -142,7 +188,9 @@ private:
     double pen_factor(const SheetCell& cell, double width, double height) const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
-    int readers_at_a_time() const;
+    std::vector<Strip> strips(PixelSize size, Colour ground) const;
+    std::unique_ptr<Rendering> raster(const CellPicture& cell) const;
+    Room room(const std::vector<Strip>& strips, double stride) const;
 
     const std::vector<SheetCell>& cells_;
     const SheetOptions& options_;
@@ -164,23 +212,13 @@ void Sheet::measure() {
     oneapi::tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
         const SheetCell& cell = cells_[i];
         named(cell, [&] {
-            DrawOptions drawing;
-            drawing.format = options_.format;
-            drawing.placement = cell.placement;
-            drawing.placement.scale = 1.0;
-            drawing.window = cell.window;
-            drawing.budget = cell.budget;
+            DrawOptions drawing = cell_options(cell, options_);
             if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
             Subject& subject = subjects_[i];
             subject.grammar = std::make_shared<const Grammar>(shorten(*cell.grammar));
             auto parts = seen_parts(*subject.grammar, cell.style, drawing);
-            // About as large as the cell will be.
-            Print print;
-            print.style = cell.style;
-            print.dpi = options_.dpi;
-            const double side = std::sqrt(static_cast<double>(cells_.size()));
-            print.page = {std::max(options_.page.width / side, 1.0), std::max(options_.page.height / side, 1.0), 0.0};
-            subject.memory = drawing_cost(*subject.grammar, parts ? &*parts : nullptr, print, drawing).memory;
+            const Print print = cell_print(cell, options_, cells_.size());
+            subject.cost = drawing_cost(*subject.grammar, parts ? &*parts : nullptr, print, drawing);
             if (parts) {
                 subject.seen =
                     std::make_unique<SeenDrawing>(*subject.grammar, std::move(*parts), cell.style, drawing);
@@ -475,28 +513,12 @@ Colour over(Colour upper, Colour lower) {
             static_cast<std::uint8_t>(std::lround((a + b) * 255))};
 }
 
-/// A cell as pixels of the sheet.
-struct CellPicture {
-    std::size_t cell = 0;
-    Print print;
-    int left = 0, right = 0;
-    int top = 0, bottom = 0;
-};
-
-/// Rows of the sheet with whole cells.
-struct Strip {
-    int top = 0, bottom = 0;
-    std::vector<CellPicture> cells;
-};
-
-void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) const {
-    const PixelSize size = pixel_size(options_.page, options_.dpi);
+/// The rows of the sheet, cut between the rows of its cells.
+std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
     const double millimetre = options_.dpi / 25.4;
     const auto pixels = [&](double millimetres, int most) {
         return static_cast<int>(std::clamp(std::round(millimetres * millimetre), 0.0, static_cast<double>(most)));
     };
-    const Colour ground = options_.ground.value_or(Colour{255, 255, 255, 0});
-
     std::vector<Strip> strips(static_cast<std::size_t>(plan_.layout.rows));
     for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
         const PlacedCell& placed = plan_.cells[i];
@@ -518,130 +540,127 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
         strips[row - 1].bottom = strips[row].top = even >= above ? even : std::max(above, below);
     }
     strips.back().bottom = size.height;
-    const auto pixel_page = [&](int width, int height) { return Page{width / millimetre, height / millimetre, 0.0}; };
+    return strips;
+}
 
+/// A drawing, read, with its place on the sheet in pixels.
+std::unique_ptr<Rendering> Sheet::raster(const CellPicture& cell) const {
+    const double millimetre = options_.dpi / 25.4;
+    const Subject& subject = subjects_[cell.cell];
+    Print part = cell.print;
+    part.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre, 0.0};
+    part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+    if (auto solid = subject.seen ? nullptr : subject.drawing->rendering(part)) return solid;
+    auto raster = make_raster(part);
+    named(cells_[cell.cell], [&] {
+        if (!subject.seen) return subject.drawing->read(part, *raster);
+        raster->expect({});
+        subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
+                           [this](std::uint64_t symbols) { watch(symbols); });
+    });
+    return raster;
+}
+
+/// Copies the rows of a raster that lie in the band to their place.
+/// @param left, top, height  where on the sheet the raster lies, in pixels
+void render(const Rendering& raster, int left, int top, int height, int channels, std::size_t stride,
+            SheetBand& band) {
+    constexpr int step = 128;  // as render_rows() wants it
+    const int first = std::max(0, band.top - top) / step * step;
+    const int end = std::min(height, (band.bottom - top + step - 1) / step * step);
+    if (first >= end) return;
+    raster.render_rows(first, end, channels, [&](int from, int rows, std::span<const std::uint8_t> part) {
+        const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
+        for (int row = 0; row < rows; ++row) {
+            const int at = top + from + row - band.top;
+            if (at < 0 || at >= band.bottom - band.top) continue;
+            std::memcpy(band.pixels.data() + static_cast<std::size_t>(at) * stride +
+                            static_cast<std::size_t>(left) * static_cast<std::size_t>(channels),
+                        part.data() + static_cast<std::size_t>(row) * bytes, bytes);
+        }
+    });
+}
+
+void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) const {
+    const PixelSize size = pixel_size(options_.page, options_.dpi);
+    const double millimetre = options_.dpi / 25.4;
+    const Colour ground = options_.ground.value_or(Colour{255, 255, 255, 0});
+    const std::vector<Strip> all = strips(size, ground);
     DrawOptions drawing;
     drawing.format = options_.format;
     drawing.threads = options_.threads;
     drawing.compression = options_.compression;
     const int channels = ground.alpha < 255 ? 4 : 3;
     const std::size_t stride = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
+    const Room room = this->room(all, static_cast<double>(stride));
     Picture picture(print_, drawing, channels, output, file);
-    oneapi::tbb::task_arena readers(readers_at_a_time());
-    for (const Strip& strip : strips) {
+    oneapi::tbb::task_arena readers(room.readers);
+    for (const Strip& strip : all) {
         if (strip.bottom == strip.top) continue;
-        std::vector<std::uint8_t> rows_of_pixels(stride * static_cast<std::size_t>(strip.bottom - strip.top));
-        /// Renders what was drawn into its place.
-        const auto render = [&](Rendering& raster, int left, int top, int end) {
-            raster.watch([&] { watch(0); });
-            raster.render_rows(0, end - top, channels, [&](int first, int rows, std::span<const std::uint8_t> part) {
-                const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
-                for (int row = 0; row < rows; ++row) {
-                    std::memcpy(rows_of_pixels.data() +
-                                    static_cast<std::size_t>(top - strip.top + first + row) * stride +
-                                    static_cast<std::size_t>(left) * static_cast<std::size_t>(channels),
-                                part.data() + static_cast<std::size_t>(row) * bytes, bytes);
-                }
-            });
-        };
         Print print = print_;
         print.style.ground = ground;
-        print.page = pixel_page(size.width, strip.bottom - strip.top);
+        print.page = {size.width / millimetre, (strip.bottom - strip.top) / millimetre, 0.0};
         print.placement.to_page[2].y -= strip.top / millimetre;
         const auto texts = make_raster(print);
         write_texts(strip.top / millimetre, strip.bottom / millimetre, *texts);
-        render(*texts, 0, strip.top, strip.bottom);
-        readers.execute([&] {
-            oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
-                const CellPicture& cell = strip.cells[i];
-                const Subject& subject = subjects_[cell.cell];
-                Print part = cell.print;
-                part.page = pixel_page(cell.right - cell.left, cell.bottom - cell.top);
-                part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
-                if (const auto solid = subject.seen ? nullptr : subject.drawing->rendering(part)) {
-                    return render(*solid, cell.left, cell.top, cell.bottom);
-                }
-                const auto raster = make_raster(part);
-                named(cells_[cell.cell], [&] {
-                    if (!subject.seen) return subject.drawing->read(part, *raster);
-                    raster->expect({});
-                    subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
-                                       [this](std::uint64_t symbols) { watch(symbols); });
+        texts->watch([&] { watch(0); });
+        std::vector<std::unique_ptr<Rendering>> rasters(strip.cells.size());
+        const int rows = room.rows > 0 ? room.rows : strip.bottom - strip.top;
+        for (int top = strip.top; top < strip.bottom; top += rows) {
+            SheetBand band{top, std::min(top + rows, strip.bottom), {}};
+            band.pixels.resize(stride * static_cast<std::size_t>(band.bottom - band.top));
+            render(*texts, 0, strip.top, strip.bottom - strip.top, channels, stride, band);
+            readers.execute([&] {
+                oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
+                    const CellPicture& cell = strip.cells[i];
+                    if (cell.bottom <= band.top || cell.top >= band.bottom) return;
+                    if (!rasters[i]) {
+                        rasters[i] = raster(cell);
+                        rasters[i]->watch([&] { watch(0); });
+                    }
+                    render(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
+                    if (cell.bottom <= band.bottom) rasters[i].reset();
                 });
-                render(*raster, cell.left, cell.top, cell.bottom);
             });
-        });
-        picture.rows(strip.top, strip.bottom - strip.top, rows_of_pixels);
+            picture.rows(band.top, band.bottom - band.top, band.pixels);
+        }
     }
     picture.close();
 }
 
-/// As many cells as there is memory for. @throws std::runtime_error if there is none for one of them
-int Sheet::readers_at_a_time() const {
+[[noreturn]] void refuse_memory(double needed, double memory) {
+    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory, and there are {:.0f} for it",
+                                         std::ceil(needed / 1e6), memory / 1e6));
+}
+
+/// As many drawings and rows as there is memory for: whole strips, whose drawings come one after the other; else
+/// bands of them, for which all drawings of the strip are kept. @throws std::runtime_error if there is too little
+Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
-    if (!(options_.memory > 0)) return threads;
-    double most = 1;
+    if (!(options_.memory > 0)) return {threads, 0};
+    double most = 1, thread = 1;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-        most = std::max(most, subjects_[i].memory);
-        if (subjects_[i].memory > options_.memory) {
-            throw std::runtime_error(
-                fmt::format("'{}': it takes about {:.0f} MB of memory, and there are {:.0f} for it", cells_[i].title,
-                            subjects_[i].memory / 1e6, options_.memory / 1e6));
-        }
+        named(cells_[i], [&] {
+            if (subjects_[i].cost.memory > options_.memory) refuse_memory(subjects_[i].cost.memory, options_.memory);
+        });
+        most = std::max(most, subjects_[i].cost.memory);
+        thread = std::max(thread, subjects_[i].cost.thread_memory);
     }
-    return static_cast<int>(std::clamp(options_.memory / most, 1.0, static_cast<double>(threads)));
-}
-
-/// The angle of `+`, as the first symbol of that letter has it.
-std::string angle_of(const Grammar& grammar) {
-    for (const SymbolInfo& symbol : grammar.symbols()) {
-        if (symbol.letter != "+" || !symbol.arguments.empty() || symbol.arity > 0) continue;
-        if (symbol.command.action != Action::turn) continue;
-        return fmt::format("{:.6g}°", std::fabs(symbol.command.angle.degrees));
+    double pixels = 0, kept = 0;
+    for (const Strip& strip : strips) {
+        double lines = 0;
+        for (const CellPicture& cell : strip.cells) lines += subjects_[cell.cell].cost.lines_memory;
+        kept = std::max(kept, lines);
+        pixels = std::max(pixels, (strip.bottom - strip.top) * stride);
     }
-    return "";
-}
-
-/// A word with a real minus, and cut where no caption goes on.
-std::string word_text(const Grammar& grammar, const Word& word) {
-    constexpr std::size_t most = 400;
-    std::string text = to_text(grammar, std::span<const Symbol>(word).first(std::min(word.size(), most)));
-    std::string result;
-    for (const char byte : text) result += byte == '-' ? std::string("−") : std::string(1, byte);
-    return word.size() > most ? result + "…" : result;
-}
-
-/// As the file states them, where words alone do not tell: with parameters, conditions and weights.
-std::string productions_as_written(const Pattern& pattern, std::size_t most) {
-    std::string text;
-    const auto add = [&](const std::vector<ProductionText>& productions) {
-        for (const ProductionText& production : productions) {
-            if (text.size() > most) return;
-            if (!text.empty()) text += "  ";
-            bool was_blank = true;
-            const std::string_view whole = production.whole.view();
-            for (std::size_t i = 0; i < whole.size(); ++i) {
-                if (text.size() > most && (static_cast<unsigned char>(whole[i]) & 0xC0) != 0x80) {
-                    text += "…";
-                    return;
-                }
-                if (whole.substr(i, 3) == "-->") {
-                    text += "→";
-                    i += 2;
-                } else if (whole[i] == '-') {
-                    text += "−";
-                } else if (whole[i] != ' ' && whole[i] != '\t') {
-                    text += whole[i];
-                } else if (!was_blank) {
-                    text += "\u00A0";
-                }
-                was_blank = whole[i] == ' ' || whole[i] == '\t';
-            }
-        }
+    const auto readers = [&](double memory, double each) {
+        return static_cast<int>(std::clamp(memory / each, 1.0, static_cast<double>(threads)));
     };
-    add(pattern.common);
-    for (const TableText& table : pattern.tables) add(table.productions);
-    return text;
+    if (pixels + most <= options_.memory) return {readers(options_.memory - pixels, most), 0};
+    const double left = options_.memory - kept - most;
+    const double rows = std::floor(left / 2 / stride / 128) * 128;
+    if (rows < 128) refuse_memory(kept + most + 256 * stride, options_.memory);
+    return {readers(left / 2, thread), static_cast<int>(std::min(rows, 4096.0))};
 }
 
 }  // namespace
@@ -665,48 +684,27 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
     });
 }
 
-std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern) {
-    std::vector<std::string> caption = {title};
-    const std::string angle = angle_of(grammar);
-    caption.push_back(fmt::format("n = {}{}{}", grammar.steps(), angle.empty() ? "" : " · ", angle));
-    // Lines break between productions.
-    constexpr std::size_t most = 2000;
-    std::string productions = grammar.is_plain() ? "" : productions_as_written(pattern, most);
-    for (const Table& table : grammar.tables()) {
-        if (!grammar.is_plain()) break;
-        for (const Production& production : table.productions()) {
-            if (production.predecessor == production.successor || productions.size() > most) continue;
-            if (!productions.empty()) productions += "  ";
-            if (!production.left.empty()) productions += word_text(grammar, production.left) + "\u00A0<\u00A0";
-            productions += word_text(grammar, production.predecessor);
-            if (!production.right.empty()) productions += "\u00A0>\u00A0" + word_text(grammar, production.right);
-            productions += "\u00A0→\u00A0";
-            productions += production.successor.empty() ? "*" : word_text(grammar, production.successor);
-        }
+double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return 0;
+    double most = 0, lines = 0;
+    for (const SheetCell& cell : cells) {
+        named(cell, [&] {
+            const DrawOptions drawing = cell_options(cell, options);
+            const Grammar grammar = shorten(*cell.grammar);
+            const auto parts = seen_parts(grammar, cell.style, drawing);
+            const Print print = cell_print(cell, options, cells.size());
+            const DrawingCost cost = drawing_cost(grammar, parts ? &*parts : nullptr, print, drawing);
+            most = std::max(most, cost.memory);
+            lines += cost.lines_memory;
+        });
     }
-    if (!productions.empty()) caption.push_back(productions);
-    return caption;
-}
-
-std::vector<SheetCell> generations(const SheetCell& cell, std::int64_t first, std::int64_t last) {
-    std::vector<SheetCell> row;
-    if (last > most_steps) {
-        throw std::runtime_error(
-            fmt::format("'{}': derivation lengths up to {} stand side by side", cell.title, most_steps));
-    }
-    for (std::int64_t n = first; n <= last; ++n) {
-        auto grammar = cell.grammar->with_steps(n);
-        if (!grammar) {
-            throw std::runtime_error(
-                fmt::format("'{}': its schedule does not reach derivation length {}", cell.title, n));
-        }
-        row.push_back(cell);
-        row.back().grammar = std::make_shared<const Grammar>(std::move(*grammar));
-        row.back().title = fmt::format("{}, n = {}", cell.title, n);
-        row.back().caption = {fmt::format("n = {}", n)};
-        if (n > first) row.back().heading.clear();
-    }
-    return row;
+    const PixelSize size = pixel_size(options.page, options.dpi);
+    const double stride = 3.0 * size.width;
+    const double shape = options.page.height / options.page.width;
+    const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
+    const double whole = stride * size.height / rows + most;
+    if (!(options.memory > 0) || whole <= options.memory) return whole;
+    return lines / rows + most + 256 * stride;
 }
 
 }  // namespace sikku

@@ -48,7 +48,7 @@ struct SheetOptions {
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
     int threads = 0;                  ///< 0: all cores
     int compression = 6;              ///< of PNG: 1, quick and large, to 9
-    double memory = 0;                ///< bytes for the cells of a picture that are drawn at a time; 0: no limit
+    double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
@@ -63,11 +63,18 @@ struct SheetLayout {
 
 /// Draws the sheet into `file`, which appears whole or not at all; the same cells make the same bytes. Windows, and
 /// in pictures words of any order, are seen as draw() sees them. Pictures are made row by row: of one row the pixels
-/// are in memory, and on each thread one drawing, as Raster keeps it.
+/// are in memory, and on each thread one drawing, as Raster keeps it. If that exceeds the memory of the options, a
+/// row is made in bands, with all its drawings in memory; the bytes are the same.
 /// @throws BudgetError, WordError and std::runtime_error, which name the cell that cannot be drawn;
-/// std::runtime_error if there is no cell, the cells have no room, or the file cannot be written
+/// std::runtime_error if there is no cell, the cells have no room, memory does not suffice, or the file cannot be
+/// written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file);
+
+/// Bytes that draw_sheet() takes for a picture, roughly and before the sheet is laid out: what it would take for
+/// whole rows if the options allow that, else the least it can be made with. 0 for other formats.
+/// @throws what draw_sheet() throws of cells that cannot be drawn
+double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 
 /// What a caption tells of a pattern: its title, the derivation length and angle, and its productions; as the file
 /// states them where they have parameters, conditions or weights.

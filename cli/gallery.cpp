@@ -3,29 +3,22 @@
 #include "art/image_file.h"
 #include "art/output_file.h"
 #include "art/threads.h"
-#include "cli/gallery_forecast.h"
-#include "cli/gallery_jobs.h"
-#include "cli/gallery_record.h"
+#include "cli/gallery_batch.h"
 #include "cli/gallery_shards.h"
 #include "cli/gallery_summary.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <list>
-#include <mutex>
-#include <new>
 #include <numeric>
 #include <set>
 
@@ -53,24 +46,6 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::string time_text(double seconds) {
-    if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
-    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
-    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3599.5) {
-        const auto whole = static_cast<long>(std::lround(seconds));
-        return fmt::format("{} min {} s", whole / 60, whole % 60);
-    }
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-std::string bytes_text(double bytes) {
-    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
-    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
-    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
-    return fmt::format("{:.1f} GB", bytes / 1e9);
-}
-
 /// `1G`, `512M`, `2GiB`: bytes. Half of what the machine has to give, if nothing is said.
 double read_memory(const std::string& text) {
     if (text.empty()) return static_cast<double>(memory_budget()) * 32;
@@ -90,265 +65,8 @@ double read_memory(const std::string& text) {
     return value * unit->second;
 }
 
-/// A line on standard error, if that is a terminal: a bar with how many jobs a second and how long still. For several
-/// threads.
-class BatchProgress {
-public:
-    BatchProgress(std::size_t jobs, double cost, bool quiet)
-        : jobs_(jobs), cost_(cost), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
-    ~BatchProgress() {
-        if (visible_) tell("\r\033[K");
-    }
-    BatchProgress(const BatchProgress&) = delete;
-    BatchProgress& operator=(const BatchProgress&) = delete;
-
-    void finish(double cost) {
-        const std::lock_guard guard(mutex_);
-        ++done_;
-        done_cost_ += cost;
-        show();
-    }
-    /// To be called now and then while jobs are under way.
-    void watch() {
-        if (!shown_) return;
-        const std::unique_lock guard(mutex_, std::try_to_lock);
-        if (guard) show();
-    }
-
-private:
-    void show() {
-        if (!shown_) return;
-        const double time = now();
-        if (time - started_ < 0.5 || time - last_ < 0.1) return;
-        last_ = time;
-        visible_ = true;
-        std::string line = fmt::format("{} of {}", done_, jobs_);
-        const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
-        if (done_ > 0) {
-            line += fmt::format(", {:.1f} a second, {} left", static_cast<double>(done_) / (time - started_),
-                                time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
-        }
-        winsize size{};
-        const std::size_t columns =
-            ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-        constexpr std::size_t most = 30;
-        const std::size_t bar = std::min(most, columns - std::min(columns, line.size() + 4));
-        if (bar >= 5) {
-            const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
-            line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar - filled, ' '), line);
-        }
-        tell("\r{}\033[K", line.substr(0, columns - 1));
-    }
-
-    std::size_t jobs_;
-    double cost_;
-    bool shown_;
-    bool visible_ = false;
-    std::size_t done_ = 0;
-    double done_cost_ = 0;
-    double started_;
-    double last_;
-    std::mutex mutex_;
-};
-
-/// Makes a file of the gallery and records it.
-/// @param file  its `file`, `hash` and `job` are known
-/// @param make  gets the path and where to put what there is to tell
-/// @param replaces  a file that is there already, even if it is of others: else that is a std::runtime_error
-/// @throws what `make` throws
-template <typename Make>
-FinishedJob make_file(GalleryRecord& record, const std::filesystem::path& folder, FinishedJob file, bool replaces,
-                      const Make& make) {
-    const std::filesystem::path path = folder / file.file;
-    std::error_code error;
-    if (path.parent_path() != folder) std::filesystem::create_directories(path.parent_path(), error);
-    const auto status = std::filesystem::symlink_status(path, error);
-    const bool is_link = std::filesystem::is_symlink(status);
-    if (std::filesystem::exists(status) && !replaces) {
-        throw std::runtime_error(fmt::format(
-            "'{}' is there already and was not made by this gallery; --force replaces it", path.string()));
-    }
-    // What it points to is not in the way.
-    if (is_link) std::filesystem::remove(path);
-    record.claim(file.file);
-    make(path, file.told);
-    file.bytes = std::filesystem::file_size(path);
-    file.content = content_hash(path);
-    record.add(file);
-    return file;
-}
-
-/// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
-/// the beginning.
-constexpr int most_picture_threads = 3;
-
-std::string too_much_memory(const JobForecast& forecast, double memory) {
-    if (forecast.memory <= memory) return "";
-    return fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
-                       bytes_text(forecast.memory), bytes_text(memory));
-}
-
-/// A job that is to be made in this run.
-struct Task {
-    std::size_t job = 0;  ///< its number in the gallery
-    JobForecast forecast;
-};
-
 /// Bytes that a job takes in the list of all.
 constexpr double job_bytes = 700;
-
-/// A job that could not be made.
-struct Failure {
-    std::size_t job = 0;
-    std::string message;
-};
-
-/// Makes jobs in parallel, within a budget of memory.
-class Batch {
-public:
-    Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes,
-          const std::filesystem::path& folder, GalleryRecord& record, const Options& options, bool quiet)
-        : jobs_(jobs), hashes_(hashes), folder_(folder), record_(record), options_(options), quiet_(quiet) {}
-
-    /// @param memory  bytes for all jobs that are under way
-    void run(std::vector<Task> tasks, double memory) {
-        // The dearest first: what is begun last ends soon.
-        std::stable_sort(tasks.begin(), tasks.end(),
-                         [](const Task& a, const Task& b) { return a.forecast.cost() > b.forecast.cost(); });
-        const double cost = std::accumulate(tasks.begin(), tasks.end(), 0.0,
-                                            [](double sum, const Task& task) { return sum + task.forecast.cost(); });
-        BatchProgress progress(tasks.size(), cost, quiet_);
-        progress_ = &progress;
-        waiting_.assign(tasks.begin(), tasks.end());
-        free_ = memory_ = memory;
-        workers_ = thread_count(options_.threads);
-        on_threads(workers_, [&] {
-            oneapi::tbb::parallel_for(
-                0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
-        });
-        progress_ = nullptr;
-        std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
-    }
-
-    std::map<std::size_t, FinishedJob> finished;
-    std::vector<Failure> failures;
-    std::size_t left() const { return waiting_.size(); }
-
-private:
-    struct Turn {
-        Task task;
-        int threads = 1;
-        double memory = 0;
-    };
-
-    /// The first job for which there is memory; nullopt when there is nothing more to begin.
-    std::optional<Turn> next() {
-        std::unique_lock lock(mutex_);
-        while (true) {
-            if (stopped_ || interrupted() || waiting_.empty()) return std::nullopt;
-            for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
-                if (task->forecast.memory > free_ && under_way_ > 0) continue;
-                Turn turn{*task, 1, task->forecast.memory};
-                // Towards the end there are fewer jobs than cores.
-                const auto others = static_cast<int>(std::min<std::size_t>(waiting_.size() + under_way_, 1024));
-                turn.threads = std::max(1, workers_ / std::max(1, others));
-                if (others > 1) turn.threads = std::min(turn.threads, most_picture_threads);
-                const double more = task->forecast.memory + turn.threads * task->forecast.band;
-                if (turn.threads > 1 && more <= free_) {
-                    turn.memory = more;
-                } else {
-                    turn.threads = 1;
-                }
-                free_ -= turn.memory;
-                ++under_way_;
-                waiting_.erase(task);
-                return turn;
-            }
-            changed_.wait_for(lock, std::chrono::milliseconds(200));
-        }
-    }
-
-    void work() {
-        while (const auto turn = next()) {
-            std::optional<FinishedJob> result;
-            std::string problem;
-            try {
-                result = make(*turn);
-            } catch (const Stopped&) {
-            } catch (const std::bad_alloc&) {
-                problem = "there is not enough memory for this";
-            } catch (const std::exception& error) {
-                problem = error.what();
-            }
-            {
-                const std::lock_guard guard(mutex_);
-                free_ += turn->memory;
-                --under_way_;
-                if (result) finished.emplace(turn->task.job, std::move(*result));
-                if (!problem.empty()) {
-                    failures.push_back({turn->task.job, std::move(problem)});
-                    stopped_ = stopped_ || !options_.keep_going;
-                }
-            }
-            changed_.notify_all();
-            progress_->finish(turn->task.forecast.cost());
-        }
-    }
-
-    FinishedJob make(const Turn& turn) {
-        const GalleryJob& job = jobs_[turn.task.job];
-        if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
-        const std::string too_much = too_much_memory(turn.task.forecast, memory_);
-        if (!too_much.empty()) throw std::runtime_error(too_much);
-        FinishedJob result;
-        result.file = job.file();
-        result.hash = hashes_[turn.task.job];
-        result.job = job.text();
-        const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
-            Telling telling;
-            telling.quiet = true;
-            telling.listener = [&](const std::string& text) {
-                // Not where the folder lies.
-                std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
-                const std::string prefix = path.string();
-                const std::string file = job.file();
-                for (std::size_t at = 0; (at = line.find(prefix, at)) != std::string::npos; at += file.size()) {
-                    line.replace(at, prefix.size(), file);
-                }
-                told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
-            };
-            telling.watch = [this](std::uint64_t) {
-                if (interrupted()) throw Interrupted();
-                progress_->watch();
-            };
-            if (job.is_score()) {
-                play_score(score_settings(job, path), telling);
-            } else {
-                DrawSettings settings = print_settings(job, path);
-                settings.threads = turn.threads;
-                draw_print(settings, telling);
-            }
-        };
-        const bool replaces = options_.force || record_.is_ours(result.file);
-        return make_file(record_, folder_, std::move(result), replaces, make);
-    }
-
-    const std::vector<GalleryJob>& jobs_;
-    const std::vector<std::string>& hashes_;
-    const std::filesystem::path& folder_;
-    GalleryRecord& record_;
-    const Options& options_;
-    bool quiet_;
-    BatchProgress* progress_ = nullptr;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::list<Task> waiting_;
-    std::size_t under_way_ = 0;
-    double free_ = 0;
-    double memory_ = 0;
-    int workers_ = 1;
-    bool stopped_ = false;
-};
 
 /// Calls `work` with every number below `count`, on several threads.
 template <typename Work>
@@ -418,6 +136,38 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
+/// The sheets that are asked for.
+std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
+    std::vector<SheetRequest> sheets;
+    if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
+    if (!request.poster.empty()) sheets.push_back({"poster", request.poster, true, threads, memory});
+    return sheets;
+}
+
+/// @param jobs  those that can be made
+/// @returns false if a sheet cannot be made
+bool tell_sheet_forecast(const std::vector<const GalleryJob*>& jobs, const Options& options, double memory) {
+    bool can_be_made = true;
+    for (const SheetRequest& sheet : sheets_of(options.request, options.threads, memory)) {
+        for (const std::string& file : sheet_files(sheet)) {
+            std::string problem;
+            JobForecast forecast;
+            try {
+                forecast.memory = gallery_sheet_memory(jobs, sheet, file);
+                problem = too_much_memory(forecast, memory);
+            } catch (const std::exception& error) {
+                problem = error.what();
+            }
+            can_be_made = can_be_made && problem.empty();
+            if (problem.empty() && forecast.memory == 0) continue;
+            if (problem.empty()) problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "",
+                                                       bytes_text(forecast.memory));
+            fmt::print("{:<40} {}\n", file, printable(problem.substr(0, problem.find('\n')), 200));
+        }
+    }
+    return can_be_made;
+}
+
 /// @param memory  bytes for jobs
 /// @returns false if one cannot be made
 bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
@@ -425,6 +175,7 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
     forecast_all(jobs, chosen, options, forecasts);
     JobForecast sum;
     std::size_t impossible = 0;
+    std::vector<const GalleryJob*> possible;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
     for (const std::size_t job : chosen) {
         const JobForecast& each = *forecasts[job];
@@ -437,6 +188,7 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
         }
         fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(jobs[job].file(), 2000), each.symbols,
                    time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
+        possible.push_back(&jobs[job]);
         sum.seconds += each.seconds;
         sum.bytes += each.bytes;
         sum.memory = std::max(sum.memory, each.memory);
@@ -444,7 +196,8 @@ bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::s
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size() - impossible, "job"), "",
                time_text(sum.seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
     if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
-    return impossible == 0;
+    const bool is_whole = chosen.size() == jobs.size();
+    return (!is_whole || tell_sheet_forecast(possible, options, memory)) && impossible == 0;
 }
 
 /// The words that this program was started with, without `--slurm`.
@@ -490,25 +243,37 @@ bool is_in_path(const std::string& program) {
     return false;
 }
 
+/// Writes the script for Slurm, with the care that is taken in the folder of the gallery itself.
+/// @param replaces  also a file or a link that is not a script of a gallery
+void write_script(const GalleryFolder& folder, const std::string& name, const std::string& text, bool replaces) {
+    const GalleryPlace place = folder.place(name);
+    const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;
+    if (const auto there = place.status(); there && !S_ISDIR(there->st_mode)) {
+        if (!replaces && !is_ours) {
+            throw std::runtime_error(
+                fmt::format("'{}' is there already and is not a script of a gallery; --force replaces it",
+                            folder.shown(name)));
+        }
+        if (!S_ISREG(there->st_mode)) place.remove();
+    }
+    try {
+        OutputFile output(place.path());
+        output.write(text);
+        output.commit();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(place.readable(error.what()));
+    }
+}
+
 /// Writes the script beside the folder of the gallery, which holds nothing but the gallery, and hands it to Slurm.
 void submit(const Options& options, std::size_t jobs) {
     std::filesystem::path folder = std::filesystem::absolute(options.output).lexically_normal();
     if (folder.filename().empty()) folder = folder.parent_path();
     const std::string script = folder.string() + ".sbatch";
     const std::size_t tasks = std::min(options.slurm, std::max<std::size_t>(jobs, 1));
-    std::error_code error;
-    if (std::filesystem::exists(std::filesystem::symlink_status(script, error)) && !options.force) {
-        std::ifstream there(script, std::ios::binary);
-        std::string text(200, '\0');
-        there.read(text.data(), 200);
-        if (text.find("\n#SBATCH --job-name=sikku-gallery\n") == std::string::npos) {
-            throw std::runtime_error(
-                fmt::format("'{}' is there already and is no script of a gallery; --force replaces it", script));
-        }
-    }
-    OutputFile output(script);
-    output.write(slurm_script(own_arguments(), std::filesystem::current_path().string(), tasks, script));
-    output.commit();
+    write_script(GalleryFolder(folder.parent_path()), folder.filename().string() + ".sbatch",
+                 slurm_script(own_arguments(), std::filesystem::current_path().string(), tasks, script),
+                 options.force);
     std::string common = "sbatch --parsable --requeue";
     if (options.threads > 0) common += fmt::format(" --cpus-per-task={}", options.threads);
     if (!options.memory.empty())
@@ -534,7 +299,7 @@ void submit(const Options& options, std::size_t jobs) {
 class Summaries {
 public:
     Summaries(const std::vector<GalleryJob>& jobs, const std::map<std::size_t, FinishedJob>& finished,
-              const std::filesystem::path& folder, GalleryRecord& record, const Options& options, bool quiet)
+              const GalleryFolder& folder, GalleryRecord& record, const Options& options, bool quiet)
         : folder_(folder), record_(record), options_(options), shown_(!quiet && isatty(STDERR_FILENO) == 1) {
         for (const auto& [job, result] : finished) {
             jobs_.push_back(&jobs[job]);
@@ -547,17 +312,20 @@ public:
     /// @param troubles  why others are not
     void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order,
               std::vector<std::string>& troubles) {
-        const auto draw = [&](const SheetRequest& sheet) {
-            if (sheet.size.empty()) return;
-            for (const std::string& file : sheet_files(sheet)) {
-                make(file, sheet.size, order, troubles,
-                     [&](const std::filesystem::path& path) { draw_gallery_sheet(jobs_, sheet, path, telling_); });
+        const auto draw = [&](bool posters) {
+            for (const SheetRequest& sheet : sheets_of(request, options_.threads, memory)) {
+                if (sheet.is_poster != posters) continue;
+                for (const std::string& file : sheet_files(sheet)) {
+                    make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
+                        draw_gallery_sheet(jobs_, sheet, path, telling_);
+                    });
+                }
             }
         };
-        draw({"contact", request.contact, false, options_.threads, memory});
+        draw(false);
         make("index.html", request.title, order, troubles,
              [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path); });
-        draw({"poster", request.poster, true, options_.threads, memory});
+        draw(true);
     }
 
 private:
@@ -580,9 +348,11 @@ private:
         }
         if (shown_) tell("\r{} …\033[K", name);
         try {
-            const bool is_ours = name == "index.html" ? is_gallery_page(folder_ / name) : record_.is_ours(name);
-            order.push_back(make_file(record_, folder_, std::move(file), options_.force || is_ours,
-                                      [&](const std::filesystem::path& path, auto&) { make_it(path); }));
+            const bool is_ours =
+                name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
+            order.push_back(
+                make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
+                                  [&](const std::filesystem::path& path, auto&) { make_it(path); }));
         } catch (const Stopped&) {
             if (shown_) tell("\r\033[K");
             throw;
@@ -594,7 +364,7 @@ private:
 
     std::vector<const GalleryJob*> jobs_;  ///< that are there
     TextHash held_;
-    const std::filesystem::path& folder_;
+    const GalleryFolder& folder_;
     GalleryRecord& record_;
     const Options& options_;
     bool shown_;
@@ -631,15 +401,20 @@ void run(Options& options, bool quiet) {
     }
 
     const double started = now();
-    const std::filesystem::path folder = options.output;
-    GalleryRecord record(folder, shard.record_name(), options.force);
+    const GalleryFolder folder(options.output);
+    bool told_waiting = false;
+    GalleryRecord record(folder, shard.record_name(), options.force, [&] {
+        if (interrupted()) throw Interrupted("interrupted while waiting for another run; nothing was made");
+        if (std::exchange(told_waiting, true) || quiet) return;
+        tell("sikku: another run is at work on '{}'; waiting for it\n", folder.shown(shard.record_name()));
+    });
     std::vector<std::string> hashes(jobs.size());
     for_each_number(chosen.size(), options.threads,
                     [&](std::size_t i) { hashes[chosen[i]] = jobs[chosen[i]].hash(); });
     std::map<std::size_t, FinishedJob> finished;
     std::vector<std::size_t> pending;
+    const bool redo = options.force || !options.only.empty();
     for (const std::size_t job : chosen) {
-        const bool redo = options.force || !options.only.empty();
         auto known = redo ? std::nullopt : record.finished(jobs[job].file(), hashes[job]);
         if (known) {
             finished.emplace(job, std::move(*known));
@@ -647,18 +422,24 @@ void run(Options& options, bool quiet) {
             pending.push_back(job);
         }
     }
-    const std::size_t skipped = finished.size();
     forecast_all(jobs, pending, options, forecasts);
     std::vector<Task> tasks;
-    for (const std::size_t job : pending) tasks.push_back({job, *forecasts[job]});
+    for (const std::size_t job : pending) tasks.push_back({job, *forecasts[job], false});
     const bool makes_pictures = std::any_of(pending.begin(), pending.end(), [&](std::size_t job) {
         const auto format = print_format(jobs[job].file());
         return !jobs[job].is_score() && format && !is_vector(*format);
     });
     if (makes_pictures) prepare_images(thread_count(options.threads));
-    Batch batch(jobs, hashes, folder, record, options, quiet);
+    Batch batch(jobs, hashes, folder, record,
+                {.threads = options.threads,
+                 .replaces = options.force,
+                 .redoes = redo,
+                 .keep_going = options.keep_going,
+                 .quiet = quiet});
     if (!tasks.empty()) batch.run(std::move(tasks), for_jobs);
-    for (auto& [job, result] : batch.finished) finished.emplace(job, result);
+    finished.insert(batch.found.begin(), batch.found.end());
+    const std::size_t skipped = finished.size();
+    finished.insert(batch.finished.begin(), batch.finished.end());
 
     std::vector<FinishedJob> order;
     std::set<std::size_t> is_chosen(chosen.begin(), chosen.end());
@@ -681,7 +462,7 @@ void run(Options& options, bool quiet) {
         }
     }
     try {
-        record.complete(order, shard.count == 1);
+        record.complete(order, batch.begun, shard.count == 1);
     } catch (const std::exception& error) {
         troubles.push_back(error.what());  // the lines appended so far hold all the same
     }
@@ -694,7 +475,7 @@ void run(Options& options, bool quiet) {
             }
         }
         if (told > 20)
-            tell("sikku: and {} more warnings, which {} holds\n", told - 20, (folder / shard.record_name()).string());
+            tell("sikku: and {} more warnings, which {} holds\n", told - 20, folder.shown(shard.record_name()));
         tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
              counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
         if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
@@ -769,7 +550,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
     }
     command->footer(
         "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
-        "alone. Files that others made are never touched.\n\n"
+        "alone. Files that others made are never touched. Several runs may work in one folder at the same time.\n\n"
         "Examples:\n"
         "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"

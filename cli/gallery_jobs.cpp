@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <unordered_map>
@@ -563,6 +564,18 @@ std::string GalleryJob::hash() const {
         hash.add_piece(key);
         hash.add_piece(value);
     }
+    if (keys.contains("cmyk")) {
+        // It may change and keep its name. What is not a profile the print itself reports.
+        constexpr std::uintmax_t largest_profile = 64 << 20;
+        const std::filesystem::path file = folder / keys.at("cmyk");
+        std::error_code error;
+        std::ifstream profile;
+        if (std::filesystem::is_regular_file(file, error) &&
+            std::filesystem::file_size(file, error) <= largest_profile) {
+            profile.open(file, std::ios::binary);
+        }
+        hash.add_piece(std::string(std::istreambuf_iterator<char>(profile), std::istreambuf_iterator<char>()));
+    }
     if (is_score() && pattern->text) {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
@@ -599,7 +612,7 @@ DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& 
     text("split", settings.split);
     text("profile", settings.profile);
     text("bleed", settings.bleed);
-    text("cmyk", settings.cmyk);
+    if (job.keys.contains("cmyk")) settings.cmyk = (job.folder / job.keys.at("cmyk")).string();
     if (job.keys.contains("spot")) settings.spots = {job.keys.at("spot")};
     whole_of(job, "bits", settings.bits);
     settings.plotter = job.keys.contains("plotter");

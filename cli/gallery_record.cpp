@@ -1,7 +1,6 @@
 #include "cli/gallery_record.h"
 
 #include "art/output_file.h"
-#include "cli/gallery_jobs.h"
 #include "cli/json.h"
 
 #include <fcntl.h>
@@ -12,12 +11,14 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 namespace sikku {
 
@@ -31,14 +32,10 @@ struct RecordText {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int error) {
-    throw std::runtime_error(
-        fmt::format("cannot write '{}': {}", file.string(), std::generic_category().message(error)));
-}
+constexpr std::string_view whole_name = "gallery.jsonl";
 
-std::string contents(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+[[noreturn]] void fail(const std::string& file, int error) {
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
 /// `gallery-3-of-8.jsonl`
@@ -62,9 +59,8 @@ bool is_inside(const std::filesystem::path& file) {
            std::none_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
 }
 
-RecordText read_record(const std::filesystem::path& file) {
+RecordText read_record(const std::string& text) {
     RecordText record;
-    const std::string text = contents(file);
     record.is_ours = text.empty();
     record.is_cut = !text.empty() && !text.ends_with('\n');
     for (std::size_t at = 0; at < text.size();) {
@@ -126,6 +122,24 @@ bool is_unfinished(const std::string& name, std::string target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
+/// What an open file holds from a byte on.
+std::string read_from(const Descriptor& file, off_t from) {
+    std::string text;
+    std::vector<char> block(std::size_t{1} << 16);
+    while (true) {
+        const ssize_t got = ::pread(file.get(), block.data(), block.size(), from + static_cast<off_t>(text.size()));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read the record of a gallery");
+        if (got == 0) return text;
+        text.append(block.data(), static_cast<std::size_t>(got));
+    }
+}
+
+/// The folder below that of the gallery in which a file lies.
+std::string folder_of(const std::string& file) {
+    return std::filesystem::path(file).parent_path().string();
+}
+
 std::string claim_line(const std::string& file) {
     nlohmann::json json;
     json["claim"] = file;
@@ -145,112 +159,144 @@ std::string FinishedJob::line() const {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string content_hash(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return "";
-    TextHash hash;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (stream) {
-        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        hash.add({block.data(), static_cast<std::size_t>(stream.gcount())});
-    }
-    return stream.bad() ? "" : hash.digits();
-}
-
-GalleryRecord::GalleryRecord(std::filesystem::path folder, std::string name, bool replaces)
-    : folder_(std::move(folder)), name_(std::move(name)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error && !std::filesystem::is_directory(folder_)) fail(folder_, error.value());
-    open();
-    const RecordText own = read_record(folder_ / name_);
+GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool replaces,
+                             const std::function<void()>& waiting)
+    : folder_(folder), name_(std::move(name)), descriptor_(open(waiting)), locks_(folder) {
+    const GalleryLocks::Turn turn(locks_, false);
+    const RecordText own = read_record(read_from(descriptor_, 0));
     if (!own.is_ours && !replaces) {
-        ::close(std::exchange(descriptor_, -1));
         throw std::runtime_error(fmt::format(
-            "'{}' is there already and was not made by a gallery; --force replaces it", (folder_ / name_).string()));
+            "'{}' is there already and was not made by a gallery; --force replaces it", folder_.shown(name_)));
     }
     // What is appended begins on a line of its own.
     if (own.is_cut) append("\n", false);
-    remove_unfinished(name_);
-    for (const auto& file : others()) take(read_record(file), false);
-    take(own, true);
-    for (const std::string& file : own.claims) remove_unfinished(file);
+    arrivals_ = locks_.arrivals();
+    others_were_present_ = locks_.others_present();
+    for (const std::string& file : others()) others_.try_emplace(file);
+    read_others();
+    take_in(own, true);
+    left_ = own.claims;
+    left_.insert(name_);
+    remove_left();
 }
 
-GalleryRecord::~GalleryRecord() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-void GalleryRecord::open() {
-    const std::filesystem::path file = folder_ / name_;
+/// Waits for other runs of the same shard, and opens the record.
+Descriptor GalleryRecord::open(const std::function<void()>& waiting) const {
     while (true) {
-        descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) fail(file, errno);
+        Descriptor record = folder_.create(name_, O_RDWR | O_APPEND);
         // Some network file systems have no locks: then it goes without.
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            ::close(std::exchange(descriptor_, -1));
-            throw std::runtime_error(fmt::format("another run is at work on '{}'", file.string()));
+        while (::flock(record.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            waiting();
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
         // Whoever held it may have put another file in its place.
         struct stat opened {};
-        struct stat named {};
-        if (::fstat(descriptor_, &opened) == 0 && ::stat(file.c_str(), &named) == 0 &&
-            opened.st_ino == named.st_ino && opened.st_dev == named.st_dev) {
-            return;
+        const auto named = folder_.status(name_);
+        if (named && ::fstat(record.get(), &opened) == 0 && opened.st_ino == named->st_ino &&
+            opened.st_dev == named->st_dev) {
+            return record;
         }
-        ::close(std::exchange(descriptor_, -1));
     }
 }
 
 /// The records of shards, and of the whole: all but the own one.
-std::vector<std::filesystem::path> GalleryRecord::others() const {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-        const std::string found = entry.path().filename().string();
-        if (found == name_ || !(found == "gallery.jsonl" || is_shard_name(found))) continue;
-        if (!entry.is_symlink() && entry.is_regular_file()) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
+std::vector<std::string> GalleryRecord::others() const {
+    std::vector<std::string> files = folder_.names();
+    std::erase_if(files, [&](const std::string& file) {
+        return file == name_ || !(file == whole_name || is_shard_name(file));
+    });
     return files;
 }
 
-void GalleryRecord::take(const RecordText& record, bool keeps) {
+/// Takes in what the records of others hold beyond what was read of them.
+void GalleryRecord::read_others() {
+    for (auto& [file, reading] : others_) {
+        const Descriptor record = folder_.open(file);
+        struct stat status {};
+        // It may be gone: then its lines stand in the record of the whole.
+        if (!record || ::fstat(record.get(), &status) != 0) continue;
+        if (status.st_ino != reading.inode || status.st_size < reading.bytes) reading = {status.st_ino, 0};
+        if (status.st_size == reading.bytes) continue;
+        std::string text = read_from(record, reading.bytes);
+        // A line without end may still be written.
+        text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
+        reading.bytes += static_cast<off_t>(text.size());
+        take_in(read_record(text), false);
+    }
+}
+
+void GalleryRecord::take_in(const RecordText& record, bool keeps) {
     for (const std::string& claim : record.claims) {
         known_[claim].claimed = true;
         known_[claim].kept = known_[claim].kept || keeps;
     }
     for (const auto& [name, job] : record.finished) {
-        known_[name].versions.push_back(job);
-        known_[name].kept = known_[name].kept || keeps;
+        Known& known = known_[name];
+        std::erase_if(known.versions, [&](const FinishedJob& version) { return version.line() == job.line(); });
+        known.versions.push_back(job);
+        known.kept = known.kept || keeps;
     }
 }
 
-void GalleryRecord::remove_unfinished(const std::string& file) const {
-    const std::filesystem::path target = folder_ / file;
-    std::error_code error;
-    std::vector<std::filesystem::path> left;
-    for (std::filesystem::directory_iterator entry(target.parent_path(), error), end; !error && entry != end;
-         entry.increment(error)) {
-        if (is_unfinished(entry->path().filename().string(), target.filename().string()))
-            left.push_back(entry->path());
+void GalleryRecord::refresh() {
+    const std::lock_guard guard(mutex_);
+    const bool present = locks_.others_present();
+    const std::uint64_t arrivals = locks_.arrivals();
+    if (!std::exchange(others_were_present_, present) && !present && arrivals == arrivals_) return;
+    const GalleryLocks::Turn turn(locks_, false);
+    if (arrivals != arrivals_) {
+        for (const std::string& file : others()) others_.try_emplace(file);
     }
-    for (const auto& path : left) std::filesystem::remove(path, error);
+    arrivals_ = arrivals;
+    read_others();
+}
+
+/// Removes what is left unfinished of the files in `left_`; those that another run is making stay there.
+void GalleryRecord::remove_left() {
+    std::map<std::string, std::vector<std::string>> by_folder;
+    for (const std::string& file : left_) by_folder[folder_of(file)].push_back(file);
+    left_.clear();
+    // Nothing then tells whether its owner lives.
+    if (!locks_.work()) return;
+    for (const auto& [below, files] : by_folder) {
+        for (const std::string& name : folder_.names(below)) {
+            if (!name.starts_with(".")) continue;
+            const auto file = std::find_if(files.begin(), files.end(), [&](const std::string& each) {
+                return is_unfinished(name, std::filesystem::path(each).filename().string());
+            });
+            if (file == files.end()) continue;
+            if (!locks_.take(*file)) {
+                left_.insert(*file);
+                continue;
+            }
+            folder_.remove(below.empty() ? name : below + "/" + name);
+            locks_.release(*file);
+        }
+    }
 }
 
 std::optional<FinishedJob> GalleryRecord::present(const std::string& file) const {
-    const auto found = known_.find(file);
-    if (found == known_.end() || found->second.versions.empty()) return std::nullopt;
-    const std::vector<FinishedJob>& versions = found->second.versions;
-    const std::filesystem::path path = folder_ / file;
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    Known known;
+    {
+        const std::lock_guard guard(mutex_);
+        const auto found = known_.find(file);
+        if (found == known_.end()) return std::nullopt;
+        known = found->second;
+    }
+    return present(file, known);
+}
+
+std::optional<FinishedJob> GalleryRecord::present(const std::string& file, const Known& known) const {
+    const std::vector<FinishedJob>& versions = known.versions;
+    const auto status = folder_.status(file);
+    if (versions.empty() || !status || !S_ISREG(status->st_mode)) return std::nullopt;
     const bool agree = std::all_of(versions.begin(), versions.end(), [&](const FinishedJob& version) {
         return version.hash == versions.front().hash && version.content == versions.front().content;
     });
     // A claim after the last record may have made it anew, from another pattern.
-    const std::string content = agree && !found->second.claimed ? versions.back().content : content_hash(path);
+    const std::string content = agree && !known.claimed ? versions.back().content : folder_.content_hash(file);
     const auto same = std::find_if(versions.rbegin(), versions.rend(), [&](const FinishedJob& version) {
-        return version.bytes == static_cast<std::uint64_t>(status.st_size) && version.content == content;
+        return version.bytes == static_cast<std::uint64_t>(status->st_size) && version.content == content;
     });
     return same == versions.rend() ? std::nullopt : std::optional(*same);
 }
@@ -261,80 +307,120 @@ std::optional<FinishedJob> GalleryRecord::finished(const std::string& file, cons
 }
 
 bool GalleryRecord::is_ours(const std::string& file) const {
+    const std::lock_guard guard(mutex_);
     return known_.contains(file);
 }
 
-void GalleryRecord::append(const std::string& line, bool durable) {
+bool GalleryRecord::is_begun(const std::string& file) const {
     const std::lock_guard guard(mutex_);
+    const auto found = known_.find(file);
+    return found != known_.end() && found->second.claimed;
+}
+
+void GalleryRecord::append(const std::string& line, bool durable) {
     while (true) {
-        const ssize_t written = ::write(descriptor_, line.data(), line.size());
+        const ssize_t written = ::write(descriptor_.get(), line.data(), line.size());
         if (written == static_cast<ssize_t>(line.size())) break;
         if (written < 0 && errno == EINTR) continue;
         // A disk that is full may take a part: the rest of that line then counts for nothing.
         const int error = written < 0 ? errno : ENOSPC;
-        if (written > 0 && ::write(descriptor_, "\n", 1) != 1) {
-            // It is torn at its end, as read() expects.
+        if (written > 0 && ::write(descriptor_.get(), "\n", 1) != 1) {
+            // It is torn at its end, as read_record() expects.
         }
-        fail(folder_ / name_, error);
+        fail(folder_.shown(name_), error);
     }
-    if (durable && ::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(folder_ / name_, errno);
+    if (durable && ::fdatasync(descriptor_.get()) != 0 && errno != EINVAL && errno != EROFS) {
+        fail(folder_.shown(name_), errno);
+    }
 }
 
 void GalleryRecord::claim(const std::string& file) {
+    const std::lock_guard guard(mutex_);
     append(claim_line(file), false);
 }
 
 void GalleryRecord::add(const FinishedJob& job) {
     // OutputFile has synchronised the file: what the record says of it holds whatever happens.
+    const std::lock_guard guard(mutex_);
     append(job.line(), true);
 }
 
-void GalleryRecord::complete(const std::vector<FinishedJob>& order, bool sole) {
-    /// Records of shards that no run is at work on, locked until they are gone.
-    struct Locked {
-        std::filesystem::path file;
-        int descriptor = -1;
-    };
-    std::vector<Locked> shards;
-    if (sole) {
-        for (const auto& file : others()) {
-            const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-            if (descriptor < 0) continue;
-            // Shards may have finished since this run began: only now it is known what they hold.
-            const bool is_free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-            const RecordText shard = read_record(file);
-            if (!is_free || !shard.is_ours) {
-                ::close(descriptor);
-                continue;
-            }
-            shards.push_back({file, descriptor});
-            take(shard, true);
-            for (const std::string& claim : shard.claims) remove_unfinished(claim);
-            remove_unfinished(file.filename().string());
+/// Locks the records of shards that no run is at work on, and takes in what they hold by now.
+std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
+    std::vector<Left> shards;
+    for (const std::string& file : others()) {
+        if (file == whole_name || !folder_.open(file)) continue;
+        Left shard{file, {}};
+        try {
+            shard.descriptor = folder_.create(file, O_RDWR);
+        } catch (const std::runtime_error&) {
+            continue;
         }
+        // Where there are no locks, one that has nothing under way.
+        const bool is_locked = ::flock(shard.descriptor.get(), LOCK_EX | LOCK_NB) == 0;
+        if (!is_locked && errno == EWOULDBLOCK) continue;
+        const RecordText record = read_record(read_from(shard.descriptor, 0));
+        if (!record.is_ours || (!is_locked && !record.claims.empty())) continue;
+        take_in(record, true);
+        left_.insert(record.claims.begin(), record.claims.end());
+        left_.insert(file);
+        shards.push_back(std::move(shard));
     }
-    std::string text;
+    return shards;
+}
+
+/// Does the record of the whole say the same of all these files?
+bool GalleryRecord::is_in_the_whole(const std::vector<FinishedJob>& jobs) const {
+    if (!folder_.open(std::string(whole_name))) return false;
+    const RecordText whole = read_record(folder_.read(std::string(whole_name)));
+    return std::all_of(jobs.begin(), jobs.end(), [&](const FinishedJob& job) {
+        const auto found = whole.finished.find(job.file);
+        return found != whole.finished.end() && found->second.line() == job.line() &&
+               !whole.claims.contains(job.file);
+    });
+}
+
+void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::vector<std::string>& begun,
+                             bool sole) {
+    const std::lock_guard guard(mutex_);
+    const GalleryLocks::Turn turn(locks_, true);
+    const std::vector<Left> shards = sole ? take_over_shards() : std::vector<Left>();
+    remove_left();
+    std::vector<FinishedJob> jobs = order;
+    std::set<std::string> claims(begun.begin(), begun.end());
+    claims.insert(left_.begin(), left_.end());
     std::set<std::string> written;
-    for (const FinishedJob& job : order) {
-        text += job.line();
-        written.insert(job.file);
-    }
+    for (const FinishedJob& job : order) written.insert(job.file);
     // Of other jobs, what is still there, also what was not finished: it is no file of others.
     for (const auto& [file, known] : known_) {
-        std::error_code error;
-        if (written.contains(file) || !known.kept || !std::filesystem::exists(folder_ / file, error)) continue;
-        if (const auto job = present(file)) {
-            text += job->line();
+        if (written.contains(file) || !known.kept || !folder_.status(file)) continue;
+        if (auto job = present(file, known)) {
+            jobs.push_back(std::move(*job));
         } else {
-            text += claim_line(file);
+            claims.insert(file);
         }
     }
-    OutputFile output(folder_ / name_);
-    output.write(text);
-    output.commit();
-    for (const Locked& shard : shards) {
-        ::unlink(shard.file.c_str());
-        ::close(shard.descriptor);
+    if (!sole && claims.empty() && is_in_the_whole(jobs)) {
+        folder_.remove(name_);
+    } else {
+        std::string text;
+        for (const FinishedJob& job : jobs) text += job.line();
+        for (const std::string& file : claims) text += claim_line(file);
+        replace(text);
+    }
+    for (const Left& shard : shards) folder_.remove(shard.name);
+    // Before another run's turn comes, which may then take it over.
+    descriptor_.close();
+}
+
+void GalleryRecord::replace(const std::string& text) const {
+    const GalleryPlace place = folder_.place(name_);
+    try {
+        OutputFile output(place.path());
+        output.write(text);
+        output.commit();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(place.readable(error.what()));
     }
 }
 

@@ -12,7 +12,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -148,11 +147,8 @@ bool is_summary(std::string_view file) {
     return false;
 }
 
-bool is_gallery_page(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(4096, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return text.find("<meta name=\"generator\" content=\"Sikku\"/>") != std::string::npos;
+bool is_gallery_page(std::string_view beginning) {
+    return beginning.find("<meta name=\"generator\" content=\"Sikku\"/>") != std::string_view::npos;
 }
 
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
@@ -172,8 +168,10 @@ std::vector<std::string> sheet_files(const SheetRequest& request) {
     return files;
 }
 
-void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Telling& telling) {
+namespace {
+
+/// The prints among the jobs.
+std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request) {
     std::vector<SheetCell> cells;
     std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
     // What tells the prints of a pattern apart.
@@ -195,7 +193,6 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
             }
         }
     }
-    if (prints.empty()) return;
     const bool has_rows =
         std::all_of(lengths.begin(), lengths.end(), [](const auto& one) { return one.second.size() > 1; });
     const GalleryPattern* row = nullptr;
@@ -226,6 +223,10 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
         }
         cells.push_back(std::move(cell));
     }
+    return cells;
+}
+
+SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
     DrawSettings settings;
     settings.size = request.size;
     settings.output = file.string();
@@ -240,8 +241,23 @@ void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetR
     options.made = fmt::format("sikku {}", SIKKU_VERSION);
     options.threads = request.threads;
     options.memory = request.memory;
+    return options;
+}
+
+}  // namespace
+
+void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                        const std::filesystem::path& file, const Telling& telling) {
+    const std::vector<SheetCell> cells = cells_of(jobs, request);
+    if (cells.empty()) return;
+    SheetOptions options = options_of(request, file);
     options.watch = telling.watch;
     draw_sheet(cells, options, file);
+}
+
+double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                            const std::filesystem::path& file) {
+    return sheet_memory(cells_of(jobs, request), options_of(request, file));
 }
 
 }  // namespace sikku

@@ -13,15 +13,15 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Whether the file is a page that write_gallery_index() wrote.
-bool is_gallery_page(const std::filesystem::path& file);
+/// Whether a file that begins so, with 4096 bytes, is a page that write_gallery_index() wrote.
+bool is_gallery_page(std::string_view beginning);
 
 struct SheetRequest {
     std::string name;       ///< of the files: poster, contact
     std::string size;       ///< as for `sikku draw`
     bool is_poster = true;  ///< with large captions; else a contact sheet, with names alone
     int threads = 0;        ///< 0: one for each core
-    double memory = 0;      ///< bytes for cells of pictures; 0: no limit
+    double memory = 0;      ///< bytes for the pixels and cells of pictures; 0: no limit
 };
 
 /// The files of a sheet: NAME.pdf, NAME.png, NAME.svg.
@@ -37,5 +37,9 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 /// @throws UsageError, and what draw_sheet() throws
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Telling& telling);
+
+/// Bytes that drawing that sheet takes, roughly: see sheet_memory(). @throws what draw_gallery_sheet() throws
+double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+                            const std::filesystem::path& file);
 
 }  // namespace sikku

@@ -1,9 +1,7 @@
 // tests/gallery_test.cpp: `sikku gallery` from outside: what it makes, how it goes on, and what it refuses.
-#include "tests/files.h"
-#include "tests/program.h"
+#include "tests/gallery.h"
 
 #include <gtest/gtest.h>
-#include <sys/file.h>
 #include <sys/mount.h>
 
 #include <algorithm>
@@ -20,74 +18,6 @@
 
 namespace sikku {
 namespace {
-
-/// Every file of a folder, hidden ones too, with what it holds.
-std::map<std::string, std::string> tree(const std::filesystem::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
-            files[std::filesystem::relative(entry.path(), folder).string()] = contents(entry.path());
-        }
-    }
-    return files;
-}
-
-/// Names of the files that differ, for messages.
-std::string differences(const std::map<std::string, std::string>& one,
-                        const std::map<std::string, std::string>& two) {
-    std::string text;
-    for (const auto& [name, held] : one) {
-        const auto other = two.find(name);
-        if (other == two.end() || other->second != held) text += name + "\n";
-    }
-    for (const auto& [name, held] : two) {
-        if (!one.contains(name)) text += name + "\n";
-    }
-    return text;
-}
-
-std::size_t lines_of(const std::string& text) {
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-const std::string square = "axiom: F-F-F-F\nderivation length: 2\nF --> F-F+F+FF-F-F+F\n";
-
-const std::string small_gallery =
-    "size = '50x50mm'\n"
-    "dpi = 100\n"
-    "format = ['svg', 'png']\n"
-    "[[item]]\n"
-    "pattern = 'square.lsys'\n"
-    "n = '0:3'\n"
-    "[[item]]\n"
-    "pattern = ['hilbert', 'dragon']\n"
-    "n = [2, 5]\n"
-    "angle = '80:90:10'\n"
-    "[[item]]\n"
-    "pattern = 'hilbert-in-c'\n"
-    "format = 'mid'\n"
-    "humanise = 0.5\n"
-    "seed = '1:3'\n";
-constexpr std::size_t small_count = 8 + 16 + 3;
-
-/// A folder with the small gallery in it.
-class GalleryTest : public ::testing::Test {
-protected:
-    GalleryTest() {
-        folder.write("square.lsys", square);
-        folder.write("gallery.toml", small_gallery);
-    }
-    Outcome gallery(std::vector<std::string> arguments,
-                    std::vector<std::pair<std::string, std::string>> environment = {}) const {
-        arguments.insert(arguments.begin(), "gallery");
-        return run(arguments, {.folder = folder.path(), .environment = std::move(environment)});
-    }
-    Outcome small(const std::string& output, std::vector<std::string> more = {}) const {
-        more.insert(more.begin(), {"--file", "gallery.toml", "-o", output});
-        return gallery(std::move(more));
-    }
-    ScratchFolder folder;
-};
 
 TEST_F(GalleryTest, MakesWhatTheFileSays) {
     const Outcome outcome = small("out");
@@ -443,16 +373,6 @@ TEST_F(GalleryTest, AFolderThatCannotBeWritten) {
     EXPECT_EQ(gallery({"hilbert", "-o", "closed"}).status, 1);
 }
 
-TEST_F(GalleryTest, TwoRunsAtATimeDoNotMix) {
-    ASSERT_EQ(small("out").status, 0);
-    const int held = open(folder.file("out/gallery.jsonl").c_str(), O_RDONLY | O_CLOEXEC);
-    ASSERT_EQ(flock(held, LOCK_EX), 0);
-    const Outcome outcome = small("out");
-    close(held);
-    EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.errors, "another run is at work"));
-}
-
 TEST_F(GalleryTest, AFullDisk) {
     std::filesystem::create_directories(folder / "disk");
     if (mount("none", folder.file("disk").c_str(), "tmpfs", 0, "size=48k") != 0) GTEST_SKIP() << "nothing to mount";
@@ -516,6 +436,26 @@ TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
                                      "--memory", "300M", "-o", "out"});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_LT(outcome.peak, 330 * 1024);
+}
+
+TEST_F(GalleryTest, SheetsStayWithinTheMemory) {
+    const auto sheet = [&](const std::string& memory, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"hilbert", "dragon", "--size", "50x50mm", "--poster", "2000x2000mm", "--memory", memory,
+                                   "-o", "out", "--force"});
+        return gallery(more);
+    };
+    EXPECT_TRUE(has(sheet("8G", {"--dry-run"}).output, "poster.png"));
+    const Outcome too_little = sheet("1M", {"--dry-run"});
+    EXPECT_EQ(too_little.status, 1);
+    EXPECT_TRUE(has(too_little.output, "poster.png                               it takes about"));
+    if (sanitized) return;
+    ASSERT_EQ(sheet("8G").status, 0);
+    const std::string whole = contents(folder / "out/poster.png");
+    // All of its pixels are 186 MB.
+    const Outcome outcome = sheet("180M");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_LT(outcome.peak, 180 * 1024);
+    EXPECT_TRUE(contents(folder / "out/poster.png") == whole);
 }
 
 TEST_F(GalleryTest, AShardMayFinishWhileTheWholeIsMade) {

@@ -204,6 +204,24 @@ TEST_F(Sheets, TheSameCellsMakeTheSameBytes) {
     EXPECT_EQ(folder_.names().size(), 8u);
 }
 
+TEST_F(Sheets, PicturesOfLittleMemoryAreTheSame) {
+    options_.page = {600.0, 800.0, 20.0};
+    options_.format = PrintFormat::png;
+    const auto cells = four();
+    EXPECT_GT(sheet_memory(cells, options_), 25e6) << "a row of the sheet is kept";
+    write(cells, "all.png");
+    options_.memory = 20e6;
+    EXPECT_LT(sheet_memory(cells, options_), 20e6);
+    write(cells, "bands.png");
+    EXPECT_TRUE(contents(folder_ / "all.png") == contents(folder_ / "bands.png"));
+    options_.memory = 8e6;
+    EXPECT_GT(sheet_memory(cells, options_), 8e6);
+    EXPECT_THROW(write(cells, "none.png"), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "none.png"));
+    options_.format = PrintFormat::svg;
+    EXPECT_EQ(sheet_memory(cells, options_), 0);
+}
+
 TEST_F(Sheets, ATransparentSheetStaysSo) {
     if (!has_program("oiiotool")) GTEST_SKIP() << "no oiiotool on this machine";
     options_.ground.reset();

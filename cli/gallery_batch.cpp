@@ -1,0 +1,277 @@
+#include "cli/gallery_batch.h"
+
+#include "art/threads.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
+/// the beginning.
+constexpr int most_picture_threads = 3;
+
+}  // namespace
+
+std::string time_text(double seconds) {
+    if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
+    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
+    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+    if (seconds < 3599.5) {
+        const auto whole = static_cast<long>(std::lround(seconds));
+        return fmt::format("{} min {} s", whole / 60, whole % 60);
+    }
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string bytes_text(double bytes) {
+    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
+    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
+    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
+    return fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+/// A line on standard error, if that is a terminal: a bar with how many jobs a second and how long still. For several
+/// threads.
+class BatchProgress {
+public:
+    BatchProgress(std::size_t jobs, double cost, bool quiet)
+        : jobs_(jobs), cost_(cost), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+    ~BatchProgress() {
+        if (visible_) tell("\r\033[K");
+    }
+    BatchProgress(const BatchProgress&) = delete;
+    BatchProgress& operator=(const BatchProgress&) = delete;
+
+    void finish(double cost) {
+        const std::lock_guard guard(mutex_);
+        ++done_;
+        done_cost_ += cost;
+        show();
+    }
+    /// To be called now and then while jobs are under way.
+    void watch() {
+        if (!shown_) return;
+        const std::unique_lock guard(mutex_, std::try_to_lock);
+        if (guard) show();
+    }
+
+private:
+    void show() {
+        if (!shown_) return;
+        const double time = now();
+        if (time - started_ < 0.5 || time - last_ < 0.1) return;
+        last_ = time;
+        visible_ = true;
+        std::string line = fmt::format("{} of {}", done_, jobs_);
+        const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
+        if (done_ > 0) {
+            line += fmt::format(", {:.1f} a second, {} left", static_cast<double>(done_) / (time - started_),
+                                time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
+        }
+        winsize size{};
+        const std::size_t columns =
+            ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+        constexpr std::size_t most = 30;
+        const std::size_t bar = std::min(most, columns - std::min(columns, line.size() + 4));
+        if (bar >= 5) {
+            const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
+            line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar - filled, ' '), line);
+        }
+        tell("\r{}\033[K", line.substr(0, columns - 1));
+    }
+
+    std::size_t jobs_;
+    double cost_;
+    bool shown_;
+    bool visible_ = false;
+    std::size_t done_ = 0;
+    double done_cost_ = 0;
+    double started_;
+    double last_;
+    std::mutex mutex_;
+};
+
+std::string too_much_memory(const JobForecast& forecast, double memory) {
+    if (forecast.memory <= memory) return "";
+    return fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
+                       bytes_text(forecast.memory), bytes_text(memory));
+}
+
+FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
+                              const FileMaker& make) {
+    const GalleryPlace place = folder.place(file.file);
+    const auto there = place.status();
+    if (there && !replaces) {
+        throw std::runtime_error(fmt::format(
+            "'{}' is there already and was not made by this gallery; --force replaces it", folder.shown(file.file)));
+    }
+    // What a link points to is not in the way.
+    if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
+    record.claim(file.file);
+    try {
+        make(place.path(), file.told);
+    } catch (const Stopped&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(place.readable(error.what()));
+    }
+    for (std::string& line : file.told) line = place.readable(line, file.file);
+    const auto made = folder.status(file.file);
+    if (!made) throw std::runtime_error("there is nothing to write");
+    file.bytes = static_cast<std::uint64_t>(made->st_size);
+    file.content = folder.content_hash(file.file);
+    record.add(file);
+    return file;
+}
+
+void Batch::run(std::vector<Task> tasks, double memory) {
+    const auto order = [&](const Task& task) {
+        const bool is_begun = record_.is_begun(jobs_[task.job].file());
+        return std::pair(is_begun, is_begun ? task.forecast.cost() : -task.forecast.cost());
+    };
+    std::vector<std::pair<std::pair<bool, double>, std::size_t>> places;
+    for (std::size_t i = 0; i < tasks.size(); ++i) places.emplace_back(order(tasks[i]), i);
+    std::sort(places.begin(), places.end());
+    double cost = 0;
+    for (const auto& [place, task] : places) {
+        waiting_.push_back(tasks[task]);
+        cost += tasks[task].forecast.cost();
+    }
+    BatchProgress progress(tasks.size(), cost, options_.quiet);
+    progress_ = &progress;
+    free_ = memory_ = memory;
+    workers_ = thread_count(options_.threads);
+    on_threads(workers_, [&] {
+        oneapi::tbb::parallel_for(
+            0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
+    });
+    progress_ = nullptr;
+    std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
+}
+
+/// The first job for which there is memory and that no other run is making; nullopt when there is nothing more to
+/// begin.
+std::optional<Batch::Turn> Batch::next() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+        if (stopped_ || interrupted() || waiting_.empty()) return std::nullopt;
+        for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
+            if (task->forecast.memory > free_ && under_way_ > 0) continue;
+            if (!record_.take(jobs_[task->job].file())) {
+                task->was_busy = true;
+                continue;
+            }
+            Turn turn{*task, 1, task->forecast.memory};
+            // Towards the end there are fewer jobs than cores.
+            const auto others = static_cast<int>(std::min<std::size_t>(waiting_.size() + under_way_, 1024));
+            turn.threads = std::max(1, workers_ / std::max(1, others));
+            if (others > 1) turn.threads = std::min(turn.threads, most_picture_threads);
+            const double more = task->forecast.memory + turn.threads * task->forecast.band;
+            if (turn.threads > 1 && more <= free_) {
+                turn.memory = more;
+            } else {
+                turn.threads = 1;
+            }
+            free_ -= turn.memory;
+            ++under_way_;
+            waiting_.erase(task);
+            return turn;
+        }
+        if (under_way_ == 0) tell_waiting();
+        changed_.wait_for(lock, std::chrono::milliseconds(200));
+    }
+}
+
+void Batch::tell_waiting() {
+    if (std::exchange(told_waiting_, true) || options_.quiet) return;
+    tell("sikku: another run is making {}; waiting for it\n", counted(waiting_.size(), "job"));
+}
+
+void Batch::work() {
+    while (const auto turn = next()) {
+        make(*turn);
+        record_.release(jobs_[turn->task.job].file());
+        changed_.notify_all();
+        progress_->finish(turn->task.forecast.cost());
+    }
+}
+
+void Batch::make(const Turn& turn) {
+    const GalleryJob& job = jobs_[turn.task.job];
+    std::optional<FinishedJob> result;
+    std::string problem;
+    bool is_begun = false;
+    bool is_found = false;
+    try {
+        // Another run may have made it, or have begun it and been killed.
+        if (turn.task.was_busy || folder_.status(job.file())) {
+            record_.refresh();
+            if (!options_.redoes) result = record_.finished(job.file(), hashes_[turn.task.job]);
+            is_found = result.has_value();
+        }
+        if (!result) result = make_job(turn);
+    } catch (const Stopped&) {
+        is_begun = true;
+    } catch (const std::bad_alloc&) {
+        problem = "there is not enough memory for this";
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    const std::lock_guard guard(mutex_);
+    free_ += turn.memory;
+    --under_way_;
+    if (result) (is_found ? found : finished).emplace(turn.task.job, std::move(*result));
+    if (is_begun) begun.push_back(job.file());
+    if (problem.empty()) return;
+    failures.push_back({turn.task.job, std::move(problem)});
+    stopped_ = stopped_ || !options_.keep_going;
+}
+
+FinishedJob Batch::make_job(const Turn& turn) {
+    const GalleryJob& job = jobs_[turn.task.job];
+    if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
+    const std::string too_much = too_much_memory(turn.task.forecast, memory_);
+    if (!too_much.empty()) throw std::runtime_error(too_much);
+    FinishedJob result;
+    result.file = job.file();
+    result.hash = hashes_[turn.task.job];
+    result.job = job.text();
+    const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
+        Telling telling;
+        telling.quiet = true;
+        telling.listener = [&](const std::string& text) {
+            const std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
+            told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
+        };
+        telling.watch = [this](std::uint64_t) {
+            if (interrupted()) throw Interrupted();
+            progress_->watch();
+        };
+        if (job.is_score()) {
+            play_score(score_settings(job, path), telling);
+        } else {
+            DrawSettings settings = print_settings(job, path);
+            settings.threads = turn.threads;
+            draw_print(settings, telling);
+        }
+    };
+    const bool replaces = options_.replaces || record_.is_ours(result.file);
+    return make_gallery_file(record_, folder_, std::move(result), replaces, make);
+}
+
+}  // namespace sikku

@@ -1,0 +1,111 @@
+// cli/gallery_batch.h: the jobs of a gallery, made in parallel within a budget of memory.
+#pragma once
+
+#include "cli/gallery_forecast.h"
+#include "cli/gallery_jobs.h"
+#include "cli/gallery_record.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// `3.2 s`, `1 min 20 s`, `2.5 h`.
+std::string time_text(double seconds);
+/// `17 kB`, `1.2 GB`.
+std::string bytes_text(double bytes);
+
+/// Why a job cannot be made with so many bytes; empty if it can.
+std::string too_much_memory(const JobForecast& forecast, double memory);
+
+/// Gets the path, and where to put what there is to tell.
+using FileMaker = std::function<void(const std::filesystem::path& path, std::vector<std::string>& told)>;
+
+/// Makes a file of the gallery and records it. No other run makes it at the same time: that is the caller's care.
+/// @param file  its `file`, `hash` and `job` are known
+/// @param replaces  a file that is there already, even if it is of others: else that is a std::runtime_error. What
+///                  is neither a file nor a folder, such as a link, is removed first
+/// @throws what `make` throws; other errors than Interrupted as std::runtime_error
+FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
+                              const FileMaker& make);
+
+/// A job that is to be made in this run.
+struct Task {
+    std::size_t job = 0;  ///< its number in the gallery
+    JobForecast forecast;
+    bool was_busy = false;  ///< another run was making it
+};
+
+/// A job that could not be made.
+struct Failure {
+    std::size_t job = 0;
+    std::string message;
+};
+
+struct BatchOptions {
+    int threads = 0;        ///< 0: one for each core
+    bool replaces = false;  ///< files of others, too
+    bool redoes = false;    ///< what another run finished meanwhile is made all the same
+    bool keep_going = false;
+    bool quiet = false;
+};
+
+class BatchProgress;
+
+/// Makes jobs in parallel, within a budget of memory. What another run is making is left for the end, and is finished
+/// then, as a rule. The dearest come first, as what is begun last should end soon; but those that an earlier run
+/// began and did not finish come last, the cheapest of them first, so that runs that are killed again and again get
+/// on.
+class Batch {
+public:
+    Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes, const GalleryFolder& folder,
+          GalleryRecord& record, const BatchOptions& options)
+        : jobs_(jobs), hashes_(hashes), folder_(folder), record_(record), options_(options) {}
+
+    /// @param memory  bytes for all jobs that are under way
+    void run(std::vector<Task> tasks, double memory);
+
+    std::map<std::size_t, FinishedJob> finished;  ///< by this run
+    std::map<std::size_t, FinishedJob> found;     ///< finished by other runs meanwhile
+    std::vector<Failure> failures;
+    std::vector<std::string> begun;  ///< files whose making was interrupted
+    std::size_t left() const { return waiting_.size(); }
+
+private:
+    struct Turn {
+        Task task;
+        int threads = 1;
+        double memory = 0;
+    };
+    std::optional<Turn> next();
+    void tell_waiting();
+    void work();
+    void make(const Turn& turn);
+    FinishedJob make_job(const Turn& turn);
+
+    const std::vector<GalleryJob>& jobs_;
+    const std::vector<std::string>& hashes_;
+    const GalleryFolder& folder_;
+    GalleryRecord& record_;
+    const BatchOptions options_;
+    BatchProgress* progress_ = nullptr;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::list<Task> waiting_;
+    std::size_t under_way_ = 0;
+    double free_ = 0;
+    double memory_ = 0;
+    int workers_ = 1;
+    bool stopped_ = false;
+    bool told_waiting_ = false;
+};
+
+}  // namespace sikku

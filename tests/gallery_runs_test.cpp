@@ -1,0 +1,155 @@
+// tests/gallery_runs_test.cpp: several runs in one folder at a time, and runs that are killed again and again.
+#include "tests/gallery.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <list>
+#include <set>
+#include <thread>
+
+namespace sikku {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Waits until `is_true`; false after a minute.
+template <typename Condition>
+bool await(const Condition& is_true) {
+    for (int i = 0; i < 12'000; ++i) {
+        if (is_true()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+bool holds(const fs::path& file, const std::string& text) {
+    return contents(file).find(text) != std::string::npos;
+}
+
+bool has_temporary(const fs::path& folder, const std::string& name) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        if (entry->path().filename().string().starts_with("." + name + ".")) return true;
+    }
+    return false;
+}
+
+class GalleryRunsTest : public GalleryTest {};
+
+TEST_F(GalleryRunsTest, ASecondRunWaitsForTheFirst) {
+    ASSERT_EQ(small("out").status, 0);
+    const auto whole = tree(folder / "out");
+    const int held = open(folder.file("out/gallery.jsonl").c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    const std::vector<std::string> asked = {"gallery", "--file", "gallery.toml", "-o", "out"};
+    {
+        Child stopped(asked, {.folder = folder.path()});
+        stopped.await_handler(SIGINT);
+        stopped.send(SIGINT);
+        const Outcome outcome = stopped.wait();
+        EXPECT_EQ(outcome.status, 130);
+        EXPECT_TRUE(has(outcome.errors, "another run is at work on 'out/gallery.jsonl'; waiting for it"));
+    }
+    Child child(asked, {.folder = folder.path()});
+    child.await_handler(SIGTERM);
+    close(held);
+    const Outcome outcome = child.wait();
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(has(outcome.errors, "waiting for it"));
+    EXPECT_TRUE(has(outcome.errors, "0 made, 27 there already"));
+    EXPECT_EQ(differences(whole, tree(folder / "out")), "");
+}
+
+TEST_F(GalleryRunsTest, WholeRunsAndShardsAtATime) {
+    ASSERT_EQ(small("whole").status, 0);
+    const auto whole = tree(folder / "whole");
+    for (int round = 0; round < (sanitized ? 1 : 6); ++round) {
+        std::list<Child> runs;
+        for (const char* shard : {"", "1/3", "2/3", "", "3/3", ""}) {
+            std::vector<std::string> asked = {"gallery", "--file", "gallery.toml", "-o", "out", "-j", "1"};
+            if (*shard != '\0') asked.insert(asked.end(), {"--shard", shard});
+            runs.emplace_back(asked, Surroundings{.folder = folder.path()});
+        }
+        for (Child& run : runs) {
+            const Outcome outcome = run.wait();
+            EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        }
+        EXPECT_EQ(differences(whole, tree(folder / "out")), "");
+        fs::remove_all(folder / "out");
+    }
+}
+
+TEST_F(GalleryRunsTest, AKilledRunStartedAgainLeavesShardsAlone) {
+    const std::vector<std::string> asked = {"gallery", "hilbert", "-n", "8", "-f", "png", "--size", "A1", "-j", "1"};
+    const auto with = [&](std::initializer_list<std::string> more) {
+        std::vector<std::string> all = asked;
+        all.insert(all.end(), more);
+        return all;
+    };
+    ASSERT_EQ(run(with({"-o", "whole"}), {.folder = folder.path()}).status, 0);
+    {
+        const Child killed(with({"-o", "out"}), {.folder = folder.path()});
+        ASSERT_TRUE(await([&] { return has_temporary(folder / "out", "hilbert.png"); }));
+        killed.send(SIGKILL);
+    }
+    EXPECT_TRUE(has_temporary(folder / "out", "hilbert.png")) << "of the killed run";
+    Child shard(with({"-o", "out", "--shard", "1/1000"}), {.folder = folder.path()});
+    ASSERT_TRUE(await([&] { return holds(folder / "out/gallery-1-of-1000.jsonl", "hilbert.png"); }));
+    const Outcome outcome = run(with({"-o", "out"}), {.folder = folder.path()});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "0 made, 1 there already")) << "never twice";
+    const Outcome of_shard = shard.wait();
+    EXPECT_EQ(of_shard.status, 0) << of_shard.errors;
+    EXPECT_TRUE(has(of_shard.errors, "1 made"));
+    EXPECT_EQ(differences(tree(folder / "whole"), tree(folder / "out")), "");
+}
+
+TEST_F(GalleryRunsTest, AShardWhoseFilesTheWholeHasLeavesNothing) {
+    ASSERT_EQ(small("out").status, 0);
+    const auto whole = tree(folder / "out");
+    const Outcome shard = small("out", {"--shard", "2/3"});
+    EXPECT_EQ(shard.status, 0);
+    EXPECT_TRUE(has(shard.errors, "0 made"));
+    EXPECT_EQ(differences(whole, tree(folder / "out")), "");
+    // But its record stays where it says something else.
+    folder.write("square.lsys", square + "stroke: 1mm #123\n");
+    for (const char* part : {"1/3", "2/3", "3/3"}) ASSERT_EQ(small("out", {"--shard", part}).status, 0);
+    EXPECT_TRUE(has(small("out").errors, "0 made, 27 there already"));
+}
+
+TEST_F(GalleryRunsTest, RunsThatAreKilledAgainAndAgainGetOn) {
+    const std::vector<std::string> asked = {"gallery", "hilbert", "koch-curve", "dragon", "-f", "png", "--size",
+                                            "A1",      "-j",      "1",          "-n",     "7",  "-o",  "out"};
+    for (const int signal : {SIGKILL, SIGTERM}) {
+        fs::remove_all(folder / "out");
+        std::set<std::string> begun;
+        // None of these runs lives until its first file is finished.
+        for (int round = 0; round < 3; ++round) {
+            Child child(asked, {.folder = folder.path()});
+            std::string now;
+            ASSERT_TRUE(await([&] {
+                for (const char* name : {"hilbert.png", "koch-curve.png", "dragon.png"}) {
+                    if (!begun.contains(name) && has_temporary(folder / "out", name)) now = name;
+                }
+                return !now.empty();
+            })) << "each run begins with another job";
+            child.send(signal);
+            if (signal != SIGKILL) {
+                EXPECT_NE(child.wait().status, 0);
+            }
+            begun.insert(now);
+        }
+        EXPECT_EQ(begun.size(), 3U);
+    }
+    EXPECT_EQ(run(asked, {.folder = folder.path()}).status, 0);
+    EXPECT_FALSE(holds(folder / "out/gallery.jsonl", "claim"));
+    EXPECT_EQ(tree(folder / "out").size(), 5U) << "nothing is left";
+}
+
+}  // namespace
+}  // namespace sikku
