@@ -126,8 +126,8 @@ GalleryValue value_of(const toml::node& node, const std::string& file) {
             inner.order = {key.source().begin.line, key.source().begin.column};
             value.table.emplace_back(std::string(key.str()), std::move(inner));
         }
-        std::stable_sort(value.table.begin(), value.table.end(),
-                         [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+        std::sort(value.table.begin(), value.table.end(),
+                  [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
     } else {
         value.type = GalleryValue::Type::other;
     }
