@@ -124,10 +124,10 @@ GalleryValue value_of(const toml::node& node, const std::string& file) {
             GalleryValue inner = value_of(element, file);
             inner.place = place_of(file, key.source().begin);
             inner.order = {key.source().begin.line, key.source().begin.column};
-            value.table.emplace_back(std::string(key.str()), std::move(inner));
+            value.table.push_back({std::string(key.str()), std::move(inner)});
         }
-        std::stable_sort(value.table.begin(), value.table.end(),
-                         [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+        std::sort(value.table.begin(), value.table.end(),
+                  [](const auto& a, const auto& b) { return a.value.order < b.value.order; });
     } else {
         value.type = GalleryValue::Type::other;
     }
@@ -164,7 +164,7 @@ private:
             value.table.reserve(json.size());
             for (const auto& [key, element] : json.items()) {
                 const std::string key_place = next_key();
-                value.table.emplace_back(key, value_of(element, key_place));
+                value.table.push_back({key, value_of(element, key_place)});
             }
         } else {
             value.type = GalleryValue::Type::other;

@@ -15,9 +15,14 @@ struct GalleryValue {
     Type type = Type::text;
     std::string text;  ///< numbers and flags too
     std::vector<GalleryValue> list;
-    std::vector<std::pair<std::string, GalleryValue>> table;  ///< in the order of the file; the place is its key's
-    std::string place;                                        ///< `gallery.toml:3:1`
+    struct Entry;
+    std::vector<Entry> table;  ///< in the order of the file; the place of a value is its key's
+    std::string place;         ///< `gallery.toml:3:1`
     std::pair<std::uint32_t, std::uint32_t> order{0, 0};
+};
+struct GalleryValue::Entry {
+    std::string key;
+    GalleryValue value;
 };
 
 /// A longer gallery file is refused.
