@@ -140,6 +140,7 @@ public:
         if (!print.style.dots && !options.colours_strokes) return;
         KolamOptions examined;
         examined.spline = print.style.line == Line::spline;
+        examined.moves_lift = print.style.moves_lift;
         examined.budget = options.budget;
         examined.watch = options.watch;
         examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
@@ -464,11 +465,12 @@ const DrawnExtent& Drawing::seen() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement));
         return extent_.emplace(found.box, found.widest);
     }
-    // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
-    // is folded for whether it closes.
+    // Straight lines that are all seen are folded for their extent; a spline without brackets and lifts is one
+    // stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
-    if (folds_extent || (spline_ && !has_brackets_)) folded = fold(grammar_);
+    const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();
+    if (folds_extent || is_one_stroke) folded = fold(grammar_);
     const bool takes_census = spline_ && !folded;
     const bool reads_extent = spline_ || !folded;
     if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
@@ -523,7 +525,7 @@ void Drawing::read(const Print& print, PathSink& sink) const {
 }
 
 void Drawing::read_straight(PathSink& sink) const {
-    const auto turtle = Turtle::drawing(grammar_, sink, spline_);
+    const auto turtle = Turtle::drawing(grammar_, sink, style_.moves_draw());
     derive(grammar_, *turtle, reading(options_));
 }
 

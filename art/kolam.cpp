@@ -1034,7 +1034,7 @@ private:
 template <class Plane>
 KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, const KolamOptions& options) {
     StrokeReader<Plane> reader(plane, rank, options.budget / 40, options.draws);
-    const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline);
+    const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline && !options.moves_lift);
     DerivationOptions derivation;
     derivation.interpreted = true;
     derivation.limit_whole_words(options.budget);

@@ -85,6 +85,7 @@ struct KolamOptions {
     std::function<bool(const Pen&)> draws = {};  ///< what of the lines is seen; null: all
     /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch = {};
+    bool moves_lift = false;  ///< of a spline, `with lifts`: steps that are not drawn are no control points
 };
 
 /// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that

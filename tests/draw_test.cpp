@@ -125,5 +125,19 @@ TEST_F(Draw, WhereNothingIsSeenNothingIsWritten) {
     EXPECT_TRUE(folder_.names().empty());
 }
 
+TEST_F(Draw, MovesLiftThePenOfASplineWithLifts) {
+    options_.placement.step = 5.0;
+    const std::string axiom = "axiom: F+F-Fff+F-F\nstroke: 0.2mm\n";
+    draw(axiom + "line: spline\n");
+    EXPECT_EQ(found("//path", "d").size(), 1u);
+    draw(axiom + "line: spline with lifts\n");
+    EXPECT_EQ(found("//path", "d").size(), 2u);
+    // Brackets or not, closed lines are closed.
+    draw("axiom: F+F+F+Fff+F+F+F+F\nline: spline with lifts\n");
+    const auto paths = found("//path", "d");
+    ASSERT_EQ(paths.size(), 2u);
+    for (const std::string& path : paths) EXPECT_TRUE(path.ends_with("z")) << path;
+}
+
 }  // namespace
 }  // namespace sikku
