@@ -29,6 +29,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -57,16 +58,7 @@ public:
             return;
         }
         begin_line();
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
-                                                 turned(controls[i + 2])};
-            box.add(b[3]);
-            for (int axis = 0; axis < 2; ++axis) {
-                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
-                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
-            }
-            at_ = b[3];
-        }
+        add_curves(controls);
     }
     void change_pen(const Pen& pen) override {
         draws_ = style_.draws(pen);
@@ -76,6 +68,13 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
         for (const glm::dvec2 vertex : vertices) box.add(turned(vertex));
+    }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha == 0 || outline.empty()) return;
+        const glm::dvec2 at = std::exchange(at_, turned(outline.front()));
+        box.add(at_);
+        add_curves(outline.subspan(1));
+        at_ = at;
     }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
@@ -98,6 +97,20 @@ private:
     void begin_line() {
         box.add(at_);
         widest = std::max(widest, width_);
+    }
+
+    /// From at_.
+    void add_curves(std::span<const glm::dvec2> controls) {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
+                                                 turned(controls[i + 2])};
+            box.add(b[3]);
+            for (int axis = 0; axis < 2; ++axis) {
+                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
+                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
+            }
+            at_ = b[3];
+        }
     }
 
     /// Where the curve's derivative along `axis` vanishes.
@@ -521,7 +534,8 @@ void Drawing::read(const Print& print, PathSink& sink) const {
     if (scene_) return is_plot() ? draw_skeleton(*scene_, print, sink) : draw_solids(*scene_, print, sink);
     if (!spline_) return read_straight(sink);
     SplineSink spline(sink, closed_);
-    read_straight(spline);
+    const auto turtle = Turtle::outlining(grammar_, spline, spline, style_.moves_draw());
+    derive(grammar_, *turtle, reading(options_));
 }
 
 void Drawing::read_straight(PathSink& sink) const {

@@ -22,6 +22,7 @@ public:
     void change_pen(const Pen& pen) override { sink_.change_pen(old(pen)); }
     void end_stroke(bool closed) override { sink_.end_stroke(closed); }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
 
 private:
