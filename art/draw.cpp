@@ -158,7 +158,9 @@ public:
         examined.watch = options.watch;
         examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
         const KolamExamination examination = examine_kolam(grammar, examined);
-        line_of_stroke_ = examination.line_of_stroke;
+        for (const std::uint32_t line : examination.line_of_stroke) {
+            orbit_of_stroke_.push_back(examination.orbit_of_line[line]);
+        }
         if (!print.style.dots) return;
         dots_ = dot_places(examination);
         distance_ = least_distance(dots_);
@@ -196,7 +198,7 @@ public:
     void draw(const Drawing& drawing, const Print& print, PathSink& sink) const {
         OldColours lines(sink, drawn_);
         if (options_.colours_strokes) {
-            StrokeColours coloured(sink, drawn_, stroke_colours_, line_of_stroke_);
+            StrokeColours coloured(sink, drawn_, stroke_colours_, orbit_of_stroke_);
             drawing.read(print, coloured);
         } else if (!options_.only_dots) {
             drawing.read(print, lines);
@@ -207,17 +209,26 @@ public:
     }
 
 private:
-    /// Those of the palette that are seen, if they tell lines apart; else a palette that does.
+    /// Those of the pattern's own palette, if they tell lines apart; else, on dark ground, those of kolams. None is
+    /// close to the ground's.
     void add_stroke_colours(Style& style) {
-        const std::vector<int> slots = style.line_slots();
-        for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
-            if (slots[static_cast<std::size_t>(i)] == i && style.draws(Pen{.colour = i}))
-                stroke_colours_.push_back(i);
+        constexpr double least = 0.12;  // in OKLab
+        const Colour ground = style.ground && style.ground->alpha > 0 ? *style.ground : Colour{255, 255, 255, 255};
+        const auto is_seen = [&](Colour colour) { return colour_distance(colour, ground) >= least; };
+        const bool is_dark = lightness(ground) < 0.6;
+        if (!is_dark || style.palette != default_palette()) {
+            const std::vector<int> slots = style.line_slots();
+            for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
+                const Pen pen{.colour = i};
+                if (slots[static_cast<std::size_t>(i)] == i && style.draws(pen) && is_seen(style.line_colour(pen))) {
+                    stroke_colours_.push_back(i);
+                }
+            }
+            if (stroke_colours_.size() > 1) return;
         }
-        if (stroke_colours_.size() > 1) return;
-        for (const Colour colour : default_palette()) {
-            if (colour == style.ground.value_or(Colour{255, 255, 255, 255}) || colour == style.line_colour({}))
-                continue;
+        stroke_colours_.clear();
+        for (const Colour colour : is_dark ? kolam_palette() : default_palette()) {
+            if (!is_seen(colour)) continue;
             stroke_colours_.push_back(static_cast<int>(style.palette.size()));
             style.palette.push_back(colour);
         }
@@ -238,7 +249,7 @@ private:
     Pen dot_pen_;
     int border_colour_ = 0;
     double border_width_ = 0;  ///< millimetres
-    std::vector<std::uint32_t> line_of_stroke_;
+    std::vector<std::uint32_t> orbit_of_stroke_;  ///< of its line
     std::vector<int> stroke_colours_;
 };
 

@@ -46,6 +46,15 @@ std::vector<Colour> border_colours() {
     return {{0xff, 0xfb, 0xf1, 255}, {0xb3, 0x45, 0x2c, 255}};
 }
 
+std::vector<Colour> kolam_palette() {
+    constexpr std::size_t length = std::string_view("#rrggbb").size();
+    std::vector<Colour> palette;
+    for (std::size_t at = 0; at < kolam_colours.size(); at += length + 1) {
+        palette.push_back(*parse_colour(kolam_colours.substr(at, length)));
+    }
+    return palette;
+}
+
 void draw_border(const Print& print, double width, int colour, PathSink& sink) {
     const Page& page = print.page;
     const Placement& placement = print.placement;

@@ -191,5 +191,13 @@ TEST_F(Draw, MovesLiftThePenOfASplineWithLifts) {
     for (const std::string& path : paths) EXPECT_TRUE(path.ends_with("z")) << path;
 }
 
+TEST_F(Draw, LinesBetweenUnseenOnesHaveColoursOfTheirOwn) {
+    options_.colours_strokes = true;
+    draw("axiom: F+F+F+F+;(1)F(3);(0)F(2)+F(2)+F(2)+F(2)\npalette: #fffaf0 transparent\nground: #7d3324\n");
+    const auto colours = found("//g[@stroke]", "stroke");
+    ASSERT_EQ(colours.size(), 2u);
+    EXPECT_NE(colours[0], colours[1]);
+}
+
 }  // namespace
 }  // namespace sikku

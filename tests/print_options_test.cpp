@@ -1,4 +1,5 @@
 // tests/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
+#include "art/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 
@@ -91,6 +92,16 @@ TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
     }
 }
 
+TEST(Colours, AreAsFarApartAsTheyLook) {
+    const auto of = [](const char* text) { return *parse_colour(text); };
+    EXPECT_NEAR(lightness(of("white")), 1, 1e-6);
+    EXPECT_NEAR(lightness(of("black")), 0, 1e-6);
+    EXPECT_NEAR(colour_distance(of("white"), of("black")), 1, 1e-6);
+    EXPECT_LT(colour_distance(of("#fffaf0"), of("#fffbf1")), 0.01);
+    // Ottosson's own example: linear sRGB red.
+    EXPECT_NEAR(lightness(of("red")), 0.627955, 1e-5);
+}
+
 TEST_F(PrintOptions, StrandsAreToldApart) {
     const Outcome made = run({"kolam", "--grid", "5x5", "--seed", "4", "-o", (folder_ / "five.lsys").string()});
     ASSERT_EQ(made.status, 0) << made.errors;
@@ -102,6 +113,18 @@ TEST_F(PrintOptions, StrandsAreToldApart) {
     }
     EXPECT_EQ(colours.size(), 5u);
     EXPECT_EQ(count(document, "//path"), 5u);
+    EXPECT_TRUE(colours.contains("#fffaf0"));
+    for (const std::string& colour : colours) {
+        EXPECT_GT(colour_distance(*parse_colour(colour), *parse_colour("#7d3324")), 0.2) << colour;
+    }
+    // Images of each other have one colour.
+    ASSERT_EQ(run({"kolam", "--grid", "7x7", "--symmetry", "C4", "--density", "0.4", "--seed", "2", "-o",
+                   (folder_ / "seven.lsys").string()})
+                  .status,
+              0);
+    const Outcome told = run({"kolam", (folder_ / "seven.lsys").string(), "--json"});
+    const auto four = svg({(folder_ / "seven.lsys").string(), "--colour-by", "strand"});
+    EXPECT_LT(count(four, "//g[@stroke]"), count(four, "//path")) << told.output;
 }
 
 TEST_F(PrintOptions, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {
