@@ -187,7 +187,7 @@ public:
         }
         if (options_.border) {
             border_colour_ = static_cast<int>(style.palette.size());
-            for (const Colour colour : border_colours()) style.palette.push_back(colour);
+            for (const Colour colour : border_colours(style.ground)) style.palette.push_back(colour);
             // The border is no part of what the drawing may fill.
             print.page.margin -= border_room(border_width_);
         }

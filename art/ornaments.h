@@ -96,8 +96,9 @@ double least_distance(std::span<const glm::dvec2> dots);
 double border_width(const Page& page);
 /// With the room that a drawing leaves to it.
 double border_room(double width);
-/// The colours of draw_border(): rice flour and red earth (*kaavi*).
-std::vector<Colour> border_colours();
+/// The colours of draw_border(): rice flour and red earth (*kaavi*), in a lighter tone where the usual one would not
+/// stand out from the ground; no ground is white paper.
+std::vector<Colour> border_colours(const std::optional<Colour>& ground);
 /// Colours that tell the lines of a kolam apart on dark ground, rice flour first; the same as those of grids.
 std::vector<Colour> kolam_palette();
 /// A frame within the page's margins, of that width: a line of red earth between thin ones of rice flour,

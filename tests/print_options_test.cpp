@@ -79,9 +79,11 @@ TEST_F(PrintOptions, DotsStandWhereTheExaminationSetsThem) {
 TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
     const auto plain = svg({"snake-kolam", "-n", "2"});
     const auto framed = svg({"snake-kolam", "-n", "2", "--border", "kaavi"});
-    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 3);
+    // Its white is the ink of the lines.
+    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 2);
     EXPECT_EQ(count(framed, "//circle"), 4u);
-    const auto strokes = framed.select_nodes("//g[@stroke='#b3452c']/path");
+    EXPECT_EQ(count(framed, "//g[@stroke='#fffaf0']"), 1u);
+    const auto strokes = framed.select_nodes("//g[@stroke='#e07a50']/path");
     ASSERT_EQ(strokes.size(), 1u);
     EXPECT_TRUE(std::string_view(strokes.first().node().attribute("d").value()).ends_with("z"));
     for (const char* format : {"png", "pdf", "hpgl"}) {
@@ -100,6 +102,18 @@ TEST(Colours, AreAsFarApartAsTheyLook) {
     EXPECT_LT(colour_distance(of("#fffaf0"), of("#fffbf1")), 0.01);
     // Ottosson's own example: linear sRGB red.
     EXPECT_NEAR(lightness(of("red")), 0.627955, 1e-5);
+}
+
+TEST(Colours, OfABorderStandOutFromTheGround) {
+    for (const char* ground : {"#8c3b2a", "#7d3324", "#93432d", "white", "black", "#6b6b3a", "#4f6b3c", "#b3452c"}) {
+        const Colour under = *parse_colour(ground);
+        const std::vector<Colour> colours = border_colours(under);
+        ASSERT_EQ(colours.size(), 2u);
+        EXPECT_EQ(hex(colours[0]), "#fffaf0");
+        EXPECT_GT(colour_distance(colours[1], under), 0.14) << ground;
+        EXPECT_GT(colour_distance(colours[1], colours[0]), 0.2) << ground;
+    }
+    EXPECT_EQ(hex(border_colours(std::nullopt)[1]), "#b3452c");
 }
 
 TEST_F(PrintOptions, StrandsAreToldApart) {
