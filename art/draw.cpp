@@ -8,6 +8,7 @@
 #include "art/output_file.h"
 #include "art/pdf.h"
 #include "art/picture.h"
+#include "art/point_tree.h"
 #include "art/raster.h"
 #include "art/solid_raster.h"
 #include "art/solids.h"
@@ -196,15 +197,25 @@ public:
     std::size_t dots() const { return dots_.size(); }
 
     void draw(const Drawing& drawing, const Print& print, PathSink& sink) const {
-        OldColours lines(sink, drawn_);
+        NotedDiscs noted(sink, print.style);
+        PathSink& own = dots_.empty() ? sink : noted;
+        OldColours lines(own, drawn_);
         if (options_.colours_strokes) {
-            StrokeColours coloured(sink, drawn_, stroke_colours_, orbit_of_stroke_);
+            StrokeColours coloured(own, drawn_, stroke_colours_, orbit_of_stroke_);
             drawing.read(print, coloured);
         } else if (!options_.only_dots) {
             drawing.read(print, lines);
         }
         const double radius = dot_radius(print);
-        for (const glm::dvec2 dot : dots_) sink.disc(dot, radius, dot_pen_);
+        // A dot that the pattern draws by itself is not drawn again.
+        std::optional<PointTree> drawn;
+        if (!noted.places.empty()) drawn.emplace(noted.places);
+        const double nearby = distance_ > 0 ? distance_ / 4 : 0.25;
+        std::vector<PointTree::Near> found;
+        for (const glm::dvec2 dot : dots_) {
+            if (drawn) drawn->nearest(dot, nearby, 1, found);
+            if (found.empty()) sink.disc(dot, radius, dot_pen_);
+        }
         if (options_.border) draw_border(print, border_width_, border_colour_, sink);
     }
 

@@ -41,6 +41,30 @@ private:
     Style style_;
 };
 
+/// Notes where the discs of a drawing are.
+class NotedDiscs : public PathSink {
+public:
+    NotedDiscs(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha > 0) places.push_back(centre);
+        sink_.disc(centre, radius, pen);
+    }
+
+    std::vector<glm::dvec2> places;  ///< of those that are seen
+
+private:
+    PathSink& sink_;
+    const Style& style_;
+};
+
 /// Draws the strokes of each line in the next of some colours, which are indices of the palette.
 class StrokeColours : public PathSink {
 public:

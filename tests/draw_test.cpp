@@ -191,6 +191,20 @@ TEST_F(Draw, MovesLiftThePenOfASplineWithLifts) {
     for (const std::string& path : paths) EXPECT_TRUE(path.ends_with("z")) << path;
 }
 
+TEST_F(Draw, ADotThatThePatternDrawsIsDrawnOnce) {
+    const std::string square = "axiom: F+F+F+F+[+(45)f(0.7071)@O(0.1)]\nstroke: 0.4mm black\n";
+    draw(square);
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+    draw(square + "dots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+    // Discs elsewhere are no dots of the kolam.
+    draw("axiom: F+F+F+F+[+(45)f(3)@O(0.1)]\ndots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 2u);
+    options_.only_dots = true;
+    draw(square + "dots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+}
+
 TEST_F(Draw, LinesBetweenUnseenOnesHaveColoursOfTheirOwn) {
     options_.colours_strokes = true;
     draw("axiom: F+F+F+F+;(1)F(3);(0)F(2)+F(2)+F(2)+F(2)\npalette: #fffaf0 transparent\nground: #7d3324\n");
