@@ -307,7 +307,8 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 /// Draws into whatever a format takes.
 using Content = std::function<void(PathSink& sink)>;
 
-void write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
+/// @return is nothing seen of the drawing?
+bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
                   const std::filesystem::path& file) {
     Picture picture(print, options, rendering.channels(), output, file);
     std::mutex mutex;
@@ -321,9 +322,11 @@ void write_pixels(Rendering& rendering, const Print& print, const DrawOptions& o
         picture.rows(first_row, rows, pixels);
     });
     picture.close();
+    return picture.is_blank();
 }
 
-void write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
+/// @return is it a picture in which nothing is seen of the drawing?
+bool write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
            const std::filesystem::path& file) {
     // Only PDF knows the sheet from its bleed.
     const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
@@ -331,11 +334,11 @@ void write(const Content& content, const Print& given, const DrawOptions& option
         const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
         content(*writer);
         writer->finish();
-        return;
+        return false;
     }
     const auto raster = make_raster(print);
     content(*raster);
-    write_pixels(*raster, print, options, output, file);
+    return write_pixels(*raster, print, options, output, file);
 }
 
 /// Each sheet is drawn from the whole word again, and keeps what is seen on it.
@@ -633,10 +636,10 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
         draw_plot(drawing, composition, print, options, output, report);
     } else if (grammar.is_spatial() && !is_vector(options.format)) {
         print = as_picture(print);
-        write_pixels(*drawing.rendering(print), print, options, output, file);
+        report.is_blank = write_pixels(*drawing.rendering(print), print, options, output, file);
     } else {
         const auto content = [&](PathSink& sink) { composition.draw(drawing, print, sink); };
-        write(content, print, options, output, file);
+        report.is_blank = write(content, print, options, output, file);
     }
     if (!is_vector(options.format)) {
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);

@@ -429,8 +429,9 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
+/// Sets `is_blank` if nothing is seen of the drawing.
 ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
-                       const std::filesystem::path& file) {
+                       const std::filesystem::path& file, bool& is_blank) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixel = 25.4 / print.dpi;
     const int rows = strip_rows(print.style.line_width({}, print.placement.step), pixel, size);
@@ -487,6 +488,7 @@ ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const Dra
     on_threads(threads,
                [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
     picture.close();
+    is_blank = picture.is_blank();
     return all;
 }
 
@@ -508,11 +510,11 @@ std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const D
         seen = drawing.draw_lines(print, *writer);
         writer->finish();
     } else {
-        seen = draw_pixels(drawing, print, options, output, file);
+        seen = draw_pixels(drawing, print, options, output, file, report.is_blank);
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
     }
     report.replaced = seen.chords + seen.blots;
-    report.is_empty = seen.lines + seen.blots == 0;
+    report.is_empty = options.window && seen.lines + seen.blots == 0;
     output.commit();
     return report;
 }

@@ -347,6 +347,8 @@ PlannedPrint plan_print(const DrawSettings& options) {
     press.icc = options.icc;
     as_usage([&] {
         press.spots = parse_spots(options.spots);
+        if (!options.screen.empty()) press.screen = parse_screen(options.screen);
+        if (press.screen.kind == Screen::Kind::halftone) Screener(press.screen, 1, options.dpi);
         check_press(press, *format);
     });
     const bool is_trimmed = press.bleed > 0 || press.marks;
@@ -439,6 +441,8 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
         telling.say("sikku: warning: this drawing lies in the plane, where --view changes nothing\n");
     }
     const bool wants_dots = print.style.dots.has_value();
+    const Style style = print.style;
+    const double dpi = print.dpi;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
     progress.reset();
     if (report.leaves_pattern_out) {
@@ -450,7 +454,17 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (wants_dots && report.dots == 0 && report.sheets == 0) {
         telling.say("sikku: warning: there are no dots: the lines enclose none\n");
     }
-    if (report.is_empty) telling.say("sikku: warning: nothing of the drawing lies in the window\n");
+    if (report.is_empty) {
+        telling.say("sikku: warning: nothing of the drawing lies in the window\n");
+    } else if (report.is_blank) {
+        telling.say(
+            "sikku: warning: the picture looks empty: lines {:.2g} mm wide leave too little ink on pixels of {:.2g} "
+            "mm; "
+            "{}, or a lower -n, shows them\n",
+            style.line_width({}, report.step), 25.4 / dpi,
+            style.stroke.in_steps ? "a pen in millimetres (--set 'stroke=0.3mm')"
+                                  : "a wider pen (--set 'stroke=0.5mm')");
+    }
     if (report.plot) tell_plot(*report.plot, options.speeds, telling);
     if (report.sheets > 1) telling.say("{}\n", counted(report.sheets, "sheet"));
     if (report.overflows && report.sheets == 0) {
@@ -566,6 +580,12 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->check(CLI::IsMember({1, 8}))
         ->capture_default_str()
         ->group(press);
+    command
+        ->add_option("--screen", options->screen,
+                     "How --bits 1 shows colours: threshold (default), diffusion, or a halftone of LPI lines an inch "
+                     "(a twelfth of the dpi) at 45 degrees")
+        ->type_name("threshold|diffusion|halftone[,LPI]")
+        ->group(press);
     command->add_flag("--icc,!--no-icc", options->icc, "Pictures hold the ICC profile of their colours (default)")
         ->group(press);
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
@@ -582,7 +602,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
-        "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
+        "  sikku draw hilbert -n 60 --window -40,0,0,58 -o corner.svg\n"
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw bush-3d -o bush.glb\n"

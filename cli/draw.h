@@ -49,6 +49,7 @@ struct DrawSettings {
     std::vector<std::string> spots;  ///< NAME=COLOUR each
     std::string cmyk;                ///< ICC profile of the inks
     int bits = 8;                    ///< a channel
+    std::string screen;              ///< of one bit: see parse_screen(); empty: a threshold
     bool icc = true;                 ///< pictures hold the profile of their colours
 };
 

@@ -81,6 +81,10 @@ const std::vector<KeyFacts>& all_keys() {
             {{"spot", "NAME=COLOUR: an ink of its own; PDF", false, true}, Use::print, Kind::text, false},
             {{"cmyk", "Inks by this ICC profile; TIFF", false, true}, Use::print, Kind::text, false},
             {{"bits", "A channel: 8, or 1; TIFF", false, true}, Use::print, Kind::whole, false, 1, 8},
+            {{"screen", "Of one bit: threshold, diffusion, halftone or halftone,LPI", false, true},
+             Use::print,
+             Kind::text,
+             false},
             {{"no-icc", "Pictures without the ICC profile of their colours", true, true},
              Use::print,
              Kind::flag,
@@ -1091,6 +1095,7 @@ DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& 
     text("profile", settings.profile);
     text("bleed", settings.bleed);
     text("cmyk", settings.cmyk);
+    text("screen", settings.screen);
     if (job.keys.contains("spot")) settings.spots = {job.keys.at("spot")};
     whole_of(job, "bits", settings.bits);
     settings.plotter = job.keys.contains("plotter");
