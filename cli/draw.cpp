@@ -161,12 +161,16 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     if (is_gif(options.output) && (drawing.border || drawing.colours_strokes || print.style.dots)) {
         throw UsageError("--generations: of a .gif without --dots, --border and --colour-by");
     }
-    if (options.frame_time && !(*options.frame_time >= 0.01 && *options.frame_time <= 600)) {
-        throw UsageError("--frame-time: seconds, 0.01 to 600");
+    for (const auto& [name, seconds] : {std::pair("--frame-time", options.frame_time), {"--hold", options.hold}}) {
+        if (seconds && !(*seconds >= 0.01 && *seconds <= 600)) {
+            throw UsageError(fmt::format("{}: seconds, 0.01 to 600", name));
+        }
     }
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = parse_generations(options.generations);
     growth.seconds = options.frame_time.value_or(growth.seconds);
+    growth.hold = options.hold.value_or(growth.hold);
+    growth.fits_each = options.fit_frames;
     if (growth.last < growth.first || growth.last - growth.first >= 10'000) {
         throw UsageError(fmt::format("--generations {}: up to 10,000 frames, the lowest derivation length first",
                                      options.generations));
@@ -177,8 +181,8 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
             throw UsageError(
                 "a .gif has at most 65,535 pixels a side and 100 million in all: a smaller --size or --dpi");
         }
-    } else if (options.frame_time) {
-        throw UsageError("--frame-time: is for a .gif");
+    } else if (options.frame_time || options.hold) {
+        throw UsageError("--frame-time and --hold are for a .gif");
     }
     growth.made = [&](const Grammar& generation) { return made_with(options, generation); };
     Progress progress(0, telling.quiet);
@@ -270,8 +274,8 @@ void draw_model(const DrawSettings& given, ModelFormat format, const Telling& te
     // What a print is asked for, a model is, as far as it goes.
     options.output = "print.svg";
     if (options.window || options.plotter || options.tile || options.dots || options.dot_spacing || options.animate ||
-        !options.generations.empty() || options.frames || options.frame_time || !options.border.empty() ||
-        !options.colour_by.empty() || options.marks || !options.spots.empty() ||
+        !options.generations.empty() || options.frames || options.frame_time || options.hold || options.fit_frames ||
+        !options.border.empty() || !options.colour_by.empty() || options.marks || !options.spots.empty() ||
         options.bleed != DrawSettings().bleed || !options.view.empty()) {
         throw UsageError(
             "a model has no page: --view, --window, --generations, --frames, --frame-time, --dots, --border, "
@@ -428,10 +432,17 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     print.made = made_with(options, loaded.grammar);
     if (!options.generations.empty()) {
         if (options.frames || is_gif(options.output)) return draw_growth(options, print, drawing, loaded, telling);
+        if (options.frame_time || options.hold || options.fit_frames) {
+            throw UsageError(
+                "--frame-time, --hold and --fit-frames are for frames of --generations: a .gif, or --frames");
+        }
         return draw_generations(options, print, drawing, loaded, telling);
     }
     if (options.frames) throw UsageError("--frames: goes with --generations A:B");
-    if (options.frame_time) throw UsageError("--frame-time: goes with --generations A:B and a .gif");
+    if (options.frame_time || options.hold || options.fit_frames) {
+        throw UsageError(
+            "--frame-time, --hold, --fit-frames: each goes with --generations A:B, and a .gif or --frames");
+    }
     // Before the drawing, which may take long.
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
@@ -530,6 +541,13 @@ void add_draw(CLI::App& app, bool& quiet) {
     command
         ->add_option("--frame-time", options->frame_time,
                      "Seconds that each generation is shown (0.5); of --generations A:B -o growth.gif")
+        ->group(kolams);
+    command->add_option("--hold", options->hold, "Seconds that the last generation of a .gif is shown at least (2)")
+        ->group(kolams);
+    command
+        ->add_flag("--fit-frames", options->fit_frames,
+                   "Fit each frame of --generations to the page by itself; by default all have one scale and place, "
+                   "which shows growth")
         ->group(kolams);
     command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
         ->expected(0, 1)
