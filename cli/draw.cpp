@@ -219,7 +219,8 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
     sheet.dpi = print.dpi;
     sheet.title = print.title;
     sheet.animation = print.animation;
-    sheet.columns = static_cast<int>(last - first + 1);
+    // Captions are short, and are to be read from as far as the drawings.
+    sheet.letters = std::clamp(std::min(print.page.width, print.page.height) * 0.016, 2.0, 12.0);
     sheet.pattern = print.pattern;
     sheet.made = print.made;
     sheet.threads = drawing.threads;
