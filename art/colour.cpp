@@ -3,9 +3,12 @@
 #include "engine/text.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sikku {
 namespace {
@@ -234,6 +237,32 @@ const std::vector<std::string_view>& colour_names() {
         return list;
     }();
     return names;
+}
+
+namespace {
+
+glm::dvec3 oklab(Colour colour) {
+    const auto linear = [](std::uint8_t channel) {
+        const double value = channel / 255.0;
+        return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    };
+    const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
+    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+}  // namespace
+
+double lightness(Colour colour) {
+    return oklab(colour).x;
+}
+
+double colour_distance(Colour a, Colour b) {
+    return glm::length(oklab(a) - oklab(b));
 }
 
 }  // namespace sikku

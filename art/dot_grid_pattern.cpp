@@ -1,5 +1,6 @@
 #include "art/dot_grid_pattern.h"
 
+#include "art/ornaments.h"
 #include "engine/pattern.h"
 
 #include <fmt/format.h>
@@ -85,8 +86,6 @@ private:
     std::size_t column_ = 7;  // behind `axiom: `
 };
 
-constexpr std::string_view rice = "#fffaf0";
-constexpr std::string_view colours = "#fffaf0 #f2b632 #7fc8a9 #e77f67 #8fb8de #d6a2e8 #c5d86d #f7b2ad";
 constexpr std::size_t colour_count = 8;
 constexpr std::size_t most_listed_gaps = 1000;
 
@@ -157,7 +156,7 @@ KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, cons
     text += "\nground: #7d3324\nline: spline\n";
     text += fmt::format("stroke: 0.16 step {}\n", rice);
     if (!single || options.dot_symbols) {
-        text += fmt::format("palette: {} transparent\n", options.coloured ? colours : rice);
+        text += fmt::format("palette: {} transparent\n", options.coloured ? kolam_colours : rice);
     }
 
     const double half = std::numbers::sqrt2 / 4;  // a half step, along either axis

@@ -8,6 +8,7 @@
 #include "art/output_file.h"
 #include "art/pdf.h"
 #include "art/picture.h"
+#include "art/point_tree.h"
 #include "art/raster.h"
 #include "art/solid_raster.h"
 #include "art/solids.h"
@@ -29,6 +30,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -57,16 +59,7 @@ public:
             return;
         }
         begin_line();
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
-                                                 turned(controls[i + 2])};
-            box.add(b[3]);
-            for (int axis = 0; axis < 2; ++axis) {
-                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
-                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
-            }
-            at_ = b[3];
-        }
+        add_curves(controls);
     }
     void change_pen(const Pen& pen) override {
         draws_ = style_.draws(pen);
@@ -76,6 +69,13 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
         for (const glm::dvec2 vertex : vertices) box.add(turned(vertex));
+    }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha == 0 || outline.empty()) return;
+        const glm::dvec2 at = std::exchange(at_, turned(outline.front()));
+        box.add(at_);
+        add_curves(outline.subspan(1));
+        at_ = at;
     }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
@@ -98,6 +98,20 @@ private:
     void begin_line() {
         box.add(at_);
         widest = std::max(widest, width_);
+    }
+
+    /// From at_.
+    void add_curves(std::span<const glm::dvec2> controls) {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
+                                                 turned(controls[i + 2])};
+            box.add(b[3]);
+            for (int axis = 0; axis < 2; ++axis) {
+                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
+                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
+            }
+            at_ = b[3];
+        }
     }
 
     /// Where the curve's derivative along `axis` vanishes.
@@ -140,12 +154,15 @@ public:
         if (!print.style.dots && !options.colours_strokes) return;
         KolamOptions examined;
         examined.spline = print.style.line == Line::spline;
+        examined.moves_lift = print.style.moves_lift;
         examined.budget = options.budget;
         examined.watch = options.watch;
         examined.monitor = options.monitor;
         examined.draws = [style = print.style](const Pen& pen) { return style.draws(pen); };
         const KolamExamination examination = examine_kolam(grammar, examined);
-        line_of_stroke_ = examination.line_of_stroke;
+        for (const std::uint32_t line : examination.line_of_stroke) {
+            orbit_of_stroke_.push_back(examination.orbit_of_line[line]);
+        }
         if (!print.style.dots) return;
         dots_ = dot_places(examination);
         distance_ = least_distance(dots_);
@@ -172,7 +189,7 @@ public:
         }
         if (options_.border) {
             border_colour_ = static_cast<int>(style.palette.size());
-            for (const Colour colour : border_colours()) style.palette.push_back(colour);
+            for (const Colour colour : border_colours(style.ground)) style.palette.push_back(colour);
             // The border is no part of what the drawing may fill.
             print.page.margin -= border_room(border_width_);
         }
@@ -181,30 +198,49 @@ public:
     std::size_t dots() const { return dots_.size(); }
 
     void draw(const Drawing& drawing, const Print& print, PathSink& sink) const {
-        OldColours lines(sink, drawn_);
+        NotedDiscs noted(sink, print.style);
+        PathSink& own = dots_.empty() ? sink : noted;
+        OldColours lines(own, drawn_);
         if (options_.colours_strokes) {
-            StrokeColours coloured(sink, drawn_, stroke_colours_, line_of_stroke_);
+            StrokeColours coloured(own, drawn_, stroke_colours_, orbit_of_stroke_);
             drawing.read(print, coloured);
         } else if (!options_.only_dots) {
             drawing.read(print, lines);
         }
         const double radius = dot_radius(print);
-        for (const glm::dvec2 dot : dots_) sink.disc(dot, radius, dot_pen_);
+        // A dot that the pattern draws by itself is not drawn again.
+        std::optional<PointTree> drawn;
+        if (!noted.places.empty()) drawn.emplace(noted.places);
+        const double nearby = distance_ > 0 ? distance_ / 4 : 0.25;
+        std::vector<PointTree::Near> found;
+        for (const glm::dvec2 dot : dots_) {
+            if (drawn) drawn->nearest(dot, nearby, 1, found);
+            if (found.empty()) sink.disc(dot, radius, dot_pen_);
+        }
         if (options_.border) draw_border(print, border_width_, border_colour_, sink);
     }
 
 private:
-    /// Those of the palette that are seen, if they tell lines apart; else a palette that does.
+    /// Those of the pattern's own palette, if they tell lines apart; else, on dark ground, those of kolams. None is
+    /// close to the ground's.
     void add_stroke_colours(Style& style) {
-        const std::vector<int> slots = style.line_slots();
-        for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
-            if (slots[static_cast<std::size_t>(i)] == i && style.draws(Pen{.colour = i}))
-                stroke_colours_.push_back(i);
+        constexpr double least = 0.12;  // in OKLab
+        const Colour ground = style.ground && style.ground->alpha > 0 ? *style.ground : Colour{255, 255, 255, 255};
+        const auto is_seen = [&](Colour colour) { return colour_distance(colour, ground) >= least; };
+        const bool is_dark = lightness(ground) < 0.6;
+        if (!is_dark || style.palette != default_palette()) {
+            const std::vector<int> slots = style.line_slots();
+            for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
+                const Pen pen{.colour = i};
+                if (slots[static_cast<std::size_t>(i)] == i && style.draws(pen) && is_seen(style.line_colour(pen))) {
+                    stroke_colours_.push_back(i);
+                }
+            }
+            if (stroke_colours_.size() > 1) return;
         }
-        if (stroke_colours_.size() > 1) return;
-        for (const Colour colour : default_palette()) {
-            if (colour == style.ground.value_or(Colour{255, 255, 255, 255}) || colour == style.line_colour({}))
-                continue;
+        stroke_colours_.clear();
+        for (const Colour colour : is_dark ? kolam_palette() : default_palette()) {
+            if (!is_seen(colour)) continue;
             stroke_colours_.push_back(static_cast<int>(style.palette.size()));
             style.palette.push_back(colour);
         }
@@ -225,7 +261,7 @@ private:
     Pen dot_pen_;
     int border_colour_ = 0;
     double border_width_ = 0;  ///< millimetres
-    std::vector<std::uint32_t> line_of_stroke_;
+    std::vector<std::uint32_t> orbit_of_stroke_;  ///< of its line
     std::vector<int> stroke_colours_;
 };
 
@@ -273,7 +309,8 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 /// Draws into whatever a format takes.
 using Content = std::function<void(PathSink& sink)>;
 
-void write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
+/// @return is nothing seen of the drawing?
+bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
                   const std::filesystem::path& file) {
     Picture picture(print, options, rendering.channels(), output, file);
     std::mutex mutex;
@@ -287,9 +324,11 @@ void write_pixels(Rendering& rendering, const Print& print, const DrawOptions& o
         picture.rows(first_row, rows, pixels);
     });
     picture.close();
+    return picture.is_blank();
 }
 
-void write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
+/// @return is it a picture in which nothing is seen of the drawing?
+bool write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
            const std::filesystem::path& file) {
     // Only PDF knows the sheet from its bleed.
     const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
@@ -297,11 +336,11 @@ void write(const Content& content, const Print& given, const DrawOptions& option
         const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
         content(*writer);
         writer->finish();
-        return;
+        return false;
     }
     const auto raster = make_raster(print);
     content(*raster);
-    write_pixels(*raster, print, options, output, file);
+    return write_pixels(*raster, print, options, output, file);
 }
 
 /// Each sheet is drawn from the whole word again, and keeps what is seen on it.
@@ -466,11 +505,12 @@ const DrawnExtent& Drawing::seen() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return extent_.emplace(found.box, found.widest);
     }
-    // Straight lines that are all seen are folded for their extent; a spline without brackets is one stroke, and
-    // is folded for whether it closes.
+    // Straight lines that are all seen are folded for their extent; a spline without brackets and lifts is one
+    // stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
-    if (folds_extent || (spline_ && !has_brackets_)) folded = fold(grammar_);
+    const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();
+    if (folds_extent || is_one_stroke) folded = fold(grammar_);
     const bool takes_census = spline_ && !folded;
     const bool reads_extent = spline_ || !folded;
     if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
@@ -524,11 +564,12 @@ void Drawing::read(const Print& print, PathSink& sink) const {
     }
     if (!spline_) return read_straight(sink);
     SplineSink spline(sink, closed_);
-    read_straight(spline);
+    const auto turtle = Turtle::outlining(grammar_, spline, spline, style_.moves_draw());
+    derive(grammar_, *turtle, reading(options_));
 }
 
 void Drawing::read_straight(PathSink& sink) const {
-    const auto turtle = Turtle::drawing(grammar_, sink, spline_);
+    const auto turtle = Turtle::drawing(grammar_, sink, style_.moves_draw());
     derive(grammar_, *turtle, reading(options_));
 }
 
@@ -601,10 +642,10 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
         draw_plot(drawing, composition, print, options, output, report);
     } else if (grammar.is_spatial() && !is_vector(options.format)) {
         print = as_picture(print);
-        write_pixels(*drawing.rendering(print), print, options, output, file);
+        report.is_blank = write_pixels(*drawing.rendering(print), print, options, output, file);
     } else {
         const auto content = [&](PathSink& sink) { composition.draw(drawing, print, sink); };
-        write(content, print, options, output, file);
+        report.is_blank = write(content, print, options, output, file);
     }
     if (!is_vector(options.format)) {
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);

@@ -78,6 +78,7 @@ struct DrawReport {
     std::optional<PlotReport> plot;   ///< of an arranged drawing
     std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
     bool is_empty = false;            ///< nothing of the drawing lies in the window
+    bool is_blank = false;            ///< a picture whose ink is too thin to be seen
     bool leaves_pattern_out = false;  ///< its text is too long for the format
 };
 

@@ -287,6 +287,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
     if (is_composed(style, options)) {
         return none("dots, borders, colours by strand, tiles and plots need the whole drawing");
     }
+    if (style.moves_lift) return none("splines whose moves lift the pen are seen as a whole");
     if (!style.draws({})) return none("lines that leave no ink are not seen");
     if (!options.window) {
         const auto cost = estimate(grammar, true);
@@ -430,8 +431,9 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
+/// Sets `is_blank` if nothing is seen of the drawing.
 ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
-                       const std::filesystem::path& file) {
+                       const std::filesystem::path& file, bool& is_blank) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixel = 25.4 / print.dpi;
     const int rows = strip_rows(print.style.line_width({}, print.placement.step), pixel, size);
@@ -488,6 +490,7 @@ ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const Dra
     on_threads(threads,
                [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
     picture.close();
+    is_blank = picture.is_blank();
     return all;
 }
 
@@ -509,11 +512,11 @@ std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const D
         seen = drawing.draw_lines(print, *writer);
         writer->finish();
     } else {
-        seen = draw_pixels(drawing, print, options, output, file);
+        seen = draw_pixels(drawing, print, options, output, file, report.is_blank);
         report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
     }
     report.replaced = seen.chords + seen.blots;
-    report.is_empty = seen.lines + seen.blots == 0;
+    report.is_empty = options.window && seen.lines + seen.blots == 0;
     output.commit();
     return report;
 }

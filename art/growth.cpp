@@ -54,6 +54,19 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     return frame;
 }
 
+/// With the frame of this generation alone, if each is to have its own and it draws anything.
+DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions& options,
+                   const GrowthOptions& growth, std::int64_t n) {
+    DrawOptions result = options;
+    if (!growth.fits_each) return result;
+    std::optional<SpaceBounds> bounds;
+    DrawOptions alone = options;
+    alone.frame.reset();
+    const DrawnExtent own = frame_of(grammar, style, alone, {.first = n, .last = n}, bounds);
+    if (!own.box.empty()) result.frame = own;
+    return result;
+}
+
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, DrawReport& report) {
     const PixelSize size = pixel_size(given.page, given.dpi);
@@ -66,10 +79,10 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
             throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
         }
     };
-    named([&] { animation = open_animation(output.temporary(), size.width, size.height, growth.seconds); });
+    named([&] { animation = open_animation(output.temporary(), size.width, size.height); });
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         Print print = given;
-        Drawing drawing(generation_of(grammar, n), print.style, options);
+        Drawing drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
         report = drawing.place(print);
         print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
         print.style.ground->alpha = 255;
@@ -90,7 +103,8 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
                 }
             }
         });
-        named([&] { animation->frame(pixels); });
+        const double seconds = n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds;
+        named([&] { animation->frame(pixels, seconds); });
     }
     named([&] { animation->close(); });
     output.commit();
@@ -119,7 +133,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     std::optional<SpaceBounds> bounds;
     options.frame = frame_of(grammar, print.style, options, growth, bounds);
     if (options.frame->box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
-    if (print.style.camera.distance && bounds) {
+    if (print.style.camera.distance && bounds && !growth.fits_each) {
         // Only now it is known where a camera with perspective stands.
         print.style.camera.aim = bounds;
         options.frame = frame_of(grammar, print.style, options, growth, bounds);
@@ -132,7 +146,8 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
         if (growth.made) print.made = growth.made(generation);
-        report = draw(generation, print, options, frame_file(file, n, growth.last));
+        report = draw(generation, print, framed(grammar, print.style, options, growth, n),
+                      frame_file(file, n, growth.last));
     }
     return report;
 }

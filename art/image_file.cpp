@@ -82,9 +82,8 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
     return image_module().open(path, spec);
 }
 
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,
-                                                double seconds) {
-    return image_module().open_animation(path, width, height, seconds);
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height) {
+    return image_module().open_animation(path, width, height);
 }
 
 void check_cmyk_profile(const std::filesystem::path& file) {

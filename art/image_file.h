@@ -51,8 +51,8 @@ public:
 class AnimationWriter {
 public:
     virtual ~AnimationWriter() = default;
-    /// All rows of a picture, 3 channels.
-    virtual void frame(std::span<const std::uint8_t> pixels) = 0;
+    /// All rows of a picture, 3 channels, and how long it is shown: rounded to hundredths, at least one of them.
+    virtual void frame(std::span<const std::uint8_t> pixels, double seconds) = 0;
     /// Completes the file. Without it the file is of no use.
     virtual void close() = 0;
 };
@@ -63,10 +63,9 @@ public:
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than are allowed here
 void prepare_images(int threads);
 
-/// Loads the module, too. @param seconds  that each picture is shown, rounded to hundredths, at least one of them
+/// Loads the module, too.
 /// @throws std::runtime_error also for sides over 65,535 pixels, and over 100 million of them
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height,
-                                                double seconds);
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height);
 
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
 /// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks

@@ -11,8 +11,7 @@ namespace sikku {
 struct ImageModule {
     std::uint64_t version;
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
-    std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height,
-                                                       double seconds);
+    std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height);
     void (*check_cmyk_profile)(const std::filesystem::path& file);
 };
 /// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).

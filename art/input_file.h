@@ -1,6 +1,7 @@
 // art/input_file.h: files that strangers may have made, read piece by piece.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -41,8 +42,8 @@ public:
     /// The next bytes without moving on: at least `least` (up to 64) of them unless the end comes first, and as many
     /// as there are in memory. Valid until the next call.
     std::string_view ahead(std::size_t least = 1);
-    /// Moves on by at most what ahead() returned.
-    void skip(std::size_t count) { next_ += count; }
+    /// Moves on by `count` bytes, but not beyond what ahead() returned.
+    void skip(std::size_t count) { next_ += std::min(count, block_.size() - next_); }
     /// The next byte, or -1 at the end; moves on.
     int take() {
         const std::string_view bytes = ahead();

@@ -131,6 +131,65 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
+/// Which lines are images of each other.
+class LineImages {
+public:
+    LineImages(const Strokes& strokes, std::span<const std::uint32_t> line_of_stroke, std::uint64_t lines)
+        : lengths_(lines, 0), joined_(lines) {
+        if (lines < 2) return;
+        for (std::size_t i = 0; i < strokes.count(); ++i) {
+            const auto nodes = strokes.stroke(i);
+            for (std::size_t j = 1; j < nodes.size(); ++j)
+                pieces_.push_back(piece(nodes[j - 1], nodes[j], line_of_stroke[i]));
+            lengths_[line_of_stroke[i]] += nodes.size() - 1;
+        }
+        std::sort(pieces_.begin(), pieces_.end());
+    }
+
+    /// Joins each line with the one onto which `map`, from node to node or none, puts most of it.
+    template <class Map>
+    void join(const Map& map) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> images;
+        for (const Piece& from : pieces_) {
+            const std::uint32_t first = map(from[0]);
+            const std::uint32_t second = map(from[1]);
+            if (first == none || second == none) continue;
+            const Piece wanted = piece(first, second, 0);
+            const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), wanted);
+            if (found == pieces_.end() || (*found)[0] != wanted[0] || (*found)[1] != wanted[1]) continue;
+            images.emplace_back(from[2], (*found)[2]);
+        }
+        std::sort(images.begin(), images.end());
+        for (auto begin = images.begin(); begin != images.end();) {
+            const auto end = std::upper_bound(begin, images.end(), *begin);
+            if (2 * static_cast<std::uint64_t>(end - begin) > lengths_[begin->first]) {
+                joined_.join(begin->first, begin->second);
+            }
+            begin = end;
+        }
+    }
+
+    /// For each line the number of its set, in the order of their first lines.
+    std::vector<std::uint32_t> orbits() {
+        std::vector<std::uint32_t> numbers(lengths_.size());
+        std::uint32_t sets = 0;
+        for (std::uint32_t line = 0; line < numbers.size(); ++line) {
+            const std::uint32_t first = joined_.find(line);
+            numbers[line] = first == line ? sets++ : numbers[first];
+        }
+        return numbers;
+    }
+
+private:
+    using Piece = std::array<std::uint32_t, 3>;  // two nodes, the smaller one first, and the line
+    static Piece piece(std::uint32_t a, std::uint32_t b, std::uint32_t line) {
+        return {std::min(a, b), std::max(a, b), line};
+    }
+    std::vector<Piece> pieces_;
+    std::vector<std::uint64_t> lengths_;  // of lines, in pieces
+    Union joined_;
+};
+
 /// A square grid over the drawing, and which segments come near each of its cells.
 class Grid {
 public:
@@ -835,6 +894,8 @@ private:
     /// Of straight lines the longest straight pieces must be mapped onto each other, of splines the control points
     /// with both neighbours.
     void find_symmetry() {
+        result_.orbit_of_line.resize(result_.lines);
+        std::iota(result_.orbit_of_line.begin(), result_.orbit_of_line.end(), 0U);
         std::vector<Element> elements;
         if (options_.spline) {
             for (std::size_t i = 0; i < strokes_.count(); ++i) {
@@ -895,18 +956,22 @@ private:
             return mapped == elements;
         };
         KolamSymmetry& symmetry = result_.symmetry;
+        LineImages lines(strokes_, result_.line_of_stroke, result_.lines);
         for (const std::uint32_t order : images.orders()) {
             if (maps_onto_itself([&](std::uint32_t node) { return images.rotation(node, order); })) {
                 symmetry.rotations = order;
+                lines.join([&](std::uint32_t node) { return images.rotation(node, order); });
                 break;
             }
         }
         for (std::uint32_t which = 0; which < images.mirrors(symmetry.rotations); ++which) {
             if (maps_onto_itself([&](std::uint32_t node) { return images.mirror(node, which); })) {
                 symmetry.mirrors = symmetry.rotations;
+                lines.join([&](std::uint32_t node) { return images.mirror(node, which); });
                 break;
             }
         }
+        result_.orbit_of_line = lines.orbits();
     }
     static void order(Element& element) {
         if (element[0] > element[2]) std::swap(element[0], element[2]);
@@ -1083,7 +1148,7 @@ private:
 template <class Plane>
 KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, const KolamOptions& options) {
     StrokeReader<Plane> reader(plane, rank, options.budget / 40, options.draws);
-    const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline);
+    const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline && !options.moves_lift);
     DerivationOptions derivation;
     derivation.interpreted = true;
     derivation.limit_whole_words(options.budget);

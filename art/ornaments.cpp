@@ -41,9 +41,22 @@ double border_room(double width) {
     return 1.6 * width;
 }
 
-std::vector<Colour> border_colours() {
-    // A white of its own, so that it has a layer of its own.
-    return {{0xff, 0xfb, 0xf1, 255}, {0xb3, 0x45, 0x2c, 255}};
+std::vector<Colour> border_colours(const std::optional<Colour>& ground) {
+    constexpr double least = 0.14;  // in OKLab
+    const Colour white = kolam_palette().front();
+    const Colour under = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
+    const Colour kaavi{0xb3, 0x45, 0x2c, 255};
+    if (colour_distance(kaavi, under) >= least) return {white, kaavi};
+    return {white, {0xe0, 0x7a, 0x50, 255}};
+}
+
+std::vector<Colour> kolam_palette() {
+    constexpr std::size_t length = std::string_view("#rrggbb").size();
+    std::vector<Colour> palette;
+    for (std::size_t at = 0; at < kolam_colours.size(); at += length + 1) {
+        palette.push_back(*parse_colour(kolam_colours.substr(at, length)));
+    }
+    return palette;
 }
 
 void draw_border(const Print& print, double width, int colour, PathSink& sink) {

@@ -366,13 +366,18 @@ private:
         return layer;
     }
 
-    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
-        // Polygons keep their order whatever their colours, as they may cover each other.
+    /// Polygons keep their order whatever their colours, as they may cover each other.
+    Layer& polygon_layer(Colour colour) {
         Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
         if (layer.run != colour) {
             layer.text.append(fmt::format("{} {}\n", ink(colour, false), set_alpha(colour.alpha)));
             layer.run = colour;
         }
+        return layer;
+    }
+
+    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
+        Layer& layer = polygon_layer(colour);
         const MicrometrePlacement place = place_;
         bool first = true;
         while (!vertices.empty()) {
@@ -382,6 +387,25 @@ private:
             for (const glm::dvec2 vertex : block) {
                 out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
                 first = false;
+            }
+            layer.text.filled_to(out);
+            pack(layer, pack_bytes);
+        }
+        layer.text.append("f\n");
+    }
+
+    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
+        Layer& layer = polygon_layer(colour);
+        const MicrometrePlacement place = place_;
+        layer.text.filled_to(put_operator(put_point(layer.text.room(line_room), place(outline.front())), 'm'));
+        outline = outline.subspan(1);
+        while (outline.size() >= 3) {
+            const auto block = outline.first(std::min(outline.size() / 3, block_points) * 3);
+            outline = outline.subspan(block.size());
+            char* out = layer.text.room(block.size() / 3 * curve_room);
+            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
+                for (std::size_t k = i; k < i + 3; ++k) out = put_point(out, place(block[k]));
+                out = put_operator(out, 'c');
             }
             layer.text.filled_to(out);
             pack(layer, pack_bytes);

@@ -4,12 +4,15 @@
 #include "art/draw.h"
 #include "art/image_file.h"
 #include "art/output_file.h"
+#include "art/screen.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -20,9 +23,20 @@ public:
             std::filesystem::path file);
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
     void close();
+    /// After the last row: is no pixel seen to differ from the ground?
+    bool is_blank() const { return !has_ink_; }
 
 private:
+    void look(std::span<const std::uint8_t> pixels);
+    std::span<const std::uint8_t> screened(int rows, std::span<const std::uint8_t> pixels);
+
     std::filesystem::path file_;
+    std::size_t channels_;
+    std::size_t width_;
+    Colour ground_;
+    bool has_ink_ = false;
+    std::optional<Screener> screener_;
+    std::vector<std::uint8_t> greys_, screened_;
     std::unique_ptr<ImageWriter> image_;
 };
 

@@ -280,6 +280,15 @@ void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     into.add(Gathered::Kind::lines, vertices.first(1));
 }
 
+void PlotPlan::area(std::span<const glm::dvec2> outline, const Pen& pen) {
+    if (!options_.outlines || outline.size() < 4 || print_.style.fill_colour(pen).alpha == 0) return;
+    down_ = false;
+    Gathered& into = gathered(pen);
+    into.add(Gathered::Kind::start, outline.first(1));
+    into.add(Gathered::Kind::curves, outline.subspan(1));
+    if (outline.back() != outline.front()) into.add(Gathered::Kind::lines, outline.first(1));
+}
+
 void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     const double step = print_.placement.step;
     // Around a dot of twice its width the pen goes in the middle.

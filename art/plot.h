@@ -89,6 +89,7 @@ public:
     void change_pen(const Pen& pen) override;
     void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
     /// To be called once, after the last stroke and before what follows. @throws Stopped
@@ -127,6 +128,7 @@ class PlotWriter : public PathSink {
 public:
     void change_pen(const Pen& pen) final;
     void polygon(std::span<const glm::dvec2>, const Pen&) final {}
+    void area(std::span<const glm::dvec2>, const Pen&) final {}
     void disc(glm::dvec2, double, const Pen&) final {}
 
     /// Completes the file; to be called once, after the last stroke.

@@ -125,6 +125,9 @@ void check_press(const Press& press, PrintFormat format) {
     if (format != PrintFormat::pdf && !press.spots.empty()) throw std::runtime_error("only a PDF has spot colours");
     if (format != PrintFormat::tiff && !press.cmyk.empty()) throw std::runtime_error("only a TIFF is made in CMYK");
     if (format != PrintFormat::tiff && press.bits == 1) throw std::runtime_error("only a TIFF is made in one bit");
+    if (press.bits != 1 && press.screen != Screen{}) {
+        throw std::runtime_error("a screen is for pictures of one bit");
+    }
     if (press.bits == 1 && !press.cmyk.empty()) throw std::runtime_error("a picture in CMYK has 8 bits a channel");
 }
 
@@ -181,7 +184,7 @@ Print as_picture(Print print) {
     print.page.margin += bleed;
     print.placement.to_page[2] += glm::dvec2(bleed);
     print.press.bleed = 0.0;
-    if (print.press.bits == 1) {
+    if (print.press.bits == 1 && print.press.screen.kind == Screen::Kind::threshold) {
         Style& style = print.style;
         for (std::optional<Colour>* colour : {&style.ground, &style.stroke_colour, &style.fill}) {
             if (*colour) **colour = black_or_white(**colour);

@@ -4,6 +4,7 @@
 #include "art/blend.h"
 #include "art/fill.h"
 #include "art/stroke.h"
+#include "engine/bezier.h"
 
 #include <algorithm>
 #include <array>
@@ -323,6 +324,7 @@ public:
     void change_pen(const Pen& pen) override;
     void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
     std::size_t prepare(const Blot& blot, const Pen& pen) override;
     void blot(std::size_t prepared, glm::dvec2 centre) override;
@@ -368,6 +370,7 @@ private:
     void clipped_line(glm::dvec2 from, glm::dvec2 to);
     void add(const Nib& nib, SubPoint from, SubPoint to);
     void add_piece(const Nib& nib, SubPoint from, SubPoint to);
+    void add_polygon(std::size_t index);
     void polygon_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
     void add_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
     void add_blots(Mask& mask, int top, const std::vector<float>& blots) const;
@@ -491,17 +494,7 @@ void BandRaster::curves(std::span<const glm::dvec2> controls) {
     for (std::size_t i = 0; i + 3 <= controls.size(); i += 3) {
         const glm::dvec2 p0 = at_, p1 = to_pixels(controls[i]), p2 = to_pixels(controls[i + 1]),
                          p3 = to_pixels(controls[i + 2]);
-        // Wang's bound: a cubic in n equal parts is off its chords by at most max |second difference| * 6 / 8 / n^2.
-        const glm::dvec2 a = p0 - 2.0 * p1 + p2, b = p1 - 2.0 * p2 + p3;
-        const double bend = std::sqrt(std::max(a.x * a.x + a.y * a.y, b.x * b.x + b.y * b.y));
-        const double parts = std::ceil(std::sqrt(bend * (0.75 / flatness)));
-        const int count = parts > 1 ? static_cast<int>(std::min(parts, 100'000.0)) : 1;
-        const glm::dvec2 c1 = 3.0 * (p1 - p0), c2 = 3.0 * a, c3 = b - a;
-        for (int part = 1; part < count; ++part) {
-            const double t = static_cast<double>(part) / count;
-            line_to(p0 + t * (c1 + t * (c2 + t * c3)));
-        }
-        line_to(p3);
+        flatten(p0, p1, p2, p3, flatness, [this](glm::dvec2 end) { line_to(end); });
     }
 }
 
@@ -611,12 +604,26 @@ void BandRaster::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
     if (fill_colours_[index].alpha == 0 || vertices.size() < 3) return;
     polygon_points_.clear();
-    for (const glm::dvec2& vertex : vertices) {
-        const glm::dvec2 point = to_pixels(vertex);
-        // Also false for numbers that are none.
-        if (!(std::fabs(point.x) + std::fabs(point.y) < 1e15)) return;
-        polygon_points_.push_back(point);
+    for (const glm::dvec2& vertex : vertices) polygon_points_.push_back(to_pixels(vertex));
+    add_polygon(index);
+}
+
+void BandRaster::area(std::span<const glm::dvec2> outline, const Pen& pen) {
+    const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
+    if (fill_colours_[index].alpha == 0 || outline.size() < 4) return;
+    polygon_points_.assign(1, to_pixels(outline.front()));
+    for (std::size_t i = 1; i + 2 < outline.size(); i += 3) {
+        flatten(polygon_points_.back(), to_pixels(outline[i]), to_pixels(outline[i + 1]), to_pixels(outline[i + 2]),
+                flatness, [this](glm::dvec2 end) { polygon_points_.push_back(end); });
     }
+    add_polygon(index);
+}
+
+/// The polygon of polygon_points_.
+void BandRaster::add_polygon(std::size_t index) {
+    // Also false for numbers that are none.
+    const auto is_near = [](glm::dvec2 point) { return std::fabs(point.x) + std::fabs(point.y) < 1e15; };
+    if (!std::all_of(polygon_points_.begin(), polygon_points_.end(), is_near)) return;
     if (polygons_.empty()) polygons_.resize(static_cast<std::size_t>(bands_));
     polygon_colours_[index] = true;
     ++polygon_serial_;

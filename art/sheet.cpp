@@ -258,9 +258,11 @@ std::vector<Grid> Sheet::grids() const {
     for (int columns = from; columns <= to; ++columns) {
         Grid grid{columns, {}, {}};
         for (const int group : groups) {
-            for (int left = group; left > 0; left -= columns) {
-                grid.headed.push_back(headed && left == group);
-                grid.rows.push_back(std::min(left, columns));
+            // As many in each row, or one more in the first ones: none stands alone below full rows.
+            const int rows = (group + columns - 1) / columns;
+            for (int row = 0; row < rows; ++row) {
+                grid.headed.push_back(headed && row == 0);
+                grid.rows.push_back(group / rows + (row < group % rows ? 1 : 0));
             }
         }
         // As few columns as that number of rows allows: the last row is then as full as can be.
@@ -303,22 +305,26 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
                            : width / (columns + (columns - 1) * gap_share);
     if (columns == 1 && !options_.gap) m.width = width;
     if (!(m.width > 0)) return {};
-    m.letters = letters_of(m.width);
     const double gap = options_.gap ? *options_.gap : std::min(gap_share * m.width, 0.04 * shorter);
     const double title = std::clamp(shorter * 0.032, 2.0, 40.0);
     if (!options_.title.empty()) m.title = title * (options_.subtitle.empty() ? 2.2 : 3.1);
     const auto headings = static_cast<double>(std::count(grid.headed.begin(), grid.headed.end(), true));
-    if (headings > 0) m.heading = m.letters * 1.35 * 2.1;
-    m.caption = caption_height(m.width, m.letters);
-    // Under the last captions nothing is kept free but the margin.
-    const double room = height - m.title - headings * m.heading - rows * m.caption - (rows - 1) * gap;
-    m.height = room / rows;
-    if (!m.fits()) return m;
     // Cells are about as high as their drawings are; what is left widens the gaps, or stays free on both sides.
     const double shape = std::clamp(usual_shape_, 0.6, 1.7);
-    m.height = std::min(m.height, m.width * shape * shape_slack);
     const double full = m.width;
-    m.width = std::min(m.width, m.height / shape * shape_slack);
+    // A narrower cell has more lines below it, which leave less height: until its caption has its room.
+    for (bool has_room = false; !has_room;) {
+        m.letters = letters_of(m.width);
+        if (headings > 0) m.heading = m.letters * 1.35 * 2.1;
+        m.caption = std::max(m.caption, caption_height(m.width, m.letters));
+        // Under the last captions nothing is kept free but the margin.
+        const double room = height - m.title - headings * m.heading - rows * m.caption - (rows - 1) * gap;
+        m.height = std::min(room / rows, full * shape * shape_slack);
+        m.width = std::min(m.width, m.height / shape * shape_slack);
+        if (!m.fits()) return m;
+        m.letters = letters_of(m.width);
+        has_room = caption_height(m.width, m.letters) <= m.caption;
+    }
     m.across = m.width + (columns > 1 ? (columns * full + (columns - 1) * (width - columns * full) / (columns - 1) -
                                          columns * m.width) /
                                             (columns - 1)
@@ -427,9 +433,12 @@ const Plan& Sheet::arrange() {
                                    text_pen(title_stem * 1.3 * height, false)});
             top += m.heading;
         }
+        // Rows under a heading begin below it, others stand in the middle.
+        const bool is_headed = std::find(best->headed.begin(), best->headed.end(), true) != best->headed.end();
+        const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
         for (int column = 0; column < best->rows[row]; ++column, ++next) {
             PlacedCell cell;
-            cell.window = {m.first.x + column * m.across, top, m.width, m.height, false};
+            cell.window = {m.first.x + indent + column * m.across, top, m.width, m.height, false};
             cell.row = static_cast<int>(row);
             write_caption(cells_[next], cell.window, m.letters);
             plan_.layout.windows.push_back(cell.window);

@@ -84,7 +84,17 @@ std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnos
 }
 
 void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::string_view expected = "'straight' or 'spline'";
+    constexpr std::string_view expected = "'straight', 'spline' or 'spline with lifts'";
+    std::size_t at = 0;
+    const Span first = next_word(key.value, at, false);
+    const Span second = next_word(key.value, at, false);
+    const Span third = next_word(key.value, at, false);
+    if (lower_case(first.view()) == "spline" && lower_case(second.view()) == "with" &&
+        lower_case(third.view()) == "lifts" && next_word(key.value, at, false).empty()) {
+        style.line = Line::spline;
+        style.moves_lift = true;
+        return;
+    }
     const auto word = only_word(key, expected, diagnostics);
     if (!word) return;
     const std::string text = lower_case(word->view());

@@ -29,6 +29,7 @@ struct DotStyle {
 
 struct Style {
     Line line = Line::straight;
+    bool moves_lift = false;  ///< of splines: moves lift the pen (`spline with lifts`), and are no control points
     StrokeWidth stroke;
     std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`
@@ -38,6 +39,8 @@ struct Style {
     std::optional<DotStyle> dots;         ///< absent: none are drawn
     Camera camera;                        ///< of drawings in space
 
+    /// Is a step that is not drawn a control point of the line?
+    bool moves_draw() const { return line == Line::spline && !moves_lift; }
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;
     Colour line_colour(const Pen& pen) const;
@@ -58,8 +61,8 @@ struct Style {
 /// Eight colours that are told apart by everyone, black first.
 std::vector<Colour> default_palette();
 
-/// The keys this file owns: `line` (straight | spline), `stroke` (a width and a colour in either order, each
-/// optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
+/// The keys this file owns: `line` (straight | spline | spline with lifts), `stroke` (a width and a colour in either
+/// order, each optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
 /// `palette` (a list of colours, separated by blanks or commas; at most 4096), `dots` (a size and a colour as of
 /// `stroke`, or `none`), `view` (parse_camera()).
 std::vector<std::string_view> style_keys();

@@ -264,6 +264,23 @@ private:
         flush(layer);
     }
 
+    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
+        Layer& layer = polygon_run(colour);
+        char* out = layer.text.room(outline.size() / 3 * curve_room + line_room + 32);
+        const MicrometrePlacement place = place_;
+        const Micrometres start = place(outline.front());
+        out = put_text(out, "<path d=\"M");
+        out = put_number(out, start.x);
+        out = put_next(out, start.y);
+        PathData path(start);
+        for (std::size_t i = 1; i + 2 < outline.size(); i += 3) {
+            path.curve(out, place(outline[i]), place(outline[i + 1]), place(outline[i + 2]));
+        }
+        out = put_text(out, "z\"/>\n");
+        layer.text.filled_to(out);
+        flush(layer);
+    }
+
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
         Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
             return LayerText{fmt::format("discs {}", colour_name(colour)),

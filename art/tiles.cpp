@@ -180,6 +180,10 @@ void ClipSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     sink_.polygon(vertices, pen);
 }
 
+void ClipSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
+    sink_.area(outline, pen);
+}
+
 void ClipSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     sink_.disc(centre, radius, pen);
 }

@@ -45,6 +45,7 @@ public:
     void change_pen(const Pen& pen) override;
     void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
 private:

@@ -57,6 +57,10 @@ public:
         const Colour colour = part_->style.fill_colour(pen);
         if (colour.alpha > 0 && vertices.size() >= 3) write_polygon(vertices, colour);
     }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) final {
+        const Colour colour = part_->style.fill_colour(pen);
+        if (colour.alpha > 0 && outline.size() >= 4) write_area(outline, colour);
+    }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) final {
         const Colour colour = part_->style.fill_colour(pen);
         const double millimetres = part_->style.disc_radius(radius, pen, part_->placement.step);
@@ -125,6 +129,7 @@ private:
     /// Ends the piece; one in which nothing was drawn is a dot.
     virtual void write_end(bool closed) = 0;
     virtual void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) = 0;
+    virtual void write_area(std::span<const glm::dvec2> outline, Colour colour) = 0;
     virtual void write_disc(Micrometres centre, double radius, Colour colour, int slot) = 0;
 
     int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(part_->style.index(pen))]; }

@@ -165,12 +165,16 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     if (is_gif(options.output) && (drawing.border || drawing.colours_strokes || print.style.dots)) {
         throw UsageError("--generations: of a .gif without --dots, --border and --colour-by");
     }
-    if (options.frame_time && !(*options.frame_time >= 0.01 && *options.frame_time <= 600)) {
-        throw UsageError("--frame-time: seconds, 0.01 to 600");
+    for (const auto& [name, seconds] : {std::pair("--frame-time", options.frame_time), {"--hold", options.hold}}) {
+        if (seconds && !(*seconds >= 0.01 && *seconds <= 600)) {
+            throw UsageError(fmt::format("{}: seconds, 0.01 to 600", name));
+        }
     }
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = parse_generations(options.generations);
     growth.seconds = options.frame_time.value_or(growth.seconds);
+    growth.hold = options.hold.value_or(growth.hold);
+    growth.fits_each = options.fit_frames;
     if (growth.last < growth.first || growth.last - growth.first >= most_frames) {
         throw UsageError(fmt::format("--generations {}: up to {} frames, the lowest derivation length first",
                                      options.generations, most_frames));
@@ -181,8 +185,8 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
             throw UsageError(
                 "a .gif has at most 65,535 pixels a side and 100 million in all: a smaller --size or --dpi");
         }
-    } else if (options.frame_time) {
-        throw UsageError("--frame-time: is for a .gif");
+    } else if (options.frame_time || options.hold) {
+        throw UsageError("--frame-time and --hold are for a .gif");
     }
     growth.made = [&](const Grammar& generation) { return made_with(options, generation); };
     Progress progress(0, telling.quiet);
@@ -219,7 +223,8 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
     sheet.dpi = print.dpi;
     sheet.title = print.title;
     sheet.animation = print.animation;
-    sheet.columns = static_cast<int>(last - first + 1);
+    // Captions are short, and are to be read from as far as the drawings.
+    sheet.letters = std::clamp(std::min(print.page.width, print.page.height) * 0.016, 2.0, 12.0);
     sheet.pattern = print.pattern;
     sheet.made = print.made;
     sheet.threads = drawing.threads;
@@ -274,8 +279,8 @@ void draw_model(const DrawSettings& given, ModelFormat format, const Telling& te
     // What a print is asked for, a model is, as far as it goes.
     options.output = "print.svg";
     if (options.window || options.plotter || options.tile || options.dots || options.dot_spacing || options.animate ||
-        !options.generations.empty() || options.frames || options.frame_time || !options.border.empty() ||
-        !options.colour_by.empty() || options.marks || !options.spots.empty() ||
+        !options.generations.empty() || options.frames || options.frame_time || options.hold || options.fit_frames ||
+        !options.border.empty() || !options.colour_by.empty() || options.marks || !options.spots.empty() ||
         options.bleed != DrawSettings().bleed || !options.view.empty()) {
         throw UsageError(
             "a model has no page: --view, --window, --generations, --frames, --frame-time, --dots, --border, "
@@ -352,6 +357,8 @@ PlannedPrint plan_print(const DrawSettings& options) {
     press.icc = options.icc;
     as_usage([&] {
         press.spots = parse_spots(options.spots);
+        if (!options.screen.empty()) press.screen = parse_screen(options.screen);
+        if (press.screen.kind == Screen::Kind::halftone) Screener(press.screen, 1, options.dpi);
         check_press(press, *format);
     });
     const bool is_trimmed = press.bleed > 0 || press.marks;
@@ -431,10 +438,17 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     print.made = made_with(options, loaded.grammar);
     if (!options.generations.empty()) {
         if (options.frames || is_gif(options.output)) return draw_growth(options, print, drawing, loaded, telling);
+        if (options.frame_time || options.hold || options.fit_frames) {
+            throw UsageError(
+                "--frame-time, --hold and --fit-frames are for frames of --generations: a .gif, or --frames");
+        }
         return draw_generations(options, print, drawing, loaded, telling);
     }
     if (options.frames) throw UsageError("--frames: goes with --generations A:B");
-    if (options.frame_time) throw UsageError("--frame-time: goes with --generations A:B and a .gif");
+    if (options.frame_time || options.hold || options.fit_frames) {
+        throw UsageError(
+            "--frame-time, --hold, --fit-frames: each goes with --generations A:B, and a .gif or --frames");
+    }
     // Before the drawing, which may take long.
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
@@ -444,6 +458,8 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
         telling.say("sikku: warning: this drawing lies in the plane, where --view changes nothing\n");
     }
     const bool wants_dots = print.style.dots.has_value();
+    const Style style = print.style;
+    const double dpi = print.dpi;
     const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
     progress.reset();
     if (report.leaves_pattern_out) {
@@ -455,7 +471,17 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (wants_dots && report.dots == 0 && report.sheets == 0) {
         telling.say("sikku: warning: there are no dots: the lines enclose none\n");
     }
-    if (report.is_empty) telling.say("sikku: warning: nothing of the drawing lies in the window\n");
+    if (report.is_empty) {
+        telling.say("sikku: warning: nothing of the drawing lies in the window\n");
+    } else if (report.is_blank) {
+        telling.say(
+            "sikku: warning: the picture looks empty: lines {:.2g} mm wide leave too little ink on pixels of {:.2g} "
+            "mm; "
+            "{}, or a lower -n, shows them\n",
+            style.line_width({}, report.step), 25.4 / dpi,
+            style.stroke.in_steps ? "a pen in millimetres (--set 'stroke=0.3mm')"
+                                  : "a wider pen (--set 'stroke=0.5mm')");
+    }
     if (report.plot) tell_plot(*report.plot, options.speeds, telling);
     if (report.sheets > 1) telling.say("{}\n", counted(report.sheets, "sheet"));
     if (report.overflows && report.sheets == 0) {
@@ -522,6 +548,13 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->add_option("--frame-time", options->frame_time,
                      "Seconds that each generation is shown (0.5); of --generations A:B -o growth.gif")
         ->group(kolams);
+    command->add_option("--hold", options->hold, "Seconds that the last generation of a .gif is shown at least (2)")
+        ->group(kolams);
+    command
+        ->add_flag("--fit-frames", options->fit_frames,
+                   "Fit each frame of --generations to the page by itself; by default all have one scale and place, "
+                   "which shows growth")
+        ->group(kolams);
     command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
         ->expected(0, 1)
         ->type_name("[SECONDS]")
@@ -571,6 +604,12 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->check(CLI::IsMember({1, 8}))
         ->capture_default_str()
         ->group(press);
+    command
+        ->add_option("--screen", options->screen,
+                     "How --bits 1 shows colours: threshold (default), diffusion, or a halftone of LPI lines an inch "
+                     "(a twelfth of the dpi) at 45 degrees")
+        ->type_name("threshold|diffusion|halftone[,LPI]")
+        ->group(press);
     command->add_flag("--icc,!--no-icc", options->icc, "Pictures hold the ICC profile of their colours (default)")
         ->group(press);
     command->add_option("--dpi", options->dpi, "Pixels an inch of pictures, and of px in lengths")
@@ -587,7 +626,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
-        "  sikku draw hilbert -n 60 --window 0,0,200,200 -o corner.svg\n"
+        "  sikku draw hilbert -n 60 --window -40,0,0,58 -o corner.svg\n"
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw bush-3d -o bush.glb\n"

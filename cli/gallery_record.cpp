@@ -208,6 +208,13 @@ std::vector<std::string> GalleryRecord::others() const {
     return files;
 }
 
+/// Is the file still the one that was read, and not another with the same number?
+bool GalleryRecord::continues(const Descriptor& record, const Reading& reading) {
+    std::string end(reading.end.size(), '\0');
+    const off_t at = reading.bytes - static_cast<off_t>(end.size());
+    return ::pread(record.get(), end.data(), end.size(), at) == static_cast<ssize_t>(end.size()) && end == reading.end;
+}
+
 /// Takes in what the records of others hold beyond what was read of them.
 void GalleryRecord::read_others() {
     for (auto& [file, reading] : others_) {
@@ -215,12 +222,17 @@ void GalleryRecord::read_others() {
         struct stat status {};
         // It may be gone: then its lines stand in the record of the whole.
         if (!record || ::fstat(record.get(), &status) != 0) continue;
-        if (status.st_ino != reading.inode || status.st_size < reading.bytes) reading = {status.st_ino, 0};
+        if (status.st_ino != reading.inode || status.st_size < reading.bytes || !continues(record, reading)) {
+            reading = {status.st_ino, 0, {}};
+        }
         if (status.st_size == reading.bytes) continue;
         std::string text = read_from(record, reading.bytes);
         // A line without end may still be written.
         text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
+        if (text.empty()) continue;
         reading.bytes += static_cast<off_t>(text.size());
+        constexpr std::size_t compared = 512;
+        reading.end = text.substr(text.size() - std::min(text.size(), compared));
         take_in(read_record(text), false);
     }
 }

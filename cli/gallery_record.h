@@ -82,6 +82,7 @@ private:
     struct Reading {
         ino_t inode = 0;
         off_t bytes = 0;
+        std::string end;  ///< of what was read: numbers of files are used again
     };
     /// The record of a shard that no run is at work on, locked.
     struct Left {
@@ -91,6 +92,7 @@ private:
     std::optional<FinishedJob> present(const std::string& file, const Known& known) const;
     Descriptor open(const std::function<void()>& waiting) const;
     std::vector<std::string> others() const;
+    static bool continues(const Descriptor& record, const Reading& reading);
     void read_others();
     void take_in(const RecordText& record, bool keeps);
     std::vector<Left> take_over_shards();

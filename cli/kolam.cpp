@@ -153,6 +153,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         KolamOptions examination;
         const Style style = read_style(loaded.pattern, 300, diagnostics);
         examination.spline = style.line == Line::spline;
+        examination.moves_lift = style.moves_lift;
         examination.draws = [&style](const Pen& pen) { return style.draws(pen); };
         examination.budget = *budget;
         Progress progress(0, quiet);

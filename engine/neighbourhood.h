@@ -3,10 +3,9 @@
 
 #include "engine/derivation.h"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -40,9 +39,8 @@ private:
     void look() {
         next_look_ = count_ + between_looks;
         if (count_ > most_) {
-            throw MatchingError(
-                fmt::format("matching contexts compares more than {} symbols by step {}, which is above the budget",
-                            options_.compared, step_));
+            throw MatchingError("matching contexts compares more than " + std::to_string(options_.compared) +
+                                " symbols by step " + std::to_string(step_) + ", which is above the budget");
         }
         if (options_.watch) options_.watch(0);
     }

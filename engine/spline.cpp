@@ -10,16 +10,20 @@ void SplineSink::begin_stroke(glm::dvec2 start, const Pen& pen) {
     begun_ = false;
     pen_ = pen;
     count_ = 0;
+    outlines_.begin_stroke(start, is_closed_);
     add(start);
 }
 
 void SplineSink::lines(std::span<const glm::dvec2> ends) {
-    for (const glm::dvec2 end : ends) add(end);
+    for (const glm::dvec2 end : ends) {
+        outlines_.control(end);
+        add(end);
+    }
 }
 
 void SplineSink::curves(std::span<const glm::dvec2> controls) {
     // A curve that is one already keeps its corners as control points.
-    for (std::size_t i = 2; i < controls.size(); i += 3) add(controls[i]);
+    for (std::size_t i = 2; i < controls.size(); i += 3) lines(controls.subspan(i, 1));
 }
 
 void SplineSink::change_pen(const Pen& pen) {
@@ -28,6 +32,10 @@ void SplineSink::change_pen(const Pen& pen) {
 
 void SplineSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     sink_.polygon(vertices, pen);
+}
+
+void SplineSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
+    sink_.area(outline, pen);
 }
 
 void SplineSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
@@ -62,6 +70,7 @@ void SplineSink::end_stroke(bool) {
         emit_short();
     }
     flush();
+    outlines_.end_stroke();
     sink_.end_stroke(is_closed_);
 }
 
@@ -82,14 +91,14 @@ void SplineSink::emit_short() {
     }
 }
 
-SplineSink::Bezier SplineSink::uniform(const Control& a, const Control& b, const Control& c, const Control& d) const {
+Bezier SplineSink::uniform(const Control& a, const Control& b, const Control& c, const Control& d) const {
     return {(a.at + 4.0 * b.at + c.at) / 6.0, (2.0 * b.at + c.at) / 3.0, (b.at + 2.0 * c.at) / 3.0,
             (b.at + 4.0 * c.at + d.at) / 6.0};
 }
 
 /// The piece of a clamped spline over points span … span + 3, by its blossom: the knots are whole numbers, those at
 /// the two ends four times.
-SplineSink::Bezier SplineSink::clamped(std::size_t span, std::size_t segments) const {
+Bezier SplineSink::clamped(std::size_t span, std::size_t segments) const {
     const auto knot = [&](std::size_t index) {
         return static_cast<double>(std::clamp<std::size_t>(index, 3, segments + 1) - 3);
     };
@@ -123,6 +132,7 @@ void SplineSink::emit(const Bezier& bezier, const Pen& pen) {
         sent_ = pen;
         sink_.change_pen(pen);
     }
+    outlines_.piece(bezier);
     controls_.insert(controls_.end(), bezier.begin() + 1, bezier.end());
     if (controls_.size() >= 3 * 340) flush();
 }

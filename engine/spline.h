@@ -1,7 +1,9 @@
 // engine/spline.h: strokes as uniform cubic B-splines, in exact Béziers.
 #pragma once
 
+#include "engine/bezier.h"
 #include "engine/path.h"
+#include "engine/spline_outlines.h"
 
 #include <array>
 #include <cstddef>
@@ -12,14 +14,15 @@ namespace sikku {
 /// Takes the points of each stroke as the control points of a uniform cubic B-spline and hands the curve on as cubic
 /// Béziers; nothing is flattened. A stroke that ends where it began is a closed curve, smooth at its start, too. An
 /// open one runs from its first point to its last (clamped knots); of fewer than 4 segments, it triples its end
-/// points instead. Polygons and discs pass unchanged.
+/// points instead. Polygons and discs pass unchanged; outlines become areas that follow the curves (SplineOutlines).
 ///
 /// Whether a stroke is closed must be known when it begins; a first pass with a StrokeCensus tells.
-/// Memory: O(1). Source: Prusinkiewicz & Hanan 1989, section 2.2 (figures 2.10 and 2.11); de Boor's knot insertion.
-class SplineSink : public PathSink {
+/// Memory: O(1) beside SplineOutlines. Source: Prusinkiewicz & Hanan 1989, section 2.2 (figures 2.10 and 2.11); de
+/// Boor's knot insertion.
+class SplineSink : public PathSink, public OutlineSink {
 public:
     /// @param closed  for each stroke, in order, whether it is; kept by reference
-    SplineSink(PathSink& sink, const std::vector<bool>& closed) : sink_(sink), closed_(closed) {}
+    SplineSink(PathSink& sink, const std::vector<bool>& closed) : sink_(sink), closed_(closed), outlines_(sink) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
     void lines(std::span<const glm::dvec2> ends) override;
@@ -27,14 +30,18 @@ public:
     void change_pen(const Pen& pen) override;
     void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+
+    void begin_outline(glm::dvec2 at) override { outlines_.begin(at); }
+    void outline_vertex(glm::dvec2 at) override { outlines_.vertex(at); }
+    void end_outline(const Pen& pen, bool is_area) override { outlines_.end(pen, is_area); }
 
 private:
     struct Control {
         glm::dvec2 at{0.0};
         Pen pen;  // of the segment that ends here
     };
-    using Bezier = std::array<glm::dvec2, 4>;
 
     void add(glm::dvec2 point);
     const Control& recent(std::size_t index) const { return recent_[index % recent_.size()]; }
@@ -46,6 +53,7 @@ private:
 
     PathSink& sink_;
     const std::vector<bool>& closed_;
+    SplineOutlines outlines_;
     std::size_t stroke_ = 0;  // strokes begun
     bool is_closed_ = false;
     bool begun_ = false;                // something of this stroke was handed on

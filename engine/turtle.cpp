@@ -102,16 +102,24 @@ private:
     const Grammar& grammar_;
 };
 
+/// Where a turtle draws; each may be absent.
+struct Sinks {
+    PathSink* path = nullptr;
+    PlaceSink* places = nullptr;
+    OutlineSink* outlines = nullptr;
+};
+
 /// The turtle over one way of walking. `Surveying` looks, else it draws.
 template <class Walker, bool Surveying>
 class WalkingTurtle final : public Turtle {
 public:
-    WalkingTurtle(std::unique_ptr<Lattice> lattice, Walker walker, const Grammar& grammar, PathSink* sink,
-                  PlaceSink* places, bool moves_draw)
+    WalkingTurtle(std::unique_ptr<Lattice> lattice, Walker walker, const Grammar& grammar, const Sinks& sinks,
+                  bool moves_draw)
         : lattice_(std::move(lattice)),
           walker_(std::move(walker)),
-          sink_(sink),
-          places_(places),
+          sink_(sinks.path),
+          places_(sinks.places),
+          outlines_(sinks.outlines),
           moves_draw_(moves_draw) {
         for (const SymbolInfo& symbol : grammar.symbols()) {
             commands_.push_back({symbol.command.action, symbol.command.value,
@@ -238,6 +246,7 @@ private:
             } else {
                 lift();
                 walk<Own>(symbol, command);
+                if (outlines_ && !polygons_.empty()) outlines_->outline_vertex(walker_.point(state_.place));
             }
             if (!polygons_.empty()) {
                 polygons_.add(state_.place, [this](const Place& place) { return walker_.point(place); });
@@ -269,6 +278,10 @@ private:
             }
             case Action::polygon_begin:
                 polygons_.begin(state_.place, position_);
+                if (outlines_) {
+                    flush();
+                    outlines_->begin_outline(walker_.point(state_.place));
+                }
                 break;
             case Action::polygon_end:
                 end_polygon();
@@ -294,7 +307,10 @@ private:
 
     void end_polygon() {
         const std::vector<glm::dvec2> vertices = polygons_.end(position_);
-        if (sink_ && vertices.size() >= 3) {
+        if (outlines_) {
+            flush();
+            outlines_->end_outline(state_.pen, vertices.size() >= 3);
+        } else if (sink_ && vertices.size() >= 3) {
             flush();
             sink_->polygon(vertices, state_.pen);
         }
@@ -344,6 +360,7 @@ private:
     Walker walker_;
     PathSink* sink_;
     PlaceSink* places_;
+    OutlineSink* outlines_;
     bool moves_draw_;
     std::vector<Instruction> commands_;
     State state_;
@@ -359,12 +376,12 @@ private:
 };
 
 template <bool Surveying>
-std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, PlaceSink* places, bool moves_draw) {
+std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, const Sinks& sinks, bool moves_draw) {
     auto lattice = std::make_unique<Lattice>(make_lattice(grammar));
     const Lattice& fixed = *lattice;
     const auto make = [&]<class Walker>(Walker walker) -> std::unique_ptr<Turtle> {
         return std::make_unique<WalkingTurtle<Walker, Surveying>>(std::move(lattice), std::move(walker), grammar,
-                                                                  sink, places, moves_draw);
+                                                                  sinks, moves_draw);
     };
     switch (fixed.rank) {
         case 2:
@@ -383,13 +400,17 @@ std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, PathSink* sink, Plac
 }  // namespace
 
 std::unique_ptr<Turtle> Turtle::drawing(const Grammar& grammar, PathSink& sink, bool moves_draw) {
-    return make_turtle<false>(grammar, &sink, nullptr, moves_draw);
+    return make_turtle<false>(grammar, {.path = &sink}, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::outlining(const Grammar& grammar, PathSink& sink, OutlineSink& outlines,
+                                          bool moves_draw) {
+    return make_turtle<false>(grammar, {.path = &sink, .outlines = &outlines}, moves_draw);
 }
 std::unique_ptr<Turtle> Turtle::tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places, bool moves_draw) {
-    return make_turtle<false>(grammar, &sink, &places, moves_draw);
+    return make_turtle<false>(grammar, {.path = &sink, .places = &places}, moves_draw);
 }
 std::unique_ptr<Turtle> Turtle::surveying(const Grammar& grammar) {
-    return make_turtle<true>(grammar, nullptr, nullptr, false);
+    return make_turtle<true>(grammar, {}, false);
 }
 
 }  // namespace sikku

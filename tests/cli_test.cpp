@@ -736,8 +736,8 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
-    EXPECT_EQ(completed({"sikku", "draw", "--s"}),
-              (std::set<std::string>{"--seed", "--set", "--size", "--split", "--spot", "--step", "--steps"}));
+    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--screen", "--seed", "--set", "--size",
+                                                                          "--split", "--spot", "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));

@@ -125,5 +125,93 @@ TEST_F(Draw, WhereNothingIsSeenNothingIsWritten) {
     EXPECT_TRUE(folder_.names().empty());
 }
 
+TEST_F(Draw, FillsFollowTheSplineDrawnAlongThem) {
+    options_.placement.step = 10.0;
+    const std::string square = "axiom: {F+F+F+F}\nline: spline\nstroke: none\nfill: gold\n";
+    const DrawReport report = draw(square);
+    // Of a closed uniform spline over a square the curve reaches from 1/24 to 23/24.
+    EXPECT_NEAR(report.size.x, 10 * 11.0 / 12, 1e-9);
+    const auto paths = found("//g[@fill='#ffd700']/path", "d");
+    ASSERT_EQ(paths.size(), 1u);
+    EXPECT_NE(paths[0].find('c'), std::string::npos);
+    EXPECT_EQ(paths[0].find('l'), std::string::npos);
+    EXPECT_TRUE(paths[0].ends_with("z"));
+    // Straight lines keep their polygons.
+    draw("axiom: {F+F+F+F}\nstroke: none\nfill: gold\n");
+    EXPECT_EQ(found("//g[@fill='#ffd700']/path", "d")[0].find('c'), std::string::npos);
+    for (const char* name : {"print.pdf", "print.png", "print.hpgl"}) {
+        EXPECT_NEAR(draw(square, name).size.x, 10 * 11.0 / 12, 1e-9) << name;
+    }
+}
+
+TEST_F(Draw, FilledSplinesCoverTheSamePixelsInEveryFormat) {
+    if (!has_program("rsvg-convert") || !has_program("oiiotool"))
+        GTEST_SKIP() << "rsvg-convert or oiiotool is missing";
+    const std::string text =
+        "axiom: F{F+F+F-F-F-F+}[{;F-F+F+F}]F{;F+FF+F+F}\nline: spline\nstroke: 0.1 step black\n"
+        "palette: gold #2f7d32 navy\n";
+    draw(text, "print.svg");
+    draw(text, "print.png");
+    draw(text, "print.pdf");
+    ASSERT_TRUE(
+        run("rsvg-convert -w 100 '" + folder_.file("print.svg") + "' -o '" + folder_.file("svg.png") + "'").ok);
+    const auto pixels = [&](const std::string& name) {
+        const std::string ppm = folder_.file(name + ".ppm");
+        EXPECT_TRUE(run("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'").ok);
+        return read_ppm(ppm);
+    };
+    const Pixels page = pixels("svg.png");
+    const Pixels picture = pixels("print.png");
+    ASSERT_EQ(picture.width, 100);
+    ASSERT_EQ(page.width, 100);
+    double difference = 0;
+    int inked = 0;
+    for (int y = 2; y < std::min(page.height, picture.height) - 2; ++y) {
+        for (int x = 2; x < std::min(page.width, picture.width) - 2; ++x) {
+            const Colour a = page.at(x, y), b = picture.at(x, y);
+            difference += std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue);
+            inked += near(b, {255, 255, 255, 255}) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(inked, 500);
+    EXPECT_LT(difference / inked, 60) << "mean difference of inked pixels, of 765";
+}
+
+TEST_F(Draw, MovesLiftThePenOfASplineWithLifts) {
+    options_.placement.step = 5.0;
+    const std::string axiom = "axiom: F+F-Fff+F-F\nstroke: 0.2mm\n";
+    draw(axiom + "line: spline\n");
+    EXPECT_EQ(found("//path", "d").size(), 1u);
+    draw(axiom + "line: spline with lifts\n");
+    EXPECT_EQ(found("//path", "d").size(), 2u);
+    // Brackets or not, closed lines are closed.
+    draw("axiom: F+F+F+Fff+F+F+F+F\nline: spline with lifts\n");
+    const auto paths = found("//path", "d");
+    ASSERT_EQ(paths.size(), 2u);
+    for (const std::string& path : paths) EXPECT_TRUE(path.ends_with("z")) << path;
+}
+
+TEST_F(Draw, ADotThatThePatternDrawsIsDrawnOnce) {
+    const std::string square = "axiom: F+F+F+F+[+(45)f(0.7071)@O(0.1)]\nstroke: 0.4mm black\n";
+    draw(square);
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+    draw(square + "dots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+    // Discs elsewhere are no dots of the kolam.
+    draw("axiom: F+F+F+F+[+(45)f(3)@O(0.1)]\ndots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 2u);
+    options_.only_dots = true;
+    draw(square + "dots: 0.2 step red\n");
+    EXPECT_EQ(found("//circle", "r").size(), 1u);
+}
+
+TEST_F(Draw, LinesBetweenUnseenOnesHaveColoursOfTheirOwn) {
+    options_.colours_strokes = true;
+    draw("axiom: F+F+F+F+;(1)F(3);(0)F(2)+F(2)+F(2)+F(2)\npalette: #fffaf0 transparent\nground: #7d3324\n");
+    const auto colours = found("//g[@stroke]", "stroke");
+    ASSERT_EQ(colours.size(), 2u);
+    EXPECT_NE(colours[0], colours[1]);
+}
+
 }  // namespace
 }  // namespace sikku

@@ -71,6 +71,57 @@ TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     EXPECT_NE(pixels("g-3.png"), pixels("alone.png"));
 }
 
+/// Of a GIF's frames, in hundredths of a second.
+std::vector<int> delays(const std::string& bytes) {
+    std::vector<int> list;
+    for (std::size_t at = 0; (at = bytes.find("\x21\xf9\x04", at)) != std::string::npos; ++at) {
+        list.push_back(static_cast<unsigned char>(bytes[at + 4]) + 256 * static_cast<unsigned char>(bytes[at + 5]));
+    }
+    return list;
+}
+
+TEST_F(Growth, TheEndOfAnAnimationIsHeld) {
+    const std::vector<std::string> dragon = {"dragon", "--generations", "1:3", "--size", "20x20mm", "--dpi",
+                                             "50",     "--margin",      "1mm"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), dragon.begin(), dragon.end());
+        EXPECT_EQ(draw(more, "d.gif").status, 0);
+        return delays(contents(folder_ / "d.gif"));
+    };
+    EXPECT_EQ(with({}), (std::vector{50, 50, 200}));
+    EXPECT_EQ(with({"--hold", "4"}), (std::vector{50, 50, 400}));
+    EXPECT_EQ(with({"--hold", "0.1", "--frame-time", "0.2"}), (std::vector{20, 20, 20}));
+    EXPECT_EQ(with({"--frame-time", "3"}), (std::vector{300, 300, 300}));
+    expect_refused(draw({"dragon", "--generations", "1:3", "--hold", "0"}, "d.gif"), 2,
+                   "--hold: seconds, 0.01 to 600");
+    expect_refused(draw({"dragon", "--hold", "1"}, "d.svg"), 2, "--hold");
+    expect_refused(draw({"dragon", "--generations", "1:3", "--frames", "--hold", "1"}, "d.svg"), 2, "are for a .gif");
+}
+
+TEST_F(Growth, EachFrameFitsThePageOnRequest) {
+    // How wide the first path is, in micrometres.
+    const auto start = [&](const std::string& name) {
+        pugi::xml_document document;
+        document.load_file((folder_ / name).c_str());
+        const std::string d = document.select_node("//path").node().attribute("d").value();
+        return d.substr(0, d.find_first_of("hvlcz"));
+    };
+    ASSERT_EQ(draw({"snake-kolam", "--generations", "0:4", "--frames", "--fit-frames"}, "fit.svg").status, 0);
+    ASSERT_EQ(draw({"snake-kolam", "--generations", "0:4", "--frames"}, "still.svg").status, 0);
+    for (const char* n : {"0", "4"}) {
+        ASSERT_EQ(draw({"snake-kolam", "-n", n}, "alone.svg").status, 0);
+        EXPECT_EQ(start(std::string("fit-") + n + ".svg"), start("alone.svg")) << n;
+    }
+    EXPECT_EQ(start("still-4.svg"), start("fit-4.svg"));
+    EXPECT_NE(start("still-0.svg"), start("fit-0.svg"));
+    // What draws nothing is an empty page all the same.
+    EXPECT_EQ(
+        draw({"hilbert", "--generations", "0:2", "--fit-frames", "--size", "20x20mm", "--margin", "1mm"}, "h.gif")
+            .status,
+        0);
+    expect_refused(draw({"dragon", "--fit-frames"}, "d.svg"), 2, "--fit-frames");
+}
+
 TEST_F(Growth, GifHoldsAllGenerations) {
     for (const char* pattern : {"bush.lsys", "dragon"}) {
         ASSERT_EQ(draw({pattern, "--generations", "1:6", "--size", "40x30mm", "--margin", "2mm", "--dpi", "100",
@@ -83,12 +134,7 @@ TEST_F(Growth, GifHoldsAllGenerations) {
         EXPECT_EQ(bytes.back(), ';');
         EXPECT_TRUE(has(bytes, "NETSCAPE2.0")) << "over and over";
         // Graphic control extensions: delays in hundredths of a second.
-        std::size_t frames = 0;
-        for (std::size_t at = 0; (at = bytes.find("\x21\xf9\x04", at)) != std::string::npos; ++at) {
-            ++frames;
-            EXPECT_EQ(bytes[at + 4], 25);
-        }
-        EXPECT_EQ(frames, 6u);
+        EXPECT_EQ(delays(bytes), (std::vector<int>{25, 25, 25, 25, 25, 200})) << "the last one is held";
         const std::string first = bytes;
         ASSERT_EQ(draw({pattern, "--generations", "1:6", "--size", "40x30mm", "--margin", "2mm", "--dpi", "100",
                         "--frame-time", "0.25", "-j", "1"},

@@ -539,6 +539,19 @@ TEST(Kolam, LoopsWithinLoops) {
     EXPECT_EQ(k.symmetry.name(), "D4");
 }
 
+TEST(Kolam, LinesThatAreImagesOfEachOtherHaveOneNumber) {
+    // A square in the middle and two smaller ones beside it, of which one is the mirror image of the other.
+    const std::string axiom = "F(4)+F(4)+F(4)+F(4)[f(1)-f(2)F-F-F-F-][f(1)+f(6)F+F+F+F+]";
+    for (const KolamExamination& k : {examined("90", axiom), examined_roughly("90", axiom)}) {
+        ASSERT_EQ(k.lines, 3u);
+        EXPECT_EQ(k.symmetry.name(), "D1");
+        EXPECT_EQ(k.orbit_of_line, (std::vector<std::uint32_t>{0, 1, 1}));
+    }
+    const KolamExamination alone = examined("90", "F(4)+F(4)+F(4)+F(4)[f(1)-f(2)F-F-F-F-]");
+    EXPECT_EQ(alone.orbit_of_line, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(examined("90", "F+F+F+F").orbit_of_line, std::vector<std::uint32_t>{0});
+}
+
 TEST(Kolam, SymmetryDoesNotDependOnHowThePieceIsDrawn) {
     EXPECT_EQ(examined("90", "F(2)+FF+F(2)+F(2)").symmetry.name(), "D4");
     EXPECT_EQ(examined("90", "FF+FF+FF+FF+F(2)").symmetry.name(), "D4");

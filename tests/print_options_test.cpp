@@ -1,4 +1,5 @@
 // tests/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
+#include "art/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 
@@ -78,9 +79,11 @@ TEST_F(PrintOptions, DotsStandWhereTheExaminationSetsThem) {
 TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
     const auto plain = svg({"snake-kolam", "-n", "2"});
     const auto framed = svg({"snake-kolam", "-n", "2", "--border", "kaavi"});
-    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 3);
+    // Its white is the ink of the lines.
+    EXPECT_EQ(layers(framed).size(), layers(plain).size() + 2);
     EXPECT_EQ(count(framed, "//circle"), 4u);
-    const auto strokes = framed.select_nodes("//g[@stroke='#b3452c']/path");
+    EXPECT_EQ(count(framed, "//g[@stroke='#fffaf0']"), 1u);
+    const auto strokes = framed.select_nodes("//g[@stroke='#e07a50']/path");
     ASSERT_EQ(strokes.size(), 1u);
     EXPECT_TRUE(std::string_view(strokes.first().node().attribute("d").value()).ends_with("z"));
     for (const char* format : {"png", "pdf", "hpgl"}) {
@@ -89,6 +92,28 @@ TEST_F(PrintOptions, ABorderIsALayerOfItsOwnWithinTheMargins) {
                       .status,
                   0);
     }
+}
+
+TEST(Colours, AreAsFarApartAsTheyLook) {
+    const auto of = [](const char* text) { return *parse_colour(text); };
+    EXPECT_NEAR(lightness(of("white")), 1, 1e-6);
+    EXPECT_NEAR(lightness(of("black")), 0, 1e-6);
+    EXPECT_NEAR(colour_distance(of("white"), of("black")), 1, 1e-6);
+    EXPECT_LT(colour_distance(of("#fffaf0"), of("#fffbf1")), 0.01);
+    // Ottosson's own example: linear sRGB red.
+    EXPECT_NEAR(lightness(of("red")), 0.627955, 1e-5);
+}
+
+TEST(Colours, OfABorderStandOutFromTheGround) {
+    for (const char* ground : {"#8c3b2a", "#7d3324", "#93432d", "white", "black", "#6b6b3a", "#4f6b3c", "#b3452c"}) {
+        const Colour under = *parse_colour(ground);
+        const std::vector<Colour> colours = border_colours(under);
+        ASSERT_EQ(colours.size(), 2u);
+        EXPECT_EQ(hex(colours[0]), "#fffaf0");
+        EXPECT_GT(colour_distance(colours[1], under), 0.14) << ground;
+        EXPECT_GT(colour_distance(colours[1], colours[0]), 0.2) << ground;
+    }
+    EXPECT_EQ(hex(border_colours(std::nullopt)[1]), "#b3452c");
 }
 
 TEST_F(PrintOptions, StrandsAreToldApart) {
@@ -102,6 +127,18 @@ TEST_F(PrintOptions, StrandsAreToldApart) {
     }
     EXPECT_EQ(colours.size(), 5u);
     EXPECT_EQ(count(document, "//path"), 5u);
+    EXPECT_TRUE(colours.contains("#fffaf0"));
+    for (const std::string& colour : colours) {
+        EXPECT_GT(colour_distance(*parse_colour(colour), *parse_colour("#7d3324")), 0.2) << colour;
+    }
+    // Images of each other have one colour.
+    ASSERT_EQ(run({"kolam", "--grid", "7x7", "--symmetry", "C4", "--density", "0.4", "--seed", "2", "-o",
+                   (folder_ / "seven.lsys").string()})
+                  .status,
+              0);
+    const Outcome told = run({"kolam", (folder_ / "seven.lsys").string(), "--json"});
+    const auto four = svg({(folder_ / "seven.lsys").string(), "--colour-by", "strand"});
+    EXPECT_LT(count(four, "//g[@stroke]"), count(four, "//path")) << told.output;
 }
 
 TEST_F(PrintOptions, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {

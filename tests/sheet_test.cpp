@@ -91,6 +91,64 @@ protected:
     SheetOptions options_;
 };
 
+TEST_F(Sheets, RowsAreBalanced) {
+    options_.columns = 3;
+    const auto rows = [&](std::size_t count) {
+        std::vector<int> list;
+        double top = -1;
+        for (const Window& window : write(std::vector<SheetCell>(count, cell(kolam)), "sheet.svg").windows) {
+            if (window.top != top) list.push_back(0);
+            top = window.top;
+            ++list.back();
+        }
+        return list;
+    };
+    EXPECT_EQ(rows(7), (std::vector{3, 2, 2}));
+    EXPECT_EQ(rows(4), (std::vector{2, 2}));
+    EXPECT_EQ(rows(9), (std::vector{3, 3, 3}));
+    EXPECT_EQ(rows(8), (std::vector{3, 3, 2}));
+    options_.columns = 0;
+    const SheetLayout layout = write(std::vector<SheetCell>(7, cell(kolam)), "sheet.svg");
+    // Shorter rows stand in the middle.
+    const Window& first = layout.windows.front();
+    const Window& last = layout.windows.back();
+    const double left =
+        std::min_element(layout.windows.begin(), layout.windows.end(), [](const Window& a, const Window& b) {
+            return a.left < b.left;
+        })->left;
+    EXPECT_GE(last.left + 1e-9, left);
+    EXPECT_EQ(first.width, last.width);
+}
+
+TEST_F(Sheets, CaptionsEndBeforeTheNextRow) {
+    // High drawings make narrow cells, in which captions have more lines.
+    options_.title.clear();
+    options_.subtitle.clear();
+    const std::string high =
+        "axiom: FFFFFFFF\nF --> F\nderivation length: 1\nX --> FFFF-FF++FFF-FFFF+FF-FF+FF-FFFFF\n"
+        "Y --> FFFF-FF++FFF-FFFF+FF-FF+FF-FFFFF\n";
+    for (const std::size_t count : {6u, 9u, 14u}) {
+        const SheetLayout layout =
+            write(std::vector<SheetCell>(count, cell(high, "A title of some length")), "s.svg");
+        pugi::xml_document document;
+        ASSERT_TRUE(document.load_file((folder_ / "s.svg").c_str()));
+        std::size_t strokes = 0;
+        // Letters are strokes of the sheet itself, which come before the cells.
+        for (const auto& found : document.select_nodes("/svg/g/path")) {
+            const std::string d = found.node().attribute("d").value();
+            const std::size_t blank = d.find_first_of(" -", 1);
+            const double x = std::stod(d.substr(1)) / 1000, y = std::stod(d.substr(blank)) / 1000;
+            ++strokes;
+            for (const Window& window : layout.windows) {
+                const bool is_in = x > window.left && x < window.left + window.width && y > window.top + 0.1 &&
+                                   y < window.top + window.height - 0.1;
+                EXPECT_FALSE(is_in) << x << " " << y;
+            }
+        }
+        EXPECT_GT(strokes, 20u);
+    }
+}
+
 TEST_F(Sheets, CellsLieSideBySideWithinTheMargins) {
     for (const std::size_t count : {1u, 2u, 3u, 5u, 12u, 40u}) {
         std::vector<SheetCell> cells(count, cell(kolam));

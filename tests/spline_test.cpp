@@ -1,5 +1,7 @@
 #include "engine/spline.h"
 
+#include "engine/derivation.h"
+#include "engine/turtle.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -243,6 +245,141 @@ TEST(Spline, StrokesFollowOneAnother) {
     ASSERT_EQ(recorder.discs.size(), 3u);
     EXPECT_EQ(recorder.discs[0].centre, glm::dvec2(3, 4));
     EXPECT_EQ(recorder.discs[0].radius, 2);
+}
+
+/// Strokes and areas of a spline, and the outlines of polygons as the turtle reports them.
+class Areas : public Recorder {
+public:
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
+        EXPECT_EQ(outline.size() % 3, 1u);
+        outlines.emplace_back(outline.begin(), outline.end());
+        pens.push_back(pen);
+    }
+    std::vector<Points> outlines;
+    std::vector<Pen> pens;
+};
+
+Areas areas_of(const std::string& text, bool moves_draw = true) {
+    Diagnostics diagnostics;
+    const Grammar grammar = compile_grammar(parse_pattern("test.lsys", text, diagnostics), diagnostics);
+    StrokeCensus census;
+    derive(grammar, *Turtle::drawing(grammar, census, moves_draw), {});
+    Areas areas;
+    SplineSink spline(areas, census.closed);
+    derive(grammar, *Turtle::outlining(grammar, spline, spline, moves_draw), {});
+    return areas;
+}
+
+/// How far the curves of an outline are from those of the strokes at most; straight ones are counted.
+double distance_to_strokes(const Points& outline, const Areas& areas, int& straight) {
+    Points samples;
+    for (const Line& stroke : areas.strokes) {
+        for (std::size_t piece = 0; 3 * piece + 3 < stroke.points.size(); ++piece) {
+            for (int k = 0; k <= 400; ++k) samples.push_back(bezier(stroke, piece, k / 400.0));
+        }
+    }
+    const Line line{outline, {}, false};
+    double farthest = 0;
+    for (std::size_t piece = 0; 3 * piece + 3 < outline.size(); ++piece) {
+        const glm::dvec2* p = &outline[3 * piece];
+        const auto bend = glm::dvec2(p[0] - 2.0 * p[1] + p[2]);
+        const auto other = glm::dvec2(p[1] - 2.0 * p[2] + p[3]);
+        if (std::hypot(bend.x, bend.y) + std::hypot(other.x, other.y) < 1e-12) {
+            ++straight;
+            continue;
+        }
+        for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            double nearest = 1e300;
+            for (const glm::dvec2 sample : samples) {
+                const glm::dvec2 gap = sample - bezier(line, piece, t);
+                nearest = std::min(nearest, std::hypot(gap.x, gap.y));
+            }
+            farthest = std::max(farthest, nearest);
+        }
+    }
+    return farthest;
+}
+
+TEST(SplineOutlines, AClosedLineIsFilledToItsCurve) {
+    const Areas areas = areas_of("axiom: {F+F+F+F}\n");
+    ASSERT_EQ(areas.outlines.size(), 1u);
+    ASSERT_EQ(areas.strokes.size(), 1u);
+    EXPECT_TRUE(areas.polygons.empty());
+    const Points& outline = areas.outlines[0];
+    ASSERT_EQ(outline.size(), 13u);
+    EXPECT_EQ(outline.front(), outline.back());
+    int straight = 0;
+    EXPECT_LT(distance_to_strokes(outline, areas, straight), 1e-3);
+    EXPECT_EQ(straight, 0);
+}
+
+TEST(SplineOutlines, PiecesOfALineFollowItAndCloseWithAStraightLine) {
+    for (const char* axiom :
+         {"FF+F{F-F-F+F+F+F}F-FF", "{F+FF+F}FFFF", "FFFF{F+F+F}", "F{F+F}F", "{F+F+F}", "FFF{F+F-F{F+F+F}F+F}FF-F",
+          "F{+F[-F+F]F}F", "FF{+F-F-F-F}F{F-F-F-F}FF", "{F+F+F+F}-F-F-F-F", "F+F{+F+F+F+F+F}+F", "F{f+f+F}FFF"}) {
+        const Areas areas = areas_of(std::string("axiom: ") + axiom + "\n");
+        const std::string_view word = axiom;
+        EXPECT_EQ(areas.outlines.size() + areas.polygons.size(),
+                  static_cast<std::size_t>(std::count(word.begin(), word.end(), '{')))
+            << axiom;
+        for (const Points& outline : areas.outlines) {
+            int straight = 0;
+            EXPECT_LT(distance_to_strokes(outline, areas, straight), 2e-3) << axiom;
+            EXPECT_LE(straight, 3) << axiom;
+        }
+    }
+}
+
+TEST(SplineOutlines, WhatIsNotDrawnIsStraight) {
+    // Of five edges two are drawn; the others are straight, and the last one closes the outline by itself.
+    const Areas areas = areas_of("angle factor: 5\naxiom: {F+F+f+f+f}\n", false);
+    ASSERT_EQ(areas.outlines.size(), 1u);
+    EXPECT_EQ(areas.strokes.size(), 1u);
+    int straight = 0;
+    EXPECT_LT(distance_to_strokes(areas.outlines[0], areas, straight), 2e-3);
+    EXPECT_GE(straight, 3);
+    // None is drawn.
+    const Areas bare = areas_of("axiom: {f+f+f+f}F\n", false);
+    int all = 0;
+    ASSERT_EQ(bare.outlines.size(), 1u);
+    distance_to_strokes(bare.outlines[0], bare, all);
+    EXPECT_EQ(all, 4);
+}
+
+TEST(SplineOutlines, KeepTheirOrderAndPensInLongLines) {
+    std::string axiom;
+    for (int i = 0; i < 3000; ++i) axiom += "{;F+F+F-}F";
+    const Areas areas = areas_of("axiom: " + axiom + "\n");
+    ASSERT_EQ(areas.outlines.size(), 3000u);
+    for (std::size_t i = 0; i < areas.pens.size(); ++i) EXPECT_EQ(areas.pens[i].colour, static_cast<int>(i) + 1);
+    // Far from the ends all are the same but for their place.
+    const Points& one = areas.outlines[1000];
+    const Points& other = areas.outlines[2000];
+    ASSERT_EQ(one.size(), other.size());
+    double turned = 0;
+    for (std::size_t i = 1; i < one.size(); ++i) {
+        turned = std::max(turned, std::fabs(std::hypot(one[i].x - one[0].x, one[i].y - one[0].y) -
+                                            std::hypot(other[i].x - other[0].x, other[i].y - other[0].y)));
+    }
+    EXPECT_LT(turned, 1e-9);
+}
+
+TEST(SplineOutlines, SinksWithoutAreasReceivePolygons) {
+    Recorder recorder;
+    // A circle of four quarters.
+    const double k = 0.5522847498307936;
+    const Points outline = {{1, 0},   {1, k},   {k, 1},  {0, 1},  {-k, 1}, {-1, k}, {-1, 0},
+                            {-1, -k}, {-k, -1}, {0, -1}, {k, -1}, {1, -k}, {1, 0}};
+    recorder.area(outline, {});
+    ASSERT_EQ(recorder.polygons.size(), 1u);
+    const Points& vertices = recorder.polygons[0].vertices;
+    double area = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::dvec2 a = vertices[i], b = vertices[(i + 1) % vertices.size()];
+        EXPECT_NEAR(std::hypot(a.x, a.y), 1, 3e-4);
+        area += (a.x * b.y - a.y * b.x) / 2;
+    }
+    EXPECT_NEAR(area, 3.14159265, 0.02);
 }
 
 TEST(StrokeCensus, NotesWhichStrokesAreClosed) {

@@ -92,6 +92,7 @@ TEST(Style, TheOtherKeys) {
         read("LINE: Spline\nground: #8b1a1a\nfill: gold\npalette: red, #00f8 ,green\tblue,\n");
     EXPECT_TRUE(errors.empty());
     EXPECT_EQ(style.line, Line::spline);
+    EXPECT_TRUE(style.moves_draw());
     EXPECT_EQ(style.ground, (Colour{0x8b, 0x1a, 0x1a, 255}));
     EXPECT_EQ(style.fill, (Colour{255, 215, 0, 255}));
     EXPECT_EQ(style.palette,
@@ -183,8 +184,9 @@ TEST_P(BadStyle, IsReportedAtItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadStyle,
     ::testing::Values(
-        Bad{"line:", 1, "'line:' is empty: expected 'straight' or 'spline'"},
-        Bad{"line: splines", 7, "did you mean 'spline'?"}, Bad{"line: 17", 7, "expected 'straight' or 'spline'"},
+        Bad{"line:", 1, "'line:' is empty: expected 'straight', 'spline' or 'spline with lifts'"},
+        Bad{"line: splines", 7, "did you mean 'spline'?"},
+        Bad{"line: 17", 7, "expected 'straight', 'spline' or 'spline with lifts'"},
         Bad{"line: spline straight", 14, "'straight' is too much"}, Bad{"stroke:", 1, "'stroke:' is empty"},
         Bad{"stroke: 0.4mm whit", 15, "did you mean 'white'?"}, Bad{"stroke: #ff", 9, "3, 4, 6 or 8"},
         Bad{"stroke: 0.4mm #fffff", 15, "3, 4, 6 or 8"}, Bad{"stroke: qqqqqqqqqqqqqqqq", 9, "expected a width"},
@@ -221,6 +223,23 @@ TEST(Style, EndlessNonsenseIsCutShort) {
     const auto long_word = read("ground: " + std::string(100'000, 'x') + "\n").errors;
     ASSERT_EQ(long_word.size(), 1u);
     EXPECT_LT(long_word[0].message.size(), 200u);
+}
+
+TEST(Style, SplinesMayLiftThePenWhereTheTurtleMoves) {
+    const auto [plain, no_errors] = read("axiom: F\nline: spline\n");
+    EXPECT_TRUE(no_errors.empty());
+    EXPECT_TRUE(plain.moves_draw());
+    const auto [lifted, none] = read("axiom: F\nline: Spline  with lifts\n");
+    EXPECT_TRUE(none.empty());
+    EXPECT_EQ(lifted.line, Line::spline);
+    EXPECT_TRUE(lifted.moves_lift);
+    EXPECT_FALSE(lifted.moves_draw());
+    EXPECT_FALSE(read("axiom: F\n").style.moves_draw());
+    for (const char* bad : {"spline with", "spline lifts", "spline with lifts too", "straight with lifts"}) {
+        const auto [style, errors] = read(std::string("axiom: F\nline: ") + bad + "\n");
+        ASSERT_EQ(errors.size(), 1u) << bad;
+        EXPECT_NE(errors[0].message.find("'spline with lifts'"), std::string::npos) << errors[0].message;
+    }
 }
 
 }  // namespace
