@@ -100,14 +100,34 @@ TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
 /// No file sees what comes after it: language, then derivation, then what reads words. Path and spline know no
 /// grammar.
 TEST(Arrows, EngineIsInOrder) {
-    static const std::map<std::string, int> layer = {
-        {"diagnostic", 0},      {"bezier", 0},       {"monitor", 0}, {"neighbourhood", 4}, {"path", 1},        {"spline_outlines", 2},
-        {"spline", 3},          {"expression", 1},   {"pattern", 1},     {"text", 1},
-        {"grammar", 2},         {"derivation", 3},   {"lattice", 3},     {"parts", 4},
-        {"clumps", 5},          {"chance", 0},       {"forecast", 4},    {"fold", 5},
-        {"turtle", 5},          {"extent", 6},       {"import", 3},      {"import_cpfg", 4},
-        {"import_fractint", 4}, {"turtle_state", 4}, {"space_turtle", 5}};
-    const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
+    static const std::map<std::string, int> layer = {{"diagnostic", 0},
+                                                     {"bezier", 0},
+                                                     {"monitor", 0},
+                                                     {"path", 1},
+                                                     {"spline_outlines", 2},
+                                                     {"spline", 3},
+                                                     {"expression", 1},
+                                                     {"pattern", 1},
+                                                     {"text", 1},
+                                                     {"grammar", 2},
+                                                     {"derivation", 3},
+                                                     {"lattice", 3},
+                                                     {"parts", 4},
+                                                     {"clumps", 5},
+                                                     {"chance", 0},
+                                                     {"forecast", 4},
+                                                     {"fold", 5},
+                                                     {"turtle", 5},
+                                                     {"extent", 6},
+                                                     {"import", 3},
+                                                     {"import_cpfg", 4},
+                                                     {"import_fractint", 4},
+                                                     {"turtle_state", 4},
+                                                     {"space_turtle", 5}};
+    const auto stem = [](const std::string& name) {
+        const std::string stem = std::filesystem::path(name).stem().string();
+        return stem == "neighbourhood" ? std::string("derivation") : stem;  // a part of derivation.cpp
+    };
     for (const auto& [file, name, quoted] : includes_of("engine")) {
         ASSERT_TRUE(layer.contains(stem(file))) << file << " has no place in the order yet: add it here";
         if (!quoted || stem(name) == stem(file)) continue;
