@@ -613,6 +613,7 @@ DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& 
     text("profile", settings.profile);
     text("bleed", settings.bleed);
     if (job.keys.contains("cmyk")) settings.cmyk = (job.folder / job.keys.at("cmyk")).string();
+    text("screen", settings.screen);
     if (job.keys.contains("spot")) settings.spots = {job.keys.at("spot")};
     whole_of(job, "bits", settings.bits);
     settings.plotter = job.keys.contains("plotter");

@@ -125,8 +125,8 @@ TEST(Arrows, EngineIsInOrder) {
                                                      {"turtle_state", 4},
                                                      {"space_turtle", 5}};
     const auto stem = [](const std::string& name) {
-        const std::string stem = std::filesystem::path(name).stem().string();
-        return stem == "neighbourhood" ? std::string("derivation") : stem;  // a part of derivation.cpp
+        const std::string own = std::filesystem::path(name).stem().string();
+        return own == "neighbourhood" ? std::string("derivation") : own;  // a part of derivation.cpp
     };
     for (const auto& [file, name, quoted] : includes_of("engine")) {
         ASSERT_TRUE(layer.contains(stem(file))) << file << " has no place in the order yet: add it here";
