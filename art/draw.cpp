@@ -503,7 +503,7 @@ const DrawnExtent& Drawing::seen() {
         require_room(grammar_, options_.budget / nodes_of_kept_part);
         scene_ = Scene::of(grammar_, style_, reading(options_), options_.budget / nodes_of_kept_part);
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
-        return extent_.emplace(found.box, found.widest);
+        return extent_.emplace(DrawnExtent{found.box, found.widest});
     }
     // Straight lines that are all seen are folded for their extent; a spline without brackets and lifts is one
     // stroke, and is folded for whether it closes.
@@ -530,7 +530,7 @@ const DrawnExtent& Drawing::seen() {
     } else {
         read({}, extent);
     }
-    return extent_.emplace(extent.box, extent.widest);
+    return extent_.emplace(DrawnExtent{extent.box, extent.widest});
 }
 
 DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,

@@ -242,8 +242,9 @@ void GalleryRecord::take_in(const RecordText& record, bool keeps) {
         known_[claim].claimed = true;
         known_[claim].kept = known_[claim].kept || keeps;
     }
-    for (const auto& [name, job] : record.finished) {
-        Known& known = known_[name];
+    for (const auto& entry : record.finished) {
+        const FinishedJob& job = entry.second;
+        Known& known = known_[entry.first];
         std::erase_if(known.versions, [&](const FinishedJob& version) { return version.line() == job.line(); });
         known.versions.push_back(job);
         known.kept = known.kept || keeps;
