@@ -36,8 +36,10 @@ public:
         std::size_t depth = 0;
         std::size_t dots = 0;  // of the key or number that is being read
         std::size_t values = 0;
-        for (at_ = 0; at_ < text_.size();) {
+        for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
+            // Of such a letter the parser of toml++ 3.3 reads beyond its tables.
+            require(static_cast<unsigned char>(letter) < 0x80, "only strings and comments may hold letters beyond ASCII");
             if (letter == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
                 continue;
