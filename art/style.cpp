@@ -340,10 +340,6 @@ double Style::disc_radius(double radius, const Pen& pen, double step) const {
     return radius > 0.0 ? radius * step : line_width(pen, step);
 }
 
-std::vector<std::string_view> style_keys() {
-    return {"line", "stroke", "ground", "fill", "palette", "dots", "view"};
-}
-
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     Style style;
     style.ground = white;

@@ -61,14 +61,8 @@ struct Style {
 /// Eight colours that are told apart by everyone, black first.
 std::vector<Colour> default_palette();
 
-/// The keys this file owns: `line` (straight | spline | spline with lifts), `stroke` (a width and a colour in either
-/// order, each optional: `0.4mm #fff`, `0.2 step white`, or `none`), `ground` (a colour or none), `fill` (a colour),
-/// `palette` (a list of colours, separated by blanks or commas; at most 4096), `dots` (a size and a colour as of
-/// `stroke`, or `none`), `view` (parse_camera()).
-std::vector<std::string_view> style_keys();
-
-/// Reads and checks them; what is absent keeps its default: straight, 0.4 mm, black on white, and a palette of
-/// eight colours that are told apart by everyone. px in lengths is by `dpi`.
+/// Reads and checks the keys that KeyOwner::art owns; an absent key keeps its default: straight, 0.4 mm, black on
+/// white, a palette of eight colours that everyone can tell apart. @param dpi  pixels per inch, for px in lengths
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics);
 
 }  // namespace sikku

@@ -45,17 +45,6 @@ std::string read_stream(std::FILE* stream, const std::string& name) {
     return text;
 }
 
-/// Beside the program, in a build folder as after installation.
-std::filesystem::path patterns_folder() {
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (!error) {
-        auto folder = program.parent_path() / SIKKU_PATTERNS_RELATIVE;
-        if (std::filesystem::is_directory(folder, error)) return folder.lexically_normal();
-    }
-    return SIKKU_PATTERNS_INSTALLED;
-}
-
 }  // namespace
 
 void add_pattern_options(CLI::App& command, PatternOptions& options) {
@@ -97,76 +86,45 @@ void add_budget_option(CLI::App& command, double& budget) {
 std::string known_gallery(const std::string& name) {
     std::error_code error;
     if (name.empty() || std::filesystem::exists(name, error)) return name;
-    const auto known = patterns_folder() / "posters" / (name + ".toml");
+    const auto known = PatternLibrary::bundled().folder() / "posters" / (name + ".toml");
     return std::filesystem::exists(known, error) ? known.string() : name;
-}
-
-std::vector<KnownPattern> known_patterns() {
-    std::vector<KnownPattern> found;
-    std::error_code error;
-    for (std::filesystem::recursive_directory_iterator entry(patterns_folder(), error), end; !error && entry != end;
-         entry.increment(error)) {
-        const auto& path = entry->path();
-        if (path.extension() == ".lsys") {
-            found.push_back({path.stem().string(), path.parent_path().filename().string(), path});
-        }
-    }
-    if (error == std::errc::too_many_files_open) {
-        throw std::runtime_error(fmt::format("cannot read the bundled patterns: {}", error.message()));
-    }
-    std::sort(found.begin(), found.end(), [](const KnownPattern& a, const KnownPattern& b) {
-        return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
-    });
-    return found;
 }
 
 PatternText read_pattern_text(const std::string& pattern) {
     if (pattern == "-") return {"-", read_stream(stdin, "standard input")};
-    std::filesystem::path path = pattern;
-    std::string name = pattern;
-    std::error_code error;
-    const bool is_name = pattern.find('/') == std::string::npos && !pattern.ends_with(".lsys");
-    if (is_name && (!std::filesystem::exists(path, error) || std::filesystem::is_directory(path, error))) {
-        const auto known = known_patterns();
-        const auto match = std::find_if(known.begin(), known.end(),
-                                        [&](const KnownPattern& candidate) { return candidate.name == pattern; });
-        if (match == known.end()) {
-            if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
-            std::vector<std::string_view> names;
-            for (const KnownPattern& candidate : known) names.push_back(candidate.name);
-            const std::string_view near = nearest(pattern, names);
-            throw UsageError(fmt::format("there is no file and no pattern '{}'{}", pattern,
-                                         near.empty() ? "; `sikku patterns` lists those that come along"
-                                                      : fmt::format("; did you mean '{}'?", near)));
-        }
-        path = match->file;
-        name = match->name + ".lsys";
+    PatternFile found;
+    try {
+        found = find_pattern(pattern);
+    } catch (const NotFound& error) {
+        throw UsageError(error.what());
     }
-    if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
+    std::error_code error;
+    if (std::filesystem::is_directory(found.path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
     std::FILE* file = nullptr;
     // Opening a named pipe waits for its writer.
-    while (!(file = std::fopen(path.c_str(), "rb"))) {
+    while (!(file = std::fopen(found.path.c_str(), "rb"))) {
         if (interrupted()) throw Interrupted();
         if (errno != EINTR) throw UsageError(fmt::format("{}: {}", pattern, std::strerror(errno)));
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);
-    return {name, read_stream(file, pattern)};
+    return {found.name, read_stream(file, pattern)};
+}
+
+void check_values(const Pattern& pattern, Diagnostics& diagnostics) {
+    read_style(pattern, 96, diagnostics);  // errors do not depend on the resolution
+    read_melody(pattern, {}, diagnostics);
 }
 
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
     // Files and galleries have thousands of variants and jobs.
     if (interrupted()) throw Interrupted();
-    std::vector<std::string_view> keys = style_keys();
-    const auto played = melody_keys();
-    keys.insert(keys.end(), played.begin(), played.end());
-    check_keys(pattern, keys, diagnostics);
+    check_keys(pattern, diagnostics);
     Grammar grammar = compile_grammar(pattern, diagnostics);
-    read_style(pattern, 96, diagnostics);  // for its mistakes, which no resolution changes
-    read_melody(pattern, {}, diagnostics);
+    check_values(pattern, diagnostics);
     return grammar;
 }
 
-LoadedPattern load(const PatternOptions& options, const Telling& telling) {
+Document load(const PatternOptions& options, const Telling& telling) {
     std::vector<Setting> settings;
     for (const std::string& text : options.settings) {
         const std::size_t equals = text.find('=');
@@ -188,16 +146,16 @@ LoadedPattern load(const PatternOptions& options, const Telling& telling) {
     settings.insert(settings.end(), options.more.begin(), options.more.end());
     PatternText text = options.text ? *options.text : read_pattern_text(options.pattern);
     Diagnostics diagnostics;
-    LoadedPattern loaded;
-    loaded.pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
-    apply_overrides(loaded.pattern, options.variant, settings, diagnostics);
-    if (!diagnostics.is_unreadable()) loaded.grammar = compile(loaded.pattern, diagnostics);
+    if (interrupted()) throw Interrupted();
+    Document document = Document::compile(std::move(text.name), std::move(text.text),
+                                          {options.variant, std::move(settings)}, diagnostics);
+    if (!diagnostics.is_unreadable()) check_values(document.pattern(), diagnostics);
     diagnostics.throw_if_errors();
     for (const Diagnostic& warning : diagnostics.list()) telling.say("{}\n", warning.text());
-    return loaded;
+    return document;
 }
 
-LoadedPattern load(const PatternOptions& options, bool quiet) {
+Document load(const PatternOptions& options, bool quiet) {
     return load(options, Telling{.quiet = quiet, .listener = {}, .watch = {}});
 }
 

@@ -3,7 +3,7 @@
 
 #include "art/provenance.h"
 #include "cli/signals.h"
-#include "engine/grammar.h"
+#include "engine/document.h"
 
 #include <fmt/format.h>
 
@@ -88,29 +88,19 @@ void add_override_options(CLI::App& command, PatternOptions& options);
 /// `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
+/// Checks the values of the keys that art and music own.
+void check_values(const Pattern& pattern, Diagnostics& diagnostics);
+
 /// Compiles what a pattern states; mistakes in its keys, in its grammar and in its style go to `diagnostics`.
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// A pattern read, overridden and compiled; warnings were told.
-struct LoadedPattern {
-    Pattern pattern;
-    Grammar grammar;
-};
-/// @throws PatternError, UsageError for a name that nothing has
-LoadedPattern load(const PatternOptions& options, const Telling& telling);
-LoadedPattern load(const PatternOptions& options, bool quiet);
+/// Reads and compiles a pattern; warnings are printed.
+/// @throws PatternError, UsageError for an unknown name
+Document load(const PatternOptions& options, const Telling& telling);
+Document load(const PatternOptions& options, bool quiet);
 
-/// A pattern that comes along.
-struct KnownPattern {
-    std::string name;
-    std::string kind;  ///< the folder: kolams, tilings, …
-    std::filesystem::path file;
-};
-/// The gallery file of that name among those that come along, patterns/posters/NAME.toml, if no file has it.
+/// The gallery file of that name among the bundled ones, patterns/posters/NAME.toml, if no file has it.
 std::string known_gallery(const std::string& name);
-
-/// Sorted by kind and name.
-std::vector<KnownPattern> known_patterns();
 
 /// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.
 class Progress {

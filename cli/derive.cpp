@@ -129,8 +129,8 @@ void add_derive(CLI::App& app, bool& quiet) {
         "  sikku derive fibonacci-words\n"
         "  sikku derive koch-island -n 8 | wc -c");
     command->callback([options, interpreted, &quiet] {
-        const LoadedPattern loaded = load(*options, quiet);
-        const Grammar grammar = shorten(loaded.grammar);
+        const Document loaded = load(*options, quiet);
+        const Grammar grammar = shorten(loaded.grammar());
         // Where the word itself goes to the terminal, a bar would be lost in it.
         const bool silent = quiet || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 0;
         Progress progress(silent ? 0 : expected_symbols(grammar, *interpreted), silent);

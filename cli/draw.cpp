@@ -155,7 +155,7 @@ bool is_gif(const std::string& output) {
 }
 
 /// Derivation lengths one after the other, as an animation or in files of their own.
-void draw_growth(const DrawSettings& options, const Print& print, DrawOptions drawing, const LoadedPattern& loaded,
+void draw_growth(const DrawSettings& options, const Print& print, DrawOptions drawing, const Document& loaded,
                  const Telling& telling) {
     if (drawing.tiles || drawing.window || !options.pattern.steps.empty()) {
         throw UsageError("--generations: frames go without -n, --window and --tile");
@@ -191,7 +191,7 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     growth.made = [&](const Grammar& generation) { return made_with(options, generation); };
     Progress progress(0, telling.quiet);
     drawing.watch = telling.watch ? telling.watch : progress.watch();
-    const DrawReport report = draw_growth(loaded.grammar, print, drawing, growth, options.output);
+    const DrawReport report = draw_growth(loaded.grammar(), print, drawing, growth, options.output);
     if (report.overflows) {
         telling.say("sikku: warning: the largest generation is larger than the page has room for: it is cut off\n");
     }
@@ -199,7 +199,7 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
 
 /// Derivation lengths side by side, as the books show them.
 void draw_generations(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
-                      const LoadedPattern& loaded, const Telling& telling) {
+                      const Document& loaded, const Telling& telling) {
     if (drawing.plot || drawing.tiles || drawing.window || drawing.border || drawing.colours_strokes ||
         print.style.dots || options.step || !options.pattern.steps.empty()) {
         throw UsageError(
@@ -212,7 +212,7 @@ void draw_generations(const DrawSettings& options, const Print& print, const Dra
             fmt::format("--generations {}: up to 100 derivation lengths, the lower one first", options.generations));
     }
     SheetCell cell;
-    cell.grammar = std::make_shared<const Grammar>(loaded.grammar);
+    cell.grammar = std::make_shared<const Grammar>(loaded.grammar());
     cell.style = print.style;
     cell.placement.rotate = options.rotate;
     cell.placement.mirror = options.mirror;
@@ -247,8 +247,8 @@ void watch_drawing(const Grammar& grammar, const Telling& telling, std::optional
     drawing.watch = [&](std::uint64_t symbols) { progress->add(symbols); };
 }
 
-void require_straight(const LoadedPattern& loaded, const Style& style, std::string_view what) {
-    const Key* key = loaded.pattern.find("line");
+void require_straight(const Document& loaded, const Style& style, std::string_view what) {
+    const Key* key = loaded.pattern().find("line");
     if (style.line != Line::spline || !key) return;
     Diagnostics diagnostics;
     diagnostics.error(key->value, fmt::format("{} of straight lines, and not of splines", what));
@@ -257,8 +257,8 @@ void require_straight(const LoadedPattern& loaded, const Style& style, std::stri
 
 /// What is asked for that only drawings in the plane have.
 void check_space(const DrawSettings& options, const Print& print, const DrawOptions& drawing,
-                 const LoadedPattern& loaded) {
-    if (!loaded.grammar.is_spatial()) return;
+                 const Document& loaded) {
+    if (!loaded.grammar().is_spatial()) return;
     require_straight(loaded, print.style, "this drawing pitches, rolls or bends: in space drawings are");
     if (drawing.window || drawing.border || drawing.colours_strokes || options.dots || options.dot_spacing ||
         print.animation) {
@@ -288,16 +288,16 @@ void draw_model(const DrawSettings& given, ModelFormat format, const Telling& te
             "--plotter, --bleed, --marks and --spot are for prints");
     }
     auto [print, drawing] = plan_print(options);
-    const LoadedPattern loaded = load(options.pattern, telling);
+    const Document loaded = load(options.pattern, telling);
     Diagnostics diagnostics;
-    print.style = read_style(loaded.pattern, options.dpi, diagnostics);
+    print.style = read_style(loaded.pattern(), options.dpi, diagnostics);
     diagnostics.throw_if_errors();
     require_straight(loaded, print.style, "models are");
-    print.title = loaded.pattern.text("title");
-    print.made = made_with(options, loaded.grammar);
+    print.title = loaded.pattern().text("title");
+    print.made = made_with(options, loaded.grammar());
     std::optional<Progress> progress;
-    watch_drawing(loaded.grammar, telling, progress, drawing);
-    const ModelReport report = draw_model(loaded.grammar, std::move(print), drawing, format, given.output);
+    watch_drawing(loaded.grammar(), telling, progress, drawing);
+    const ModelReport report = draw_model(loaded.grammar(), std::move(print), drawing, format, given.output);
     progress.reset();
     telling.say("{}, {}\n", counted(report.triangles, "triangle"), counted(report.materials, "material"));
 }
@@ -427,15 +427,15 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     options.output = given.output;
     apply_dots(options);
     if (!options.view.empty()) options.pattern.more.push_back({"--view", "view", options.view});
-    LoadedPattern loaded = load(options.pattern, telling);
+    Document loaded = load(options.pattern, telling);
     Diagnostics diagnostics;
-    print.style = read_style(loaded.pattern, options.dpi, diagnostics);
+    print.style = read_style(loaded.pattern(), options.dpi, diagnostics);
     diagnostics.throw_if_errors();
     if ((options.dots || options.dot_spacing) && !print.style.dots) print.style.dots.emplace();
     check_space(options, print, drawing, loaded);
-    print.title = loaded.pattern.text("title");
-    print.pattern = loaded.pattern.source->text();
-    print.made = made_with(options, loaded.grammar);
+    print.title = loaded.pattern().text("title");
+    print.pattern = loaded.pattern().source->text();
+    print.made = made_with(options, loaded.grammar());
     if (!options.generations.empty()) {
         if (options.frames || is_gif(options.output)) return draw_growth(options, print, drawing, loaded, telling);
         if (options.frame_time || options.hold || options.fit_frames) {
@@ -453,14 +453,14 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
     // Contexts are resolved before it is known how much there is to draw.
     std::optional<Progress> progress;
-    watch_drawing(loaded.grammar, telling, progress, drawing);
-    if (!options.view.empty() && !loaded.grammar.is_spatial()) {
+    watch_drawing(loaded.grammar(), telling, progress, drawing);
+    if (!options.view.empty() && !loaded.grammar().is_spatial()) {
         telling.say("sikku: warning: this drawing lies in the plane, where --view changes nothing\n");
     }
     const bool wants_dots = print.style.dots.has_value();
     const Style style = print.style;
     const double dpi = print.dpi;
-    const DrawReport report = draw(loaded.grammar, std::move(print), drawing, options.output);
+    const DrawReport report = draw(loaded.grammar(), std::move(print), drawing, options.output);
     progress.reset();
     if (report.leaves_pattern_out) {
         telling.say(

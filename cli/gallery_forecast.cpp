@@ -47,12 +47,12 @@ double matching_seconds(const Grammar& grammar, double budget) {
 }
 
 /// @throws what draw() throws before it draws
-void forecast_print(const DrawSettings& settings, const LoadedPattern& loaded, JobForecast& result) {
+void forecast_print(const DrawSettings& settings, const Document& loaded, JobForecast& result) {
     PlannedPrint planned = plan_print(settings);
     Diagnostics diagnostics;
-    planned.print.style = read_style(loaded.pattern, settings.dpi, diagnostics);
+    planned.print.style = read_style(loaded.pattern(), settings.dpi, diagnostics);
     diagnostics.throw_if_errors();
-    const Grammar grammar = shorten(loaded.grammar);
+    const Grammar grammar = shorten(loaded.grammar());
     const PrintFormat format = planned.drawing.format;
     DrawingCost cost;
     {
@@ -64,7 +64,7 @@ void forecast_print(const DrawSettings& settings, const LoadedPattern& loaded, J
         if (!parts) require_affordable(grammar, true, settings.budget);
         cost = drawing_cost(grammar, parts ? &*parts : nullptr, planned.print, planned.drawing);
     }
-    const double text = static_cast<double>(loaded.pattern.source->text().size());
+    const double text = static_cast<double>(loaded.pattern().source->text().size());
     const bool spline = planned.print.style.line == Line::spline;
     result.seconds = 0.0005 + cost.nodes * (spline ? 3 : 1.5) * 8e-9;
     result.seconds += matching_seconds(grammar, settings.budget);
@@ -127,15 +127,15 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
     }
     try {
         const auto load_quietly = [&](const PatternOptions& options) {
-            LoadedPattern loaded = load(options, true);
+            Document loaded = load(options, true);
             if (exact) {
-                if (const auto word = forecast(loaded.grammar, false)) result.symbols = word->length();
+                if (const auto word = forecast(loaded.grammar(), false)) result.symbols = word->length();
             }
             return loaded;
         };
         if (job.is_score()) {
             const PlaySettings settings = score_settings(job, job.file());
-            forecast_score(job, settings, load_quietly(settings.pattern).grammar, result);
+            forecast_score(job, settings, load_quietly(settings.pattern).grammar(), result);
         } else {
             const DrawSettings settings = print_settings(job, job.file());
             forecast_print(settings, load_quietly(settings.pattern), result);

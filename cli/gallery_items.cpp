@@ -1,6 +1,7 @@
 #include "cli/gallery_items.h"
 
 #include "art/style.h"
+#include "engine/keys.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>
@@ -270,13 +271,13 @@ const std::vector<GalleryKeyFacts>& all_gallery_keys() {
             {{"turn", "", false, false}, GalleryUse::any, GalleryKind::text, true},
             {{"scale-factor", "", false, false}, GalleryUse::print, GalleryKind::text, true},
         };
-        for (const std::string_view key : style_keys()) {
+        for (const std::string_view key : keys_of(KeyOwner::art)) {
             list.push_back({{std::string(key), "As the key of patterns", false, true},
                             GalleryUse::print,
                             GalleryKind::text,
                             true});
         }
-        for (const std::string_view key : melody_keys()) {
+        for (const std::string_view key : keys_of(KeyOwner::music)) {
             list.push_back(
                 {{std::string(key), "As of `sikku play`", false, true}, GalleryUse::score, GalleryKind::text, false});
         }
@@ -415,7 +416,7 @@ void read_gallery_key(const std::string& written, const GalleryValue& value, Gal
                                                "item",    "poster", "contact", "title"};
         for (const GalleryKeyFacts& each : all_gallery_keys()) known.push_back(each.shown.name);
         const std::string_view near = nearest(key, known);
-        fail(value.place, fmt::format("nobody knows the key '{}'{}", printable(written, 80),
+        fail(value.place, fmt::format("unknown key '{}'{}", printable(written, 80),
                                       near.empty() ? "; keys and defines of patterns go into `set = { … }`"
                                                    : fmt::format("; did you mean '{}'?", near)));
     }

@@ -75,7 +75,7 @@ public:
 private:
     static Result compile(const GalleryJob& job) {
         try {
-            return {"", fmt::format("{}", load(pattern_options(job), true).grammar.steps())};
+            return {"", fmt::format("{}", load(pattern_options(job), true).grammar().steps())};
         } catch (const std::runtime_error& error) {
             std::string message = error.what();
             while (message.ends_with('\n')) message.pop_back();
@@ -638,7 +638,7 @@ PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& 
     settings.patterns = {job.pattern->path};
     settings.output = output.string();
     settings.folder = job.folder;
-    const auto keys = melody_keys();
+    const auto keys = keys_of(KeyOwner::music);
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const auto found = job.keys.find(std::string(keys[i]));
         if (found != job.keys.end()) settings.keys[i] = found->second;

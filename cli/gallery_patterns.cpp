@@ -201,7 +201,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     std::vector<Pointer> found = find_files(word, folder, place, is_folder);
     if (found.empty()) {
         // The folder of a gallery may be called as a kind is.
-        for (const KnownPattern& pattern : known()) {
+        for (const LibraryPattern& pattern : known()) {
             const std::string full = pattern.kind + "/" + pattern.name;
             const bool is_full = word.find('/') != std::string::npos;
             if (pattern.kind == word || fits_wildcards(word, is_full ? full : pattern.name)) {
@@ -216,7 +216,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     if (is_folder) fail(place, fmt::format("{}: there is no pattern in this folder", (folder / word).string()));
     if (has_wildcards(word)) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
     std::vector<std::string_view> names;
-    for (const KnownPattern& pattern : known()) names.push_back(pattern.name);
+    for (const LibraryPattern& pattern : known()) names.push_back(pattern.name);
     const std::string_view near = nearest(word, names);
     fail(place, fmt::format("there is no file and no pattern '{}'{}", printable(word, 80),
                             near.empty() ? "; `sikku patterns` lists those that come along"
@@ -225,17 +225,11 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
 
 PatternShelf::List PatternShelf::all() {
     std::vector<Pointer> found;
-    for (const KnownPattern& pattern : known()) {
+    for (const LibraryPattern& pattern : known()) {
         if (pattern.kind != "words") found.push_back(of_known(pattern));
     }
     if (found.empty()) throw UsageError("no patterns were found");
     return std::make_shared<const std::vector<Pointer>>(std::move(found));
-}
-
-const std::vector<KnownPattern>& PatternShelf::known() {
-    if (!is_listed_) known_ = known_patterns();
-    is_listed_ = true;
-    return known_;
 }
 
 PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, const std::string& shown,

@@ -44,14 +44,12 @@ public:
 private:
     std::vector<Pointer> find_files(const std::string& word, const std::filesystem::path& folder,
                                     const std::string& place, bool& is_folder);
-    const std::vector<KnownPattern>& known();
-    Pointer of_known(const KnownPattern& known) { return read(known.file, known.name, known.name + ".lsys"); }
+    static const std::vector<LibraryPattern>& known() { return PatternLibrary::bundled().patterns(); }
+    Pointer of_known(const LibraryPattern& known) { return read(known.file, known.name, known.name + ".lsys"); }
     Pointer of_file(const std::filesystem::path& file) { return read(file, file.string(), file.string()); }
     Pointer read(const std::filesystem::path& file, const std::string& shown, const std::string& called);
 
     bool bundled_only_;
-    bool is_listed_ = false;
-    std::vector<KnownPattern> known_;
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;
     std::size_t bytes_ = 0;    // of all texts

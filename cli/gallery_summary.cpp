@@ -59,7 +59,7 @@ std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys
     return text;
 }
 
-LoadedPattern load_quietly(const GalleryJob& job) {
+Document load_quietly(const GalleryJob& job) {
     return load(job.is_score() ? score_settings(job, job.file()).pattern : print_settings(job, job.file()).pattern,
                 true);
 }
@@ -93,17 +93,17 @@ std::string angle_of(const Pattern& pattern) {
 
 GalleryEntry entry_of(const Prints& item) {
     const GalleryJob& first = *item.jobs.front();
-    const LoadedPattern loaded = load_quietly(first);
+    const Document loaded = load_quietly(first);
     GalleryEntry entry;
     entry.name = first.name;
-    entry.title = loaded.pattern.text("title");
+    entry.title = loaded.pattern().text("title");
     if (entry.title.empty()) entry.title = first.pattern->name;
-    entry.source = loaded.pattern.text("source");
-    entry.description = loaded.pattern.text("description");
+    entry.source = loaded.pattern().text("source");
+    entry.description = loaded.pattern().text("description");
     entry.kind = first.pattern->kind;
-    entry.n = std::to_string(loaded.grammar.steps());
-    entry.angle = angle_of(loaded.pattern);
-    entry.growth = growth_of(loaded.grammar);
+    entry.n = std::to_string(loaded.grammar().steps());
+    entry.angle = angle_of(loaded.pattern());
+    entry.growth = growth_of(loaded.grammar());
     entry.settings = settings_of(first, nullptr);
     entry.pattern = first.pattern->text ? first.pattern->text->text : std::string();
     // What a browser shows comes first; a picture is the quickest thumbnail.
@@ -177,13 +177,13 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     // What tells the prints of a pattern apart.
     std::map<const GalleryPattern*, const GalleryJob*> first;
     std::map<const GalleryPattern*, std::set<std::string>> varying;
-    std::vector<std::pair<const GalleryJob*, LoadedPattern>> prints;
+    std::vector<std::pair<const GalleryJob*, Document>> prints;
     for (const Prints& item : by_name(jobs)) {
         const auto print =
             std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return !job->is_score(); });
         if (print == item.jobs.end()) continue;
         prints.emplace_back(*print, load_quietly(**print));
-        lengths[(*print)->pattern.get()].insert(prints.back().second.grammar.steps());
+        lengths[(*print)->pattern.get()].insert(prints.back().second.grammar().steps());
         const GalleryJob& other = *first.emplace((*print)->pattern.get(), *print).first->second;
         std::set<std::string>& keys = varying[(*print)->pattern.get()];
         for (const auto& [one, two] : {std::pair(*print, &other), std::pair(&other, *print)}) {
@@ -200,20 +200,20 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
         const PlannedPrint planned = plan_print(print_settings(*job, job->file()));
         SheetCell cell;
         Diagnostics diagnostics;
-        cell.style = read_style(loaded.pattern, planned.print.dpi, diagnostics);
+        cell.style = read_style(loaded.pattern(), planned.print.dpi, diagnostics);
         diagnostics.throw_if_errors();
         cell.placement = planned.drawing.placement;
         cell.window = planned.drawing.window;
         cell.budget = planned.drawing.budget;
-        cell.title = loaded.pattern.text("title");
+        cell.title = loaded.pattern().text("title");
         if (cell.title.empty()) cell.title = job->pattern->name;
-        cell.grammar = std::make_shared<const Grammar>(std::move(loaded.grammar));
+        cell.grammar = std::make_shared<const Grammar>(loaded.grammar());
         if (has_rows) {
             cell.caption = {fmt::format("n = {}", cell.grammar->steps())};
             if (job->pattern.get() != row) cell.heading = cell.title;
             row = job->pattern.get();
         } else if (request.is_poster) {
-            cell.caption = caption_of(*cell.grammar, cell.title, loaded.pattern);
+            cell.caption = caption_of(*cell.grammar, cell.title, loaded.pattern());
         } else {
             cell.caption = {job->name};
         }

@@ -148,10 +148,10 @@ void add_kolam(CLI::App& app, bool& quiet) {
             return kolam_grid(*grid, {.quiet = quiet, .listener = {}, .watch = {}});
         }
         if (options->pattern.empty()) throw UsageError("expected PATTERN, or --grid");
-        const LoadedPattern loaded = load(*options, quiet);
+        const Document loaded = load(*options, quiet);
         Diagnostics diagnostics;
         KolamOptions examination;
-        const Style style = read_style(loaded.pattern, 300, diagnostics);
+        const Style style = read_style(loaded.pattern(), 300, diagnostics);
         examination.spline = style.line == Line::spline;
         examination.moves_lift = style.moves_lift;
         examination.draws = [&style](const Pen& pen) { return style.draws(pen); };
@@ -159,9 +159,9 @@ void add_kolam(CLI::App& app, bool& quiet) {
         Progress progress(0, quiet);
         examination.watch = progress.watch();
         examination.monitor = stop_monitor();
-        const KolamExamination examined = examine_kolam(loaded.grammar, examination);
-        const std::string title = loaded.pattern.text("title");
-        const std::int64_t n = loaded.grammar.steps();
+        const KolamExamination examined = examine_kolam(loaded.grammar(), examination);
+        const std::string title = loaded.pattern().text("title");
+        const std::int64_t n = loaded.grammar().steps();
         fmt::print("{}", *as_json ? json(title, n, examined) : prose(title, n, examined));
     });
 }

@@ -143,10 +143,10 @@ void add_measure(CLI::App& app, bool& quiet) {
         "  sikku measure snake-kolam\n"
         "  sikku measure hilbert -n 60 --json");
     command->callback([options, as_json, budget, &quiet] {
-        const LoadedPattern loaded = load(*options, quiet);
+        const Document loaded = load(*options, quiet);
         Progress progress(0, quiet);
-        const Measurement measured = measure(loaded.grammar, *budget, progress.watch());
-        const std::string title = loaded.pattern.text("title");
+        const Measurement measured = measure(loaded.grammar(), *budget, progress.watch());
+        const std::string title = loaded.pattern().text("title");
         fmt::print("{}", *as_json ? json(title, measured) : prose(title, measured));
     });
 }

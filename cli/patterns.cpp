@@ -20,8 +20,8 @@ namespace {
 void list_patterns(const std::string& kind, bool names_only) {
     std::string last;
     bool any = false;
-    const auto patterns = known_patterns();
-    for (const KnownPattern& known : patterns) {
+    const auto& patterns = PatternLibrary::bundled().patterns();
+    for (const LibraryPattern& known : patterns) {
         if (!kind.empty() && known.kind != kind) continue;
         any = true;
         if (names_only) {
@@ -37,7 +37,7 @@ void list_patterns(const std::string& kind, bool names_only) {
     }
     if (any) return;
     std::set<std::string_view> kinds;
-    for (const KnownPattern& known : patterns) kinds.insert(known.kind);
+    for (const LibraryPattern& known : patterns) kinds.insert(known.kind);
     if (kinds.empty()) throw UsageError("no patterns were found");
     const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
     throw UsageError(fmt::format("there are no patterns '{}'; {}", kind,

@@ -51,7 +51,7 @@ std::optional<ScoreFormat> score_format(const std::string& file) {
 
 /// A pattern that is a part of the score.
 struct Player {
-    LoadedPattern loaded;
+    Document loaded;
     Melody melody;
     int first_voice = 0;
 };
@@ -149,7 +149,7 @@ Player load_player(const PlaySettings& options, const std::string& name, const T
     PatternOptions one = options.pattern;
     one.pattern = name;
     std::vector<std::string> given;
-    const auto keys = melody_keys();
+    const auto keys = keys_of(KeyOwner::music);
     for (std::size_t i = 0; i < keys.size(); ++i) {
         if (!options.keys[i]) continue;
         one.more.push_back({"--" + std::string(keys[i]), std::string(keys[i]), *options.keys[i]});
@@ -160,7 +160,7 @@ Player load_player(const PlaySettings& options, const std::string& name, const T
     const std::filesystem::path here = options.folder;
     const std::filesystem::path beside = name == "-" ? here : std::filesystem::path(name).parent_path();
     player.melody = read_melody(
-        player.loaded.pattern,
+        player.loaded.pattern(),
         [&](const std::string& file) {
             // What the pattern names lies beside it, what the command line names is seen from here.
             const bool is_option = std::find(given.begin(), given.end(), file) != given.end();
@@ -175,11 +175,11 @@ Player load_player(const PlaySettings& options, const std::string& name, const T
 }
 
 std::string made_with(const PlaySettings& options, const std::vector<Player>& players) {
-    std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, players.front().loaded.grammar.steps());
+    std::string text = fmt::format("sikku {}, -n {}", SIKKU_VERSION, players.front().loaded.grammar().steps());
     if (!options.pattern.variant.empty()) text += " --variant " + options.pattern.variant;
     if (!options.pattern.seed.empty()) text += " --seed " + options.pattern.seed;
     for (const std::string& setting : options.pattern.settings) text += fmt::format(" --set '{}'", setting);
-    const auto keys = melody_keys();
+    const auto keys = keys_of(KeyOwner::music);
     for (std::size_t i = 0; i < keys.size(); ++i) {
         if (options.keys[i]) text += fmt::format(" --{} '{}'", keys[i], *options.keys[i]);
     }
@@ -220,12 +220,12 @@ bool has_brackets(const Grammar& grammar) {
 /// How many voices sound; where brackets make them, only playing tells.
 int voices_of(const Player& player, const PlayOptions& playing) {
     const Melody& melody = player.melody;
-    if (!has_brackets(player.loaded.grammar)) {
+    if (!has_brackets(player.loaded.grammar())) {
         if (melody.mapping == Mapping::counterpoint) return 2;
         return melody.mapping == Mapping::runs && melody.vertical == Vertical::voice ? 2 : 1;
     }
     Nobody nobody;
-    return std::max(1, play(player.loaded.grammar, melody, nobody, playing).voices);
+    return std::max(1, play(player.loaded.grammar(), melody, nobody, playing).voices);
 }
 
 std::string scale_of(const Melody& melody) {
@@ -241,7 +241,7 @@ ScoreHead head_of(const PlaySettings& options, std::vector<Player>& players, con
     head.made = made_with(options, players);
     int voices = 0;
     for (Player& player : players) {
-        const Pattern& pattern = player.loaded.pattern;
+        const Pattern& pattern = player.loaded.pattern();
         const Melody& melody = player.melody;
         const std::string title = pattern.text("title");
         head.title += (head.title.empty() || title.empty() ? "" : ", ") + title;
@@ -295,16 +295,16 @@ void describe(const std::vector<Player>& players, const PlayOptions& piece, bool
     playing.budget = std::min(piece.budget, 20e6);
     for (const Player& player : players) {
         const Melody& melody = player.melody;
-        const std::string title = player.loaded.pattern.text("title");
-        const auto known = is_whole ? census(player.loaded.grammar, melody) : std::nullopt;
+        const std::string title = player.loaded.pattern().text("title");
+        const auto known = is_whole ? census(player.loaded.grammar(), melody) : std::nullopt;
         std::optional<PlayReport> played;
         try {
             Nobody nobody;
-            played = play(player.loaded.grammar, melody, nobody, playing);
+            played = play(player.loaded.grammar(), melody, nobody, playing);
         } catch (const BudgetError&) {
             if (!known) throw;
         }
-        fmt::print("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), player.loaded.grammar.steps());
+        fmt::print("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), player.loaded.grammar().steps());
         const Integer notes = played ? Integer(played->notes) : known->notes;
         const Integer ticks = played ? Integer(played->end) : known->ticks;
         fmt::print("scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
@@ -320,7 +320,7 @@ PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playi
     all.past = true;
     for (const Player& player : players) {
         PartSink part(sink, player.first_voice);
-        const PlayReport report = play(player.loaded.grammar, player.melody, part, playing);
+        const PlayReport report = play(player.loaded.grammar(), player.melody, part, playing);
         all.notes += report.notes;
         all.moved += report.moved;
         all.lost += report.lost;
@@ -375,7 +375,7 @@ void tell_of(const std::vector<Player>& players, const PlayOptions& playing, con
                     counted(report.lost, "note"));
     }
     for (const Player& player : players) {
-        const std::string name = printable(player.loaded.pattern.text("title"));
+        const std::string name = printable(player.loaded.pattern().text("title"));
         const Melody& melody = player.melody;
         if (melody.tempo != first.tempo || melody.meter.beats != first.meter.beats ||
             melody.meter.unit != first.meter.unit) {
@@ -442,7 +442,7 @@ void play_score(const PlaySettings& options, const Telling& telling) {
     for (const Player& player : players) {
         midi.microtonal = midi.microtonal || player.melody.is_microtonal();
         if (!as_midi || playing.to < INT64_MAX) continue;
-        const auto known = census(player.loaded.grammar, player.melody);
+        const auto known = census(player.loaded.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(
                 fmt::format("{} notes would make a file of over 4 GiB, which MIDI cannot write: "
@@ -562,7 +562,7 @@ void add_play(CLI::App& app, bool& quiet) {
         {"velocity", "fixed, by turn, by depth, by length"},
         {"mapping", "runs, counterpoint, symbols"},
         {"instrument", "A General MIDI instrument by name or number (1 to 128)"}};
-    const auto keys = melody_keys();
+    const auto keys = keys_of(KeyOwner::music);
     for (std::size_t i = 0; i < keys.size(); ++i) {
         command->add_option("--" + std::string(keys[i]), options->keys[i], help.at(keys[i]))->type_name("VALUE");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/command.h"
+#include "engine/keys.h"
 #include "music/melody.h"
 
 #include <cstdint>
@@ -18,8 +19,9 @@ struct PlaySettings {
     PatternOptions pattern;  ///< but for its name
     std::vector<std::string> patterns;
     std::string output;
-    /// Those of melody_keys(), in their order.
-    std::vector<std::optional<std::string>> keys = std::vector<std::optional<std::string>>(melody_keys().size());
+    /// Those of keys_of(KeyOwner::music), in their order.
+    std::vector<std::optional<std::string>> keys =
+        std::vector<std::optional<std::string>>(keys_of(KeyOwner::music).size());
     std::int64_t from_bar = 1;
     std::int64_t bars = 0;
     double seconds = 0;

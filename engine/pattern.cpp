@@ -1,5 +1,7 @@
 #include "engine/pattern.h"
 
+#include "engine/keys.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,15 +22,6 @@ constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables
 constexpr std::size_t most_tables = std::size_t{1} << 16;
 constexpr std::size_t most_variants = std::size_t{1} << 16;
 constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
-
-constexpr std::array<std::string_view, 19> engine_keys = {
-    "axiom",       "derivation length", "angle factor", "angle increment", "turn",     "heading", "forward", "move",
-    "ignore",      "consider",          "symbols",      "scale factor",    "schedule", "seed",    "title",   "source",
-    "description", "tropism",           "elasticity"};
-
-bool is_engine_key(std::string_view name) {
-    return std::find(engine_keys.begin(), engine_keys.end(), name) != engine_keys.end();
-}
 
 std::string folded(std::string_view name) {
     std::string result;
@@ -447,18 +440,14 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
     }
 }
 
-void check_keys(const Pattern& pattern, const std::vector<std::string_view>& interpreter_keys,
-                Diagnostics& diagnostics) {
-    std::vector<std::string_view> known(engine_keys.begin(), engine_keys.end());
-    known.insert(known.end(), {"interpret", "table", "variant", "define"});
-    known.insert(known.end(), interpreter_keys.begin(), interpreter_keys.end());
+void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
+    std::vector<std::string_view> known = {"interpret", "table", "variant", "define"};
+    for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Key& key : pattern.keys) {
-        if (is_engine_key(key.name)) continue;
-        if (std::find(interpreter_keys.begin(), interpreter_keys.end(), key.name) != interpreter_keys.end()) continue;
+        if (find_language_key(key.name)) continue;
         const std::string_view near = nearest(key.name, known);
-        diagnostics.error(key.name_at, near.empty() ? fmt::format("nobody knows the key '{}'", key.name_at.view())
-                                                    : fmt::format("nobody knows the key '{}'; did you mean '{}'?",
-                                                                  key.name_at.view(), near));
+        diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(),
+                                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     }
 }
 

@@ -87,8 +87,8 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
 void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
                      Diagnostics& diagnostics);
 
-/// Reports every key that is in none of the lists, with the nearest known one.
-void check_keys(const Pattern& pattern, const std::vector<std::string_view>& interpreter_keys,
-                Diagnostics& diagnostics);
+/// Reports every key that language_keys() lacks, with the nearest one. Their values are checked by those that read
+/// them.
+void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
 
 }  // namespace sikku

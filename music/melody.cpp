@@ -103,8 +103,7 @@ private:
         for (const std::string_view name : {"vertical", "runs", "sloped"}) {
             const bool is_read = name == "runs" && melody_.mapping == Mapping::symbols;
             if (const Key* key = pattern_.find(name); key && !is_read) {
-                diagnostics_.warning(key->name_at,
-                                     fmt::format("'{}:' has no meaning with this 'mapping:'", name));
+                diagnostics_.warning(key->name_at, fmt::format("'{}:' has no meaning with this 'mapping:'", name));
             }
         }
     }
@@ -322,11 +321,6 @@ bool Melody::is_microtonal() const {
     };
     return keys || is_between(tonic) || is_between(transpose) || is_between(scale.period / 100) ||
            any(scale.ascent) || any(scale.descent);
-}
-
-std::vector<std::string_view> melody_keys() {
-    return {"scale",  "keyboard", "tonic", "anchor",   "unit",    "vertical", "runs",
-            "sloped", "range",    "tempo", "velocity", "mapping", "meter",    "instrument"};
 }
 
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics) {

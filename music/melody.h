@@ -64,14 +64,11 @@ struct Melody {
     bool is_microtonal() const;
 };
 
-/// The keys this file owns: `scale`, `keyboard` (a .kbm file), `tonic`, `anchor`, `unit`, `vertical`, `runs`,
-/// `sloped`, `range`, `velocity`, `mapping`, `tempo`, `meter`, `instrument`.
-std::vector<std::string_view> melody_keys();
-
 /// Gives the text of a file that `scale:` or `keyboard:` names, or throws.
 using FileReader = std::function<std::string(const std::string& path)>;
 
-/// Reads and checks them; what is absent keeps its default. Without `read_file`, scales in files are not looked at.
+/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, scales
+/// in files are not read.
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics);
 
 /// Every note higher by `semitones`; whole ones move the tonic's name, and so key signature and spelling, too.

@@ -191,7 +191,7 @@ TEST(BadInput, SymbolsBeyondAscii) {
 // --- keys and productions -----------------------------------------------------------------------------------------
 
 TEST(BadInput, KeysAndValues) {
-    expect_mistake("axim: F\n", "-:1:1: nobody knows the key 'axim'; did you mean 'axiom'?");
+    expect_mistake("axim: F\n", "-:1:1: unknown key 'axim'; did you mean 'axiom'?");
     expect_mistake("axiom: F\naxiom: F\n", "-:2:1: 'axiom:' is given twice");
     for (const char* value : {"0", "-1", "1e3", "abc", "", "9223372036854775808", "nan", "inf"}) {
         expect_mistake("axiom: F\nangle factor: " + std::string(value), "-:2:");
@@ -370,7 +370,7 @@ TEST(BadInput, DeepExpressions) {
 
 TEST(BadInput, LongTokens) {
     const std::string token(10'000'000, 'a');
-    expect_mistake(token + ": 3\naxiom: F\n", "-:1:1: nobody knows the key");
+    expect_mistake(token + ": 3\naxiom: F\n", "-:1:1: unknown key");
     expect_mistake(token + "\naxiom: F\n", "-:1:1: ");
     expect_mistake("axiom: F(" + token + ")\n", "is not defined");
     expect_mistake("axiom: F(" + token + "(1))\n", "there is no function");

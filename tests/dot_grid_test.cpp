@@ -364,7 +364,7 @@ Drawn drawn(const std::string& text) {
     const Pattern pattern = parse_pattern("kolam.lsys", text, diagnostics);
     Drawn result;
     result.style = read_style(pattern, 300, diagnostics);
-    check_keys(pattern, style_keys(), diagnostics);
+    check_keys(pattern, diagnostics);
     const Grammar grammar = compile_grammar(pattern, diagnostics);
     EXPECT_TRUE(diagnostics.list().empty()) << text;
     EXPECT_EQ(grammar.steps(), 0);

@@ -100,8 +100,8 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
         EXPECT_TRUE(has(outcome.errors, message)) << text;
         EXPECT_FALSE(std::filesystem::exists(folder / "out")) << text;
     };
-    refused("dpi = 100\nanlge = 3\n", "bad.toml:2:1: nobody knows the key 'anlge'; did you mean 'angle'?");
-    refused("[[item]]\npattern = 'hilbert'\n  marign = '1cm'\n", "bad.toml:3:3: nobody knows the key 'marign'");
+    refused("dpi = 100\nanlge = 3\n", "bad.toml:2:1: unknown key 'anlge'; did you mean 'angle'?");
+    refused("[[item]]\npattern = 'hilbert'\n  marign = '1cm'\n", "bad.toml:3:3: unknown key 'marign'");
     refused("x = \n", "bad.toml:1:5");
     refused("pattern = 'hilbert'\nn = 'a'\n", "bad.toml:2:1: n: expected a whole number");
     refused("pattern = 'hilbert'\nn = -1\n", "bad.toml:2:1: n: expected a whole number");
@@ -121,7 +121,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     refused("pattern = 'hilbert'\nn = '1:1000000000'\n", "this would make 1000000000 jobs");
     refused("pattern = 'hilbert'\nset = { a = '0:1:1e-300', b = '1:1000000' }\n", "jobs; at most");
     folder.write("bad.jsonl", "{\"pattern\": \"hilbert\"}\n{\"pattern\": \"hilbert\", \"nn\": 3}\n");
-    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:2:24: nobody knows the key 'nn'"));
+    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:2:24: unknown key 'nn'"));
     folder.write("bad.jsonl", "{\"pattern\": }\n");
     EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:1:13: this is no JSON"));
     EXPECT_EQ(gallery({"--file", "none.toml"}).status, 2);
@@ -340,7 +340,8 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
 }
 
 TEST_F(GalleryTest, PostersThatComeAlong) {
-    for (const char* name : {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-6.7", "figure-6.8"}) {
+    for (const char* name :
+         {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-6.7", "figure-6.8"}) {
         const Outcome outcome = gallery({"--file", name, "-o", name});
         ASSERT_EQ(outcome.status, 0) << outcome.errors;
         EXPECT_TRUE(tree(folder.file(name)).contains("poster.pdf"));
@@ -440,8 +441,8 @@ TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
 
 TEST_F(GalleryTest, SheetsStayWithinTheMemory) {
     const auto sheet = [&](const std::string& memory, std::vector<std::string> more = {}) {
-        more.insert(more.begin(), {"hilbert", "dragon", "--size", "50x50mm", "--poster", "2000x2000mm", "--memory", memory,
-                                   "-o", "out", "--force"});
+        more.insert(more.begin(), {"hilbert", "dragon", "--size", "50x50mm", "--poster", "2000x2000mm", "--memory",
+                                   memory, "-o", "out", "--force"});
         return gallery(more);
     };
     EXPECT_TRUE(has(sheet("8G", {"--dry-run"}).output, "poster.png"));

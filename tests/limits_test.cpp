@@ -299,7 +299,7 @@ TEST(Limits, TheSettingThatSpoilsAPatternIsFound) {
                           "pattern = \"hilbert\"\n\n[set]\n\"derivation length\" = 2\ntitle = \"x\"\nwrong = 1\n"
                           "heading = 0\nalso = 2\n")});
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_TRUE(has(outcome.errors, "g.toml:6:1: --set:1:1: nobody knows the key 'wrong'"));
+    EXPECT_TRUE(has(outcome.errors, "g.toml:6:1: --set:1:1: unknown key 'wrong'"));
     EXPECT_FALSE(has(outcome.errors, "'also'"));
 }
 

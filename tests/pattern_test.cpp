@@ -184,7 +184,7 @@ TEST(Pattern, KeysMayStandAnywhereButOnce) {
 TEST(Pattern, UnknownKeysNameTheNearestKnown) {
     expect_mistakes("axiom: F\nangel factor: 4\nStrok: 1mm\nzzz: 1\n", {{{2, 1}, "did you mean 'angle factor'?"},
                                                                         {{3, 1}, "did you mean 'stroke'?"},
-                                                                        {{4, 1}, "nobody knows the key 'zzz'"}});
+                                                                        {{4, 1}, "unknown key 'zzz'"}});
     expect_mistakes("axoim: F\n", {{{1, 1}, "did you mean 'axiom'?"}, {{1, 1}, "no 'axiom:'"}});
     const std::string key = repeated("k", 100'000);
     const auto found = diagnostics_of("axiom: F\n" + key + ": 1\n");
@@ -222,7 +222,7 @@ TEST(Pattern, AllMistakesAreToldAtOnceInTheOrderOfTheFile) {
         "angle factor: 0\n",
         {{{1, 20}, "whole number"},
          {{2, 9}, "not closed"},
-         {{4, 1}, "nobody knows the key 'colour'"},
+         {{4, 1}, "unknown key 'colour'"},
          {{5, 7}, "'('"},
          {{6, 1}, "expected 'key: value'"},
          {{7, 15}, "expected a number"},

@@ -32,7 +32,7 @@ inline std::vector<Diagnostic> diagnostics_of(const std::string& text, const std
     Pattern pattern = parse_pattern("test.lsys", text, diagnostics);
     if (!diagnostics.is_unreadable()) {
         apply_overrides(pattern, variant, settings, diagnostics);
-        check_keys(pattern, {"line", "stroke"}, diagnostics);
+        check_keys(pattern, diagnostics);
         compile_grammar(pattern, diagnostics);
     }
     return diagnostics.sorted();

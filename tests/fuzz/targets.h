@@ -64,7 +64,7 @@ inline Compiled compile_bytes(std::string_view bytes) {
     Diagnostics& diagnostics = result.diagnostics;
     result.pattern = parse_pattern("fuzz.lsys", std::string(bytes), diagnostics);
     if (!diagnostics.is_unreadable()) {
-        check_keys(result.pattern, style_keys(), diagnostics);
+        check_keys(result.pattern, diagnostics);
         Grammar grammar = compile_grammar(result.pattern, diagnostics);
         read_style(result.pattern, 96, diagnostics);
         if (!diagnostics.has_errors()) result.grammar = std::move(grammar);
