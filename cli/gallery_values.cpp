@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -45,6 +46,8 @@ public:
                 continue;
             }
             if (letter == '"' || letter == '\'') {
+                // Elsewhere it would belong to a number or a word, which the parser reads to its end.
+                require(may_begin_string(), "unexpected quote: expected a key, '=', ',' or a bracket before a string");
                 pass_string(letter);
                 continue;
             }
@@ -71,6 +74,20 @@ private:
         fail(place_of(file_, static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1,
                       at_ - line_begin + 1),
              message);
+    }
+
+    /// After a blank, a separator or a bracket; after a dot if a key and not a number precedes it.
+    bool may_begin_string() const {
+        if (at_ == 0) return true;
+        const char before = text_[at_ - 1];
+        if (before != '.') return std::string_view(" \t\r\n=,[{").find(before) != std::string_view::npos;
+        std::size_t begin = at_ - 1;
+        const auto is_bare = [](char letter) {
+            return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' ||
+                   letter == '+' || letter == '.';
+        };
+        while (begin > 0 && is_bare(text_[begin - 1])) --begin;
+        return std::isalpha(static_cast<unsigned char>(text_[begin])) != 0 || text_[begin] == '.';
     }
 
     void pass_string(char quote) {
