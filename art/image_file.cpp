@@ -22,15 +22,15 @@ void require_resources(int threads) {
     const int bands = thread_count(threads);
     const int wanted = at_load + 2 * std::max({bands, thread_count(0), least_pool}) + bands;
     if (const int there = startable_threads(wanted); there < wanted) {
-        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, and " +
+        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, but only " +
                                  std::to_string(there) +
-                                 " may be started: a higher `ulimit -u` or `-v`, or fewer threads (-j 1) may help");
+                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads (-j 1)");
     }
     constexpr std::size_t address_space = std::size_t{640} << 20;
     void* const reserved =
         ::mmap(nullptr, address_space, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (reserved == MAP_FAILED) {
-        throw std::runtime_error("pictures need 640 MB of address space: a higher `ulimit -v` helps");
+        throw std::runtime_error("pictures need 640 MB of address space; raise `ulimit -v`");
     }
     ::munmap(reserved, address_space);
 }

@@ -638,7 +638,7 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
 }
 
 [[noreturn]] void refuse_memory(double needed, double memory) {
-    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory, and there are {:.0f} for it",
+    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory; only {:.0f} MB are available",
                                          std::ceil(needed / 1e6), memory / 1e6));
 }
 

@@ -250,9 +250,8 @@ void write_script(const GalleryFolder& folder, const std::string& name, const st
     const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;
     if (const auto there = place.status(); there && !S_ISDIR(there->st_mode)) {
         if (!replaces && !is_ours) {
-            throw std::runtime_error(
-                fmt::format("'{}' is there already and is not a script of a gallery; --force replaces it",
-                            folder.shown(name)));
+            throw std::runtime_error(fmt::format(
+                "'{}' already exists and is not a gallery script; --force replaces it", folder.shown(name)));
         }
         if (!S_ISREG(there->st_mode)) place.remove();
     }
@@ -406,7 +405,7 @@ void run(Options& options, bool quiet) {
     GalleryRecord record(folder, shard.record_name(), options.force, [&] {
         if (interrupted()) throw Interrupted("interrupted while waiting for another run; nothing was made");
         if (std::exchange(told_waiting, true) || quiet) return;
-        tell("sikku: another run is at work on '{}'; waiting for it\n", folder.shown(shard.record_name()));
+        tell("sikku: another run is using '{}'; waiting for it\n", folder.shown(shard.record_name()));
     });
     std::vector<std::string> hashes(jobs.size());
     for_each_number(chosen.size(), options.threads,
@@ -474,8 +473,7 @@ void run(Options& options, bool quiet) {
                 if (++told <= 20) tell("{}: {}\n", printable(result.file, 2000), printable(text, 2000));
             }
         }
-        if (told > 20)
-            tell("sikku: and {} more warnings, which {} holds\n", told - 20, folder.shown(shard.record_name()));
+        if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, folder.shown(shard.record_name()));
         tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
              counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
         if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
@@ -549,8 +547,8 @@ void add_gallery(CLI::App& app, bool& quiet) {
         }
     }
     command->footer(
-        "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
-        "alone. Files that others made are never touched. Several runs may work in one folder at the same time.\n\n"
+        "An interrupted run resumes when it is started again: finished and unchanged files are kept. Files not made "
+        "by the gallery are never touched. Several runs can work in one folder at the same time.\n\n"
         "Examples:\n"
         "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"

@@ -118,7 +118,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     const auto there = place.status();
     if (there && !replaces) {
         throw std::runtime_error(fmt::format(
-            "'{}' is there already and was not made by this gallery; --force replaces it", folder.shown(file.file)));
+            "'{}' already exists and was not made by this gallery; --force replaces it", folder.shown(file.file)));
     }
     // What a link points to is not in the way.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
@@ -132,7 +132,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     }
     for (std::string& line : file.told) line = place.readable(line, file.file);
     const auto made = folder.status(file.file);
-    if (!made) throw std::runtime_error("there is nothing to write");
+    if (!made) throw std::runtime_error("nothing to write");
     file.bytes = static_cast<std::uint64_t>(made->st_size);
     file.content = folder.content_hash(file.file);
     record.add(file);

@@ -111,7 +111,7 @@ Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
         so_far /= part;
         if (part.empty() || part == ".." || part.is_absolute()) {
             if (!creates) return {};
-            throw std::runtime_error(fmt::format("'{}' leads out of the folder of the gallery", shown(file)));
+            throw std::runtime_error(fmt::format("'{}' is outside the gallery folder", shown(file)));
         }
         if (creates && ::mkdirat(folder.get(), part.c_str(), 0777) != 0 && errno != EEXIST) {
             fail(shown(so_far.string()), errno);

@@ -79,7 +79,7 @@ private:
         } catch (const std::runtime_error& error) {
             std::string message = error.what();
             while (message.ends_with('\n')) message.pop_back();
-            return {message.empty() ? "this does not go with the pattern" : message, ""};
+            return {message.empty() ? "the pattern does not accept this setting" : message, ""};
         }
     }
 
@@ -147,14 +147,14 @@ public:
             }
             if (sum > most_gallery_jobs) {
                 fail(items_[i].place,
-                     fmt::format("this would make {} jobs; at most {:.0f} are made at a time",
+                     fmt::format("this would make {} jobs; at most {:.0f} fit in one run",
                                  sum < 1e15 ? fmt::format("{:.0f}", sum) : fmt::format("{:.0e}", sum),
                                  most_gallery_jobs));
             }
             if (settings > most_gallery_settings) {
                 fail(items_[i].place,
-                     fmt::format("this would make jobs with {:.0f} settings together; at most {:.0f}", settings,
-                                 most_gallery_settings));
+                     fmt::format("this would make jobs with {:.0f} settings in total; at most {:.0f} are allowed",
+                                 settings, most_gallery_settings));
             }
         }
     }
@@ -378,8 +378,8 @@ private:
         for (const GalleryItem::Axis& axis : item.axes) known.push_back(axis->key);
         const std::string_view near = nearest(written, known);
         known.resize(std::min<std::size_t>(known.size(), 50));
-        fail(item.name_place, fmt::format("name: nobody knows {{{}}}{}", printable(written, 80),
-                                          near.empty() ? fmt::format("; there are {}", fmt::join(known, ", "))
+        fail(item.name_place, fmt::format("name: unknown placeholder {{{}}}{}", printable(written, 80),
+                                          near.empty() ? fmt::format("; expected {}", fmt::join(known, ", "))
                                                        : fmt::format("; did you mean {{{}}}?", near)));
     }
 

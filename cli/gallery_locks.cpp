@@ -44,7 +44,7 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
         const std::string held = folder_.read(lock_name, line_start.size());
         if (!line_start.starts_with(held)) {
             throw std::runtime_error(
-                fmt::format("'{}' is there already and was not made by a gallery", folder_.shown(lock_name)));
+                fmt::format("'{}' already exists and was not made by a gallery", folder_.shown(lock_name)));
         }
         if (lock(F_RDLCK, presence, true) == Result::unsupported) {
             file_.close();

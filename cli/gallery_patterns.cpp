@@ -93,7 +93,7 @@ private:
     void count() {
         if (++entries_ % 256 == 0 && interrupted()) throw Interrupted();
         if (entries_ > most_entries) {
-            fail(place_, fmt::format("more than {} files and folders would be looked through", most_entries));
+            fail(place_, fmt::format("too many files and folders to search: at most {}", most_entries));
         }
     }
 
@@ -196,7 +196,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     if (list) return list;
     if (interrupted()) throw Interrupted();
     if (word == "-") fail(place, "a gallery reads no pattern from standard input");
-    if (word.size() > longest_word) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    if (word.size() > longest_word) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     bool is_folder = false;
     std::vector<Pointer> found = find_files(word, folder, place, is_folder);
     if (found.empty()) {
@@ -213,8 +213,8 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
         list = std::make_shared<const std::vector<Pointer>>(std::move(found));
         return list;
     }
-    if (is_folder) fail(place, fmt::format("{}: there is no pattern in this folder", (folder / word).string()));
-    if (has_wildcards(word)) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
+    if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     std::vector<std::string_view> names;
     for (const KnownPattern& pattern : known()) names.push_back(pattern.name);
     const std::string_view near = nearest(word, names);
@@ -254,7 +254,7 @@ PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, cons
     } catch (const UsageError& error) {
         pattern.problem = error.what();
     }
-    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery are over 1 GB together");
+    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery exceed 1 GB in total");
     known = std::make_shared<const GalleryPattern>(std::move(pattern));
     return known;
 }

@@ -39,7 +39,8 @@ public:
         for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
             // Of such a letter the parser of toml++ 3.3 reads beyond its tables.
-            require(static_cast<unsigned char>(letter) < 0x80, "only strings and comments may hold letters beyond ASCII");
+            require(static_cast<unsigned char>(letter) < 0x80,
+                    "non-ASCII characters are allowed only in strings and comments");
             if (letter == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
                 continue;
@@ -51,7 +52,7 @@ public:
             if (letter == '.') {
                 require(++dots <= most_depth, "too many dots: keys nest at most 50 deep");
             } else if (letter == '[' || letter == '{') {
-                require(++depth <= most_depth, "too many brackets in each other: values nest at most 50 deep");
+                require(++depth <= most_depth, "too many brackets: values nest at most 50 deep");
             } else if (letter == ']' || letter == '}') {
                 depth -= depth > 0 ? 1 : 0;
             }
@@ -197,7 +198,7 @@ void fail(const std::string& place, const std::string& message) {
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
-    if (text.size() > most_gallery_bytes) fail(file, "a gallery file is at most 16 MB");
+    if (text.size() > most_gallery_bytes) fail(file, "the file is too large: a gallery file has at most 16 MB");
     TomlScan(file, text).run();
     try {
         return value_of(toml::parse(text, file), file);

@@ -123,7 +123,7 @@ TEST_F(GalleryFolderTest, ScriptsForSlurm) {
     const std::vector<std::string> asked = {"hilbert", "-o", "out", "--slurm", "2"};
     const std::vector<std::pair<std::string, std::string>> no_slurm = {{"PATH", folder.file("none")}};
     fs::create_symlink("home/precious.svg", folder / "out.sbatch");
-    expect_refused(gallery(asked, no_slurm), "is not a script of a gallery");
+    expect_refused(gallery(asked, no_slurm), "is not a gallery script");
     // Not even if it looks like one.
     folder.write("home/precious.svg", "#!/bin/sh\n#SBATCH --job-name=sikku-gallery\n");
     EXPECT_EQ(gallery(asked, no_slurm).status, 1);
