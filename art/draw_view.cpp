@@ -431,7 +431,7 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// Sets `is_blank` if nothing is seen of the drawing.
+/// Sets `is_blank` if nothing of the drawing is visible.
 ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
                        const std::filesystem::path& file, bool& is_blank) {
     const PixelSize size = pixel_size(print.page, print.dpi);

@@ -17,10 +17,10 @@ namespace sikku {
 namespace {
 
 constexpr std::uint64_t most_profile_bytes = std::uint64_t{16} << 20;
-/// The tables of the largest profiles that are published take less than 20 MB.
+/// The tables of the largest published profiles take less than 20 MB.
 constexpr std::size_t most_library_bytes = std::size_t{64} << 20;
 
-/// Memory of the library within a budget: a profile may state tables of any size, and many of them.
+/// Limits the memory of the library: a profile may state any number of tables of any size.
 class Memory {
 public:
     static cmsPluginMemHandler* plugin() {

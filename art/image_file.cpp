@@ -13,10 +13,10 @@
 namespace sikku {
 namespace {
 
-/// Refuses what the module's libraries, which start threads and take memory as soon as they are loaded, would end the
-/// program for.
+/// Rejects limits under which the libraries of the module, which start threads and allocate memory on loading, would
+/// end the program.
 void require_resources(int threads) {
-    // Logging of a library that nothing here uses; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    // Logging of an unused library; the pools of OpenImageIO and OpenEXR; the bands of the picture.
     constexpr int at_load = 4;
     constexpr int least_pool = 3;
     const int bands = thread_count(threads);

@@ -1,4 +1,4 @@
-// art/sheet_captions.cpp: what a sheet says of its cells, and the cells of rows of generations.
+// art/sheet_captions.cpp: captions of the cells of a sheet, and the cells of rows of generations.
 #include "art/sheet.h"
 #include "engine/derivation.h"
 #include "engine/forecast.h"

@@ -136,7 +136,7 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-/// The sheets that are asked for.
+/// Requested sheets.
 std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
     std::vector<SheetRequest> sheets;
     if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
@@ -243,8 +243,8 @@ bool is_in_path(const std::string& program) {
     return false;
 }
 
-/// Writes the script for Slurm, with the care that is taken in the folder of the gallery itself.
-/// @param replaces  also a file or a link that is not a script of a gallery
+/// Writes the Slurm script with the same safeguards as files inside the gallery folder.
+/// @param replaces  replace a file or link that is not a gallery script
 void write_script(const GalleryFolder& folder, const std::string& name, const std::string& text, bool replaces) {
     const GalleryPlace place = folder.place(name);
     const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;

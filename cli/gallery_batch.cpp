@@ -120,7 +120,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
         throw std::runtime_error(fmt::format(
             "'{}' already exists and was not made by this gallery; --force replaces it", folder.shown(file.file)));
     }
-    // What a link points to is not in the way.
+    // The target of a link is not in the way.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
@@ -164,8 +164,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
-/// The first job for which there is memory and that no other run is making; nullopt when there is nothing more to
-/// begin.
+/// Finds the first job that fits in memory and that no other run is making; nullopt when nothing is left to begin.
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {

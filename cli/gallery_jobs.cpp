@@ -46,7 +46,7 @@ PatternOptions pattern_options(const GalleryJob& job);
 class Compilations {
 public:
     struct Result {
-        std::string problem;  ///< why it cannot be compiled; empty: it can
+        std::string problem;  ///< reason why it cannot be compiled; empty: it can
         std::string steps;    ///< else the derivation length
     };
 
@@ -55,7 +55,7 @@ public:
         std::string key = fmt::format("{}", static_cast<const void*>(job.pattern.get()));
         const auto add = [&](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
         for (const char* name : {"variant", "n"}) add(job.keys.contains(name) ? job.keys.at(name) : "");
-        // Any seed of up to 18 digits will do.
+        // Any seed of up to 18 digits works.
         const auto seed = job.keys.find("seed");
         add(seed != job.keys.end() && seed->second.size() > 18 ? seed->second : "");
         for (const auto& [name, value] : job.overrides) {
@@ -95,7 +95,7 @@ struct Choice {
     bool is_flag = false;  ///< false is as good as absent
 };
 
-/// The form of a name, `{pattern}-n{n}`, cut at its placeholders.
+/// A name template, `{pattern}-n{n}`, split at its placeholders.
 class NameForm {
 public:
     struct Piece {
@@ -129,7 +129,7 @@ public:
         for (const GalleryItem& item : items_) patterns_.push_back(patterns_of(item));
     }
 
-    /// Counts the jobs of all items before anything is written out. Time: linear in the keys of all items.
+    /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items.
     /// @throws UsageError if they are too many
     void require_few() const {
         double sum = 0;
@@ -288,8 +288,8 @@ private:
         }
     }
 
-    /// Does the pattern compile with what the job sets? If not, the first setting is blamed that spoils it; found by
-    /// halving, as there may be many. A pattern that has mistakes by itself is left to its jobs.
+    /// Does the pattern compile with the settings of the job? If not, the first setting that breaks it is reported;
+    /// found by bisection, as there may be many. A pattern with errors of its own is left to its jobs.
     void check_pattern(const GalleryItem& item, const GalleryJob& job, const std::vector<Choice>& choices,
                        const std::vector<std::uint64_t>& at) {
         if (!job.pattern->text) return;
@@ -368,7 +368,7 @@ private:
             const GalleryAxis& axis = *choices[i].axis;
             if (axis.key == key || axis.key == written) return axis.value(at[i]);
         }
-        // The pattern's own, with what the job changes in it; if there is none, the job itself tells why.
+        // The pattern's own value, with the changes of the job; if it has none, the job itself reports why.
         if (key == "n") return job.pattern->text ? compilations_.of(job).steps : "";
         for (const GalleryItem::Axis& axis : item.axes) {
             if (axis->key == key || axis->key == written) return axis->value(0);
@@ -565,7 +565,7 @@ std::string GalleryJob::hash() const {
         hash.add_piece(value);
     }
     if (keys.contains("cmyk")) {
-        // It may change and keep its name. What is not a profile the print itself reports.
+        // The file may change and keep its name. The print itself reports an invalid profile.
         constexpr std::uintmax_t largest_profile = 64 << 20;
         const std::filesystem::path file = folder / keys.at("cmyk");
         std::error_code error;

@@ -26,8 +26,8 @@ std::string place_of(const std::string& file, const toml::source_position& posit
     return place_of(file, position.line, position.column);
 }
 
-/// Counts what nests and what takes memory before the parser, which calls itself for each level, sees it. Strings and
-/// comments are passed over as the parser does up to its first mistake.
+/// Counts nesting and values before the parser, which is recursive, sees them. Skips strings and comments like the
+/// parser, up to its first error.
 class TomlScan {
 public:
     TomlScan(const std::string& file, std::string_view text) : file_(file), text_(text) {}
@@ -38,7 +38,7 @@ public:
         std::size_t values = 0;
         for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
-            // Of such a letter the parser of toml++ 3.3 reads beyond its tables.
+            // toml++ 3.3 reads beyond its tables on such a character.
             require(static_cast<unsigned char>(letter) < 0x80,
                     "non-ASCII characters are allowed only in strings and comments");
             if (letter == '#') {
@@ -86,7 +86,7 @@ private:
                 return;
             } else if (is_long && text_.compare(at_, 3, three) == 0) {
                 at_ += 3;
-                // Up to two quotes may stand before the three that end it.
+                // Up to two quotes may precede the three that end it.
                 while (at_ < text_.size() && text_[at_] == quote) ++at_;
                 return;
             } else {
@@ -137,7 +137,7 @@ GalleryValue value_of(const toml::node& node, const std::string& file) {
     return value;
 }
 
-/// Turns the JSON of a line into values; keys come in the order of the line.
+/// Converts the JSON of a line into values; keys keep the order of the line.
 class JsonLine {
 public:
     JsonLine(const std::string& place, const std::string& line) : place_(place), line_(line) {

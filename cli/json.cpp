@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_depth = 50;
 constexpr std::size_t most_values = 100'000;
-constexpr std::size_t most_object_keys = 1000;  // an ordered object looks for a key one by one
+constexpr std::size_t most_object_keys = 1000;  // lookup in an ordered object is linear
 
 /// Counts brackets and values before memory is spent on them. The places of all keys, in the order of the text.
 std::vector<std::size_t> find_keys(std::string_view text) {

@@ -89,7 +89,7 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
-/// Every variant has to hold as well. Each is compiled as a whole: many of a large pattern would take minutes.
+/// Checks every variant as well. Each is compiled in full: many variants of a large pattern would take minutes.
 void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
     constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
     const std::size_t size = pattern.source->text().size();

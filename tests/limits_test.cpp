@@ -1,5 +1,5 @@
-// tests/limits_test.cpp: work is counted before anything is expanded: what is too much is refused soon, in little
-// memory, and what takes long stops when it is asked to.
+// tests/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
+// little memory, and long work stops on request.
 #include "engine/derivation.h"
 #include "engine/import.h"
 #include "tests/program.h"
