@@ -1,4 +1,4 @@
-// art/image_provenance.cpp: the texts in the heads of PNG, TIFF, JPEG and EXR files, found without decoding a pixel.
+// art/image_provenance.cpp: finds the texts in the heads of PNG, TIFF, JPEG and EXR files without decoding pixels.
 #include "art/provenance_readers.h"
 #include "engine/pattern.h"
 
@@ -46,7 +46,7 @@ bool has_png_checksum([[maybe_unused]] const InputFile& file, [[maybe_unused]] s
 #endif
 }
 
-/// What a zlib stream holds.
+/// Contents of a zlib stream.
 std::string inflated(InputStream& packed) {
     struct Inflater : z_stream {
         Inflater() : z_stream{} {
@@ -81,7 +81,7 @@ std::string png_text(std::string_view type, InputStream& chunk) {
         if (flag != 0 && flag != 1) refuse_damaged();
         is_packed = flag == 1;
     }
-    if (type != "tEXt" && chunk.take() != 0) refuse_damaged();  // the one method of compression there is
+    if (type != "tEXt" && chunk.take() != 0) refuse_damaged();  // the only compression method
     if (type == "iTXt") {
         for (int i = 0; i < 2; ++i) {  // the language, and the keyword in it
             if (!chunk.skip_past("\0"sv)) refuse_damaged();

@@ -1,4 +1,4 @@
-// art/pdf_provenance.cpp: the texts of a PDF in the layout of write_pdf, found from the end of the file.
+// art/pdf_provenance.cpp: finds the texts of a PDF in the layout of write_pdf, from the end of the file.
 #include "art/provenance_readers.h"
 #include "engine/text.h"
 

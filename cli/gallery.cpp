@@ -136,7 +136,7 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-/// The sheets that are asked for.
+/// Requested sheets.
 std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
     std::vector<SheetRequest> sheets;
     if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
@@ -243,16 +243,15 @@ bool is_in_path(const std::string& program) {
     return false;
 }
 
-/// Writes the script for Slurm, with the care that is taken in the folder of the gallery itself.
-/// @param replaces  also a file or a link that is not a script of a gallery
+/// Writes the Slurm script with the same safeguards as files inside the gallery folder.
+/// @param replaces  replace a file or link that is not a gallery script
 void write_script(const GalleryFolder& folder, const std::string& name, const std::string& text, bool replaces) {
     const GalleryPlace place = folder.place(name);
     const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;
     if (const auto there = place.status(); there && !S_ISDIR(there->st_mode)) {
         if (!replaces && !is_ours) {
-            throw std::runtime_error(
-                fmt::format("'{}' is there already and is not a script of a gallery; --force replaces it",
-                            folder.shown(name)));
+            throw std::runtime_error(fmt::format(
+                "'{}' already exists and is not a gallery script; --force replaces it", folder.shown(name)));
         }
         if (!S_ISREG(there->st_mode)) place.remove();
     }
@@ -406,7 +405,7 @@ void run(Options& options, bool quiet) {
     GalleryRecord record(folder, shard.record_name(), options.force, [&] {
         if (interrupted()) throw Interrupted("interrupted while waiting for another run; nothing was made");
         if (std::exchange(told_waiting, true) || quiet) return;
-        tell("sikku: another run is at work on '{}'; waiting for it\n", folder.shown(shard.record_name()));
+        tell("sikku: another run is using '{}'; waiting for it\n", folder.shown(shard.record_name()));
     });
     std::vector<std::string> hashes(jobs.size());
     for_each_number(chosen.size(), options.threads,
@@ -474,8 +473,7 @@ void run(Options& options, bool quiet) {
                 if (++told <= 20) tell("{}: {}\n", printable(result.file, 2000), printable(text, 2000));
             }
         }
-        if (told > 20)
-            tell("sikku: and {} more warnings, which {} holds\n", told - 20, folder.shown(shard.record_name()));
+        if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, folder.shown(shard.record_name()));
         tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
              counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
         if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
@@ -549,8 +547,8 @@ void add_gallery(CLI::App& app, bool& quiet) {
         }
     }
     command->footer(
-        "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
-        "alone. Files that others made are never touched. Several runs may work in one folder at the same time.\n\n"
+        "An interrupted run resumes when it is started again: finished and unchanged files are kept. Files not made "
+        "by the gallery are never touched. Several runs can work in one folder at the same time.\n\n"
         "Examples:\n"
         "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"

@@ -27,8 +27,8 @@ std::string place_of(const std::string& file, const toml::source_position& posit
     return place_of(file, position.line, position.column);
 }
 
-/// Counts what nests and what takes memory before the parser, which calls itself for each level, sees it. Strings and
-/// comments are passed over as the parser does up to its first mistake.
+/// Counts nesting and values before the parser, which is recursive, sees them. Skips strings and comments like the
+/// parser, up to its first error.
 class TomlScan {
 public:
     TomlScan(const std::string& file, std::string_view text) : file_(file), text_(text) {}
@@ -39,8 +39,9 @@ public:
         std::size_t values = 0;
         for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
-            // Of such a letter the parser of toml++ 3.3 reads beyond its tables.
-            require(static_cast<unsigned char>(letter) < 0x80, "only strings and comments may hold letters beyond ASCII");
+            // toml++ 3.3 reads beyond its tables on such a character.
+            require(static_cast<unsigned char>(letter) < 0x80,
+                    "non-ASCII characters are allowed only in strings and comments");
             if (letter == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
                 continue;
@@ -54,7 +55,7 @@ public:
             if (letter == '.') {
                 require(++dots <= most_depth, "too many dots: keys nest at most 50 deep");
             } else if (letter == '[' || letter == '{') {
-                require(++depth <= most_depth, "too many brackets in each other: values nest at most 50 deep");
+                require(++depth <= most_depth, "too many brackets: values nest at most 50 deep");
             } else if (letter == ']' || letter == '}') {
                 depth -= depth > 0 ? 1 : 0;
             }
@@ -102,7 +103,7 @@ private:
                 return;
             } else if (is_long && text_.compare(at_, 3, three) == 0) {
                 at_ += 3;
-                // Up to two quotes may stand before the three that end it.
+                // Up to two quotes may precede the three that end it.
                 while (at_ < text_.size() && text_[at_] == quote) ++at_;
                 return;
             } else {
@@ -153,7 +154,7 @@ GalleryValue value_of(const toml::node& node, const std::string& file) {
     return value;
 }
 
-/// Turns the JSON of a line into values; keys come in the order of the line.
+/// Converts the JSON of a line into values; keys keep the order of the line.
 class JsonLine {
 public:
     JsonLine(const std::string& place, const std::string& line) : place_(place), line_(line) {
@@ -214,7 +215,7 @@ void fail(const std::string& place, const std::string& message) {
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
-    if (text.size() > most_gallery_bytes) fail(file, "a gallery file is at most 16 MB");
+    if (text.size() > most_gallery_bytes) fail(file, "the file is too large: a gallery file has at most 16 MB");
     TomlScan(file, text).run();
     try {
         return value_of(toml::parse(text, file), file);
