@@ -293,12 +293,16 @@ const std::filesystem::path& OutputFile::temporary() {
 void OutputFile::commit() {
     flush();
     if (!direct_) {
-        // By name: a library may have made the file anew.
-        const int whole = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+        // By name where a library has made the file anew.
+        struct stat own {};
+        struct stat named {};
+        const bool is_own = ::fstat(descriptor_, &own) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
+                            own.st_ino == named.st_ino && own.st_dev == named.st_dev;
+        const int whole = is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
         if (whole < 0) fail(errno);
         int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
         if (error == 0) error = synchronise(whole);
-        ::close(whole);
+        if (!is_own) ::close(whole);
         if (error != 0) fail(error);
     }
     const int descriptor = std::exchange(descriptor_, -1);

@@ -30,6 +30,7 @@ struct Options {
     std::map<std::string, std::string> texts;  ///< of the keys of gallery files, as options
     std::map<std::string, bool> flags;
     std::string output = "gallery";
+    bool names_folder = false;  ///< -o was given
     bool list = false;
     bool json = false;
     bool dry_run = false;
@@ -160,8 +161,8 @@ bool tell_sheet_forecast(const std::vector<const GalleryJob*>& jobs, const Optio
             }
             can_be_made = can_be_made && problem.empty();
             if (problem.empty() && forecast.memory == 0) continue;
-            if (problem.empty()) problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "",
-                                                       bytes_text(forecast.memory));
+            if (problem.empty())
+                problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "", bytes_text(forecast.memory));
             fmt::print("{:<40} {}\n", file, printable(problem.substr(0, problem.find('\n')), 200));
         }
     }
@@ -349,9 +350,8 @@ private:
         try {
             const bool is_ours =
                 name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
-            order.push_back(
-                make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
-                                  [&](const std::filesystem::path& path, auto&) { make_it(path); }));
+            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
+                                              [&](const std::filesystem::path& path, auto&) { make_it(path); }));
         } catch (const Stopped&) {
             if (shown_) tell("\r\033[K");
             throw;
@@ -400,6 +400,9 @@ void run(Options& options, bool quiet) {
     }
 
     const double started = now();
+    if (!options.names_folder && std::filesystem::is_symlink(options.output)) {
+        throw UsageError(fmt::format("'{}' is a symbolic link; -o names the folder to write to", options.output));
+    }
     const GalleryFolder folder(options.output);
     bool told_waiting = false;
     GalleryRecord record(folder, shard.record_name(), options.force, [&] {
@@ -505,7 +508,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
     auto options = std::make_shared<Options>();
     command->add_option("PATTERNS", options->request.patterns,
                         "Names, globs, folders or files; without any, all patterns that come along and draw");
-    command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
+    auto* output = command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
     command->add_option(
         "--file", options->request.gallery_file,
         "A gallery file, gallery.toml: what is to be made; or the name of one that comes along, such as figure-2.5");
@@ -555,7 +558,10 @@ void add_gallery(CLI::App& app, bool& quiet) {
         "  sikku gallery koch-island --generations 0:4 --set 'angle increment=80:100:5'\n"
         "  sikku gallery --file gallery.toml --shard 3/8\n"
         "  seq 8 | parallel sikku gallery --file gallery.toml --shard {}/8");
-    command->callback([options, &quiet] { run(*options, quiet); });
+    command->callback([options, output, &quiet] {
+        options->names_folder = output->count() > 0;
+        run(*options, quiet);
+    });
 }
 
 }  // namespace sikku

@@ -5,6 +5,7 @@
 #include "cli/gallery_summary.h"
 #include "cli/gallery_values.h"
 
+#include "art/input_file.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>
@@ -16,12 +17,21 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <unordered_map>
 
 namespace sikku {
 namespace {
+
+/// Would a file or folder of that path stand where galleries keep their records?
+bool is_record(const std::string& name, const std::string& file) {
+    const std::string first = (name.find('/') == std::string::npos ? file : name).substr(0, name.find('/'));
+    return first.starts_with("gallery") && first.ends_with(".jsonl");
+}
 
 /// As part of a file's name.
 std::string name_part(std::string_view value) {
@@ -351,7 +361,8 @@ private:
         // Parts of a path that are empty, hidden, or lead elsewhere.
         const std::string path = "/" + name + "/";
         if (name.empty() || path.find("//") != std::string::npos || path.find("/.") != std::string::npos ||
-            is_summary(file) || has_controls || !fits_xml(name) || file.size() > longest_job_name) {
+            is_summary(file) || is_record(name, file) || has_controls || !fits_xml(name) ||
+            file.size() > longest_job_name) {
             fail(item.name_place.empty() ? item.place : item.name_place,
                  fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
         }
@@ -549,6 +560,29 @@ std::string GalleryJob::text() const {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+namespace {
+
+/// The hash of an ICC profile, computed once in a run; empty if it cannot be read, which the print itself reports.
+std::string profile_digits(const std::filesystem::path& file) {
+    static std::mutex mutex;
+    static std::map<std::filesystem::path, std::string> known;
+    const std::lock_guard guard(mutex);
+    const auto [entry, is_new] = known.try_emplace(file);
+    if (!is_new) return entry->second;
+    constexpr std::uint64_t largest_profile = 16 << 20;
+    try {
+        const InputFile profile(file);
+        if (profile.size() > largest_profile) return {};
+        TextHash hash;
+        hash.add(profile.read(0, profile.size()));
+        entry->second = hash.digits();
+    } catch (const std::system_error&) {
+    }
+    return entry->second;
+}
+
+}  // namespace
+
 std::string GalleryJob::hash() const {
     TextHash hash;
     hash.add_piece(SIKKU_VERSION);
@@ -564,18 +598,8 @@ std::string GalleryJob::hash() const {
         hash.add_piece(key);
         hash.add_piece(value);
     }
-    if (keys.contains("cmyk")) {
-        // The file may change and keep its name. The print itself reports an invalid profile.
-        constexpr std::uintmax_t largest_profile = 64 << 20;
-        const std::filesystem::path file = folder / keys.at("cmyk");
-        std::error_code error;
-        std::ifstream profile;
-        if (std::filesystem::is_regular_file(file, error) &&
-            std::filesystem::file_size(file, error) <= largest_profile) {
-            profile.open(file, std::ios::binary);
-        }
-        hash.add_piece(std::string(std::istreambuf_iterator<char>(profile), std::istreambuf_iterator<char>()));
-    }
+    // The file may change and keep its name.
+    if (keys.contains("cmyk")) hash.add_piece(profile_digits(folder / keys.at("cmyk")));
     if (is_score() && pattern->text) {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {

@@ -82,7 +82,9 @@ public:
         for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
              entry.increment(error)) {
             count();
-            if (entry->path().extension() == ".lsys") files.push_back(entry->path());
+            std::error_code unknown;
+            if (entry->path().extension() == ".lsys" && entry->is_regular_file(unknown))
+                files.push_back(entry->path());
         }
         if (error) fail(place_, fmt::format("{}: {}", folder.string(), error.message()));
         std::sort(files.begin(), files.end());
@@ -105,7 +107,9 @@ private:
             count();
             struct stat status {};
             if (is_last && path.extension() != ".lsys") return;
-            if (::stat(path.c_str(), &status) != 0 || (!is_last && !S_ISDIR(status.st_mode))) return;
+            if (::stat(path.c_str(), &status) != 0) return;
+            // A named pipe would wait for its writer.
+            if (is_last ? !S_ISREG(status.st_mode) : !S_ISDIR(status.st_mode)) return;
             if (is_last || seen.emplace(status.st_dev, status.st_ino).second) reached.push_back(path);
         };
         for (const auto& folder : folders) {

@@ -97,12 +97,9 @@ RecordText read_record(const std::string& text) {
 
 /// What OutputFile adds to a name until the file is whole: `.NAME.abc234.tmp`, and of sound another such behind it.
 /// Long names are cut to 200 bytes, not inside of a character.
-bool is_unfinished(const std::string& name, std::string target) {
-    if (target.size() > 200) {
-        std::size_t end = 200;
-        while (end > 0 && (static_cast<unsigned char>(target[end]) & 0xC0) == 0x80) --end;
-        target.resize(end);
-    }
+bool is_unfinished(const std::string& name, const std::string& target) {
+    // A cut name may be that of several files, of which another may be under way.
+    if (target.size() > 200) return false;
     std::string_view rest = name;
     const auto take = [&](std::string_view piece) {
         if (!rest.starts_with(piece)) return false;
@@ -122,9 +119,13 @@ bool is_unfinished(const std::string& name, std::string target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
-/// Contents of an open file from a byte on.
+/// Contents of an open file from a byte on, up to 1 MB without a line feed: no line of a record is that long.
+/// @throws std::runtime_error for over 1 GB
 std::string read_from(const Descriptor& file, off_t from) {
+    constexpr std::size_t longest_line = std::size_t{1} << 20;
+    constexpr std::size_t most_bytes = std::size_t{1} << 30;
     std::string text;
+    std::size_t line_begin = 0;
     std::vector<char> block(std::size_t{1} << 16);
     while (true) {
         const ssize_t got = ::pread(file.get(), block.data(), block.size(), from + static_cast<off_t>(text.size()));
@@ -132,6 +133,10 @@ std::string read_from(const Descriptor& file, off_t from) {
         if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read the record of a gallery");
         if (got == 0) return text;
         text.append(block.data(), static_cast<std::size_t>(got));
+        const std::size_t line_end = text.rfind('\n');
+        if (line_end != std::string::npos) line_begin = line_end + 1;
+        if (text.size() - line_begin > longest_line) return text;
+        if (text.size() > most_bytes) throw std::runtime_error("the record of a gallery exceeds 1 GB");
     }
 }
 
@@ -196,6 +201,7 @@ Descriptor GalleryRecord::open(const std::function<void()>& waiting) const {
             opened.st_dev == named->st_dev) {
             return record;
         }
+        waiting();
     }
 }
 
@@ -212,7 +218,8 @@ std::vector<std::string> GalleryRecord::others() const {
 bool GalleryRecord::continues(const Descriptor& record, const Reading& reading) {
     std::string end(reading.end.size(), '\0');
     const off_t at = reading.bytes - static_cast<off_t>(end.size());
-    return ::pread(record.get(), end.data(), end.size(), at) == static_cast<ssize_t>(end.size()) && end == reading.end;
+    return ::pread(record.get(), end.data(), end.size(), at) == static_cast<ssize_t>(end.size()) &&
+           end == reading.end;
 }
 
 /// Reads the unread parts of the records of other runs.

@@ -48,7 +48,8 @@ public:
             }
             if (letter == '"' || letter == '\'') {
                 // Elsewhere it would belong to a number or a word, which the parser reads to its end.
-                require(may_begin_string(), "unexpected quote: expected a key, '=', ',' or a bracket before a string");
+                require(may_begin_string(),
+                        "unexpected quote: expected a key, '=', ',' or a bracket before a string");
                 pass_string(letter);
                 continue;
             }
@@ -60,7 +61,8 @@ public:
                 depth -= depth > 0 ? 1 : 0;
             }
             if (letter == ',' || letter == '=' || letter == '[' || letter == '{' || letter == '\n') dots = 0;
-            if (letter == ',' || letter == '=' || letter == '[') {
+            // Each dot of a key makes a table.
+            if (letter == ',' || letter == '=' || letter == '[' || letter == '.') {
                 require(++values <= most_toml_values, "too many values: a gallery file has at most 250000");
             }
             ++at_;
