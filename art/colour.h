@@ -24,10 +24,11 @@ std::string hex(Colour colour);
 /// The CSS name if there is one, else hex(); alpha is not part of it.
 std::string colour_name(Colour colour);
 
-/// How light a colour is: 0 for black to 1 for white; alpha does not count. Source: Ottosson, A perceptual color
+/// Lightness of a colour: 0 for black to 1 for white; alpha does not count. Source: Ottosson, A perceptual color
 /// space for image processing (OKLab), 2020.
 double lightness(Colour colour);
-/// How different two colours look, in OKLab: 0.02 is hardly seen, 1 is from black to white; alpha does not count.
+/// Perceived difference between two colours in OKLab: 0.02 is barely visible, 1 is black to white; alpha does not
+/// count.
 double colour_distance(Colour a, Colour b);
 
 /// Every name that parse_colour knows, in lower case, for hints.

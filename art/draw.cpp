@@ -208,7 +208,7 @@ public:
             drawing.read(print, lines);
         }
         const double radius = dot_radius(print);
-        // A dot that the pattern draws by itself is not drawn again.
+        // A dot drawn by the pattern itself is not repeated.
         std::optional<PointTree> drawn;
         if (!noted.places.empty()) drawn.emplace(noted.places);
         const double nearby = distance_ > 0 ? distance_ / 4 : 0.25;
@@ -221,8 +221,8 @@ public:
     }
 
 private:
-    /// Those of the pattern's own palette, if they tell lines apart; else, on dark ground, those of kolams. None is
-    /// close to the ground's.
+    /// Colours of the pattern's own palette if they distinguish lines; otherwise, on dark ground, those of kolams.
+    /// None is close to the ground.
     void add_stroke_colours(Style& style) {
         constexpr double least = 0.12;  // in OKLab
         const Colour ground = style.ground && style.ground->alpha > 0 ? *style.ground : Colour{255, 255, 255, 255};
@@ -309,7 +309,7 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 /// Draws into whatever a format takes.
 using Content = std::function<void(PathSink& sink)>;
 
-/// @return is nothing seen of the drawing?
+/// @return is nothing of the drawing visible?
 bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
                   const std::filesystem::path& file) {
     Picture picture(print, options, rendering.channels(), output, file);
@@ -327,7 +327,7 @@ bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& o
     return picture.is_blank();
 }
 
-/// @return is it a picture in which nothing is seen of the drawing?
+/// @return is it a picture in which nothing of the drawing is visible?
 bool write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
            const std::filesystem::path& file) {
     // Only PDF knows the sheet from its bleed.
@@ -505,7 +505,7 @@ const DrawnExtent& Drawing::seen() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return extent_.emplace(DrawnExtent{found.box, found.widest});
     }
-    // Straight lines that are all seen are folded for their extent; a spline without brackets and lifts is one
+    // Straight lines that are all visible are folded for their extent; a spline without brackets and lifts is one
     // stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;

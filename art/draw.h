@@ -59,7 +59,7 @@ struct DrawOptions {
     int threads = 0;        ///< for raster formats; 0: all cores
     int compression = 6;    ///< of PNG: 1, quick and large, to 9
     double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
-    Monitor monitor = {};   ///< asked wherever drawing takes long and reads no word
+    Monitor monitor = {};   ///< polled wherever drawing takes long without reading words
     /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
@@ -77,8 +77,8 @@ struct DrawReport {
     int sheets = 0;                   ///< of a print that is cut into tiles
     std::optional<PlotReport> plot;   ///< of an arranged drawing
     std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
-    bool is_empty = false;            ///< nothing of the drawing lies in the window
-    bool is_blank = false;            ///< a picture whose ink is too thin to be seen
+    bool is_empty = false;            ///< the window contains no part of the drawing
+    bool is_blank = false;            ///< the ink of a picture is too thin to be visible
     bool leaves_pattern_out = false;  ///< its text is too long for the format
 };
 

@@ -287,7 +287,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
     if (is_composed(style, options)) {
         return none("dots, borders, colours by strand, tiles and plots need the whole drawing");
     }
-    if (style.moves_lift) return none("splines whose moves lift the pen are seen as a whole");
+    if (style.moves_lift) return none("splines whose moves lift the pen need the whole drawing");
     if (!style.draws({})) return none("lines that leave no ink are not seen");
     if (!options.window) {
         const auto cost = estimate(grammar, true);
@@ -431,7 +431,7 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// Sets `is_blank` if nothing is seen of the drawing.
+/// Sets `is_blank` if nothing of the drawing is visible.
 ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
                        const std::filesystem::path& file, bool& is_blank) {
     const PixelSize size = pixel_size(print.page, print.dpi);

@@ -26,7 +26,7 @@ struct DrawingCost {
     double lines = 0;          ///< and what is drawn of them
     double memory = 0;         ///< bytes, on one thread
     double thread_memory = 0;  ///< more for each further thread
-    double lines_memory = 0;   ///< bytes of `memory` that a Raster keeps when the whole drawing was read into it
+    double lines_memory = 0;   ///< bytes of `memory` kept by a Raster when it has read the whole drawing
 };
 /// @param parts  seen_parts(), or null: the word is read
 DrawingCost drawing_cost(const Grammar& grammar, const Parts<double>* parts, const Print& print,

@@ -28,10 +28,10 @@ struct GcodeOptions {
 /// The options of a kind of machine: `grbl` (M3 and M5) or `z`; nullopt for another name.
 std::optional<GcodeOptions> gcode_profile(std::string_view name);
 
-/// A comment that no controller takes for a command: `(label: text)`. The label keeps LinuxCNC from reading active
-/// comments such as `(MSG,…` and `(LOGOPEN,…`. Left out are `!`, `?` and `~`, which Grbl obeys wherever they stand,
-/// `%`, which begins and ends programs, `(`, `)` and `;`, and control characters; what is not ASCII, some of whose
-/// bytes are commands of Grbl as well, becomes `_`. Of the text 60 characters are kept: Grbl reads lines of 80.
+/// Formats a comment that no controller executes: `(label: text)`. The label keeps LinuxCNC from reading active
+/// comments such as `(MSG,…` and `(LOGOPEN,…`. Omits `!`, `?` and `~`, which Grbl obeys anywhere, `%`, which begins
+/// and ends programs, `(`, `)` and `;`, and control characters; replaces non-ASCII characters, some of whose bytes
+/// are also Grbl commands, with `_`. Keeps 60 characters of the text: Grbl reads lines of 80.
 /// @param label  of letters, digits and blanks
 /// Source: Grbl 1.1, real-time commands; LinuxCNC, G code reference, comments.
 std::string gcode_comment(std::string_view label, std::string_view text);

@@ -123,7 +123,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                        const GrowthOptions& growth, const std::filesystem::path& file) {
     if (growth.first < 0 || growth.last > most_steps || growth.last - growth.first >= most_frames) {
         throw std::runtime_error(
-            fmt::format("up to {} generations can be drawn one after the other, of derivation "
+            fmt::format("expected up to {} generations, with derivation "
                         "lengths up to {}",
                         most_frames, most_steps));
     }

@@ -10,14 +10,14 @@
 
 namespace sikku {
 
-/// More generations are refused.
+/// Maximum number of generations; more are rejected.
 constexpr std::int64_t most_frames = 10'000;
 
 struct GrowthOptions {
     std::int64_t first = 0, last = 0;  ///< derivation lengths, both included
-    double seconds = 0.5;              ///< that each is shown
-    double hold = 2.0;                 ///< that the last one is shown, if that is longer
-    bool fits_each = false;            ///< each fills the page by itself, instead of all having one scale and place
+    double seconds = 0.5;              ///< display time of each generation
+    double hold = 2.0;                 ///< minimum display time of the last one
+    bool fits_each = false;            ///< scale each to the page instead of sharing one scale and position
     /// What Print::made says of a file of its own; null: as it stands.
     std::function<std::string(const Grammar& generation)> made{};
 };
@@ -25,13 +25,13 @@ struct GrowthOptions {
 /// `growth.png` becomes `growth-07.png`, with as many digits as `last` has.
 std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last);
 
-/// Draws each generation as draw() would, but all where the largest of them, and what they cover together, ask for
-/// (unless `fits_each`):
-/// as an animated GIF where `file` ends in .gif, else as a file for each (frame_file()). Of GIF `print` and `options`
-/// say what they say of a PNG, on white paper. Generations that draw nothing are empty pages. Files
-/// of their own appear one after the other, each whole; what is wrong with a later one leaves those before it.
+/// Draws each generation like draw(), but all with one scale and position, chosen for the largest of them and the
+/// area they cover together (unless `fits_each`): as an animated GIF if `file` ends in .gif, otherwise as one file
+/// for each (frame_file()). For GIF, `print` and `options` have the same meaning as for a PNG on white paper.
+/// Generations that draw nothing are empty pages. Separate files appear one after the other, each whole; an error in
+/// a later one leaves earlier ones in place.
 /// @return what became of the last
-/// @throws as draw(); std::runtime_error if all are empty, or are more than most_frames
+/// @throws as draw(); std::runtime_error if all are empty or there are more than most_frames
 DrawReport draw_growth(const Grammar& grammar, const Print& print, const DrawOptions& options,
                        const GrowthOptions& growth, const std::filesystem::path& file);
 

@@ -17,10 +17,10 @@ namespace sikku {
 namespace {
 
 constexpr std::uint64_t most_profile_bytes = std::uint64_t{16} << 20;
-/// The tables of the largest profiles that are published take less than 20 MB.
+/// The tables of the largest published profiles take less than 20 MB.
 constexpr std::size_t most_library_bytes = std::size_t{64} << 20;
 
-/// Memory of the library within a budget: a profile may state tables of any size, and many of them.
+/// Limits the memory of the library: a profile may state any number of tables of any size.
 class Memory {
 public:
     static cmsPluginMemHandler* plugin() {
@@ -111,8 +111,8 @@ std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
 
 std::vector<std::uint8_t> read_profile(const std::filesystem::path& file) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) refuse(file, error ? error.message() : "there is no such file");
-    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "this is no file");
+    if (!std::filesystem::exists(file, error)) refuse(file, error ? error.message() : "no such file");
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a regular file");
     try {
         const InputFile input(file);
         if (input.size() > most_profile_bytes) refuse(file, "it is larger than 16 MB");
@@ -156,14 +156,14 @@ InkTransform::InkTransform(const std::filesystem::path& file) : handles_(std::ma
     const cmsContext context = handles_->context.handle;
     const Profile inks(cmsOpenProfileFromMemTHR(context, handles_->bytes.data(),
                                                 static_cast<cmsUInt32Number>(handles_->bytes.size())));
-    if (!inks) refuse(file, "it is no ICC profile");
+    if (!inks) refuse(file, "it is not an ICC profile");
     if (cmsGetColorSpace(inks.get()) != cmsSigCmykData) refuse(file, "its colours are not CMYK");
     const Profile colours(cmsCreate_sRGBProfileTHR(context));
     if (!colours) throw std::runtime_error("lcms2: no memory");
     handles_->transform =
         cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_8, inks.get(), TYPE_CMYK_8,
                               INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
-    if (!handles_->transform) refuse(file, "it is damaged, or has no way from colours to inks");
+    if (!handles_->transform) refuse(file, "it is damaged or cannot convert colours to inks");
 }
 
 InkTransform::~InkTransform() = default;

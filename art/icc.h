@@ -16,9 +16,9 @@ std::vector<std::uint8_t> grey_profile();
 /// Turns sRGB into the inks of a CMYK profile: relative colorimetric with black point compensation.
 class InkTransform {
 public:
-    /// Safe for files from strangers: loading takes at most 64 MB of memory and the file's size.
-    /// @throws std::runtime_error, which names the file, if it cannot be read, is not a regular file, has more than
-    /// 16 MB, is not an ICC profile or a damaged one, has other colours than CMYK or no way from colours to inks
+    /// Safe for untrusted files: loading takes at most 64 MB of memory plus the size of the file.
+    /// @throws std::runtime_error, naming the file, if it cannot be read, is not a regular file, exceeds 16 MB, is
+    /// not an ICC profile, is damaged, is not CMYK or cannot convert colours to inks
     explicit InkTransform(const std::filesystem::path& file);
     ~InkTransform();
     InkTransform(const InkTransform&) = delete;

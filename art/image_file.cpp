@@ -13,24 +13,24 @@
 namespace sikku {
 namespace {
 
-/// Refuses what the module's libraries, which start threads and take memory as soon as they are loaded, would end the
-/// program for.
+/// Rejects limits under which the libraries of the module, which start threads and allocate memory on loading, would
+/// end the program.
 void require_resources(int threads) {
-    // Logging of a library that nothing here uses; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    // Logging of an unused library; the pools of OpenImageIO and OpenEXR; the bands of the picture.
     constexpr int at_load = 4;
     constexpr int least_pool = 3;
     const int bands = thread_count(threads);
     const int wanted = at_load + 2 * std::max({bands, thread_count(0), least_pool}) + bands;
     if (const int there = startable_threads(wanted); there < wanted) {
-        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, and " +
+        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, but only " +
                                  std::to_string(there) +
-                                 " may be started: a higher `ulimit -u` or `-v`, or fewer threads (-j 1) may help");
+                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads (-j 1)");
     }
     constexpr std::size_t address_space = std::size_t{640} << 20;
     void* const reserved =
         ::mmap(nullptr, address_space, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (reserved == MAP_FAILED) {
-        throw std::runtime_error("pictures need 640 MB of address space: a higher `ulimit -v` helps");
+        throw std::runtime_error("pictures need 640 MB of address space; raise `ulimit -v`");
     }
     ::munmap(reserved, address_space);
 }

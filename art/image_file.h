@@ -25,7 +25,7 @@ struct ImageSpec {
     int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
 };
 
-/// JPEG keeps texts in one EXIF block of 64 kB; other readers of TIFF take as much. Half a pattern is none.
+/// JPEG stores texts in one EXIF block of 64 kB; other TIFF readers accept as much. Half a pattern is not a pattern.
 constexpr std::size_t longest_short_text = 60'000;
 /// Does a file of that format (as in ImageSpec) hold that text?
 inline bool keeps_text(std::string_view format, std::string_view text) {
@@ -51,16 +51,17 @@ public:
 class AnimationWriter {
 public:
     virtual ~AnimationWriter() = default;
-    /// All rows of a picture, 3 channels, and how long it is shown: rounded to hundredths, at least one of them.
+    /// Adds all rows of a picture, 3 channels, with its display time: rounded to hundredths of a second, at least
+    /// one.
     virtual void frame(std::span<const std::uint8_t> pixels, double seconds) = 0;
     /// Completes the file. Without it the file is of no use.
     virtual void close() = 0;
 };
 
-/// Loads the module and makes sure that it may start its threads, for pictures on as many (0: one for each core). To
-/// be called before work whose result would be lost: under a low `ulimit -u` or `-v` its libraries would end the
-/// program.
-/// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than are allowed here
+/// Loads the module and checks that it can start its threads, for pictures using this many (0: one for each core).
+/// Call before work whose result would be lost: under a low `ulimit -u` or `-v` the libraries of the module would end
+/// the program.
+/// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
 void prepare_images(int threads);
 
 /// Loads the module, too.

@@ -385,7 +385,7 @@ public:
         file.seekg(-1, std::ios::end);
         if (file.get() != ';') throw std::runtime_error("the animation could not be written as a whole");
         write_delays(file);
-        if (!file.flush()) throw std::runtime_error("the animation could not be written as a whole");
+        if (!file.flush()) throw std::runtime_error("the animation could not be written completely");
     }
 
 private:
@@ -415,7 +415,7 @@ private:
             } else if (kind == 0x2C) {
                 at += 11 + table(byte(at + 9));
             } else {
-                throw std::runtime_error("the animation could not be written as a whole");
+                throw std::runtime_error("the animation could not be written completely");
             }
             for (int length = byte(at); length > 0; length = byte(at)) at += 1 + length;
             ++at;

@@ -1,4 +1,4 @@
-// art/image_provenance.cpp: the texts in the heads of PNG, TIFF, JPEG and EXR files, found without decoding a pixel.
+// art/image_provenance.cpp: finds the texts in the heads of PNG, TIFF, JPEG and EXR files without decoding pixels.
 #include "art/provenance_readers.h"
 #include "engine/pattern.h"
 
@@ -46,7 +46,7 @@ bool has_png_checksum([[maybe_unused]] const InputFile& file, [[maybe_unused]] s
 #endif
 }
 
-/// What a zlib stream holds.
+/// Contents of a zlib stream.
 std::string inflated(InputStream& packed) {
     struct Inflater : z_stream {
         Inflater() : z_stream{} {
@@ -81,7 +81,7 @@ std::string png_text(std::string_view type, InputStream& chunk) {
         if (flag != 0 && flag != 1) refuse_damaged();
         is_packed = flag == 1;
     }
-    if (type != "tEXt" && chunk.take() != 0) refuse_damaged();  // the one method of compression there is
+    if (type != "tEXt" && chunk.take() != 0) refuse_damaged();  // the only compression method
     if (type == "iTXt") {
         for (int i = 0; i < 2; ++i) {  // the language, and the keyword in it
             if (!chunk.skip_past("\0"sv)) refuse_damaged();
@@ -122,13 +122,15 @@ Provenance read_directory(const Part& part) {
     const std::size_t entry_bytes = 4 + 2 * width;
     const std::string entries = part.read(directory + count_bytes, count * entry_bytes);
     Provenance found;
+    bool has_pattern = false, has_made = false;
     for (std::size_t at = 0; at < entries.size(); at += entry_bytes) {
         const std::string_view entry = std::string_view(entries).substr(at, entry_bytes);
         const std::uint64_t tag = number(entry.substr(0, 2), little);
         constexpr std::uint64_t image_description = 270, software = 305, ascii = 2;
         if ((tag != image_description && tag != software) || number(entry.substr(2, 2), little) != ascii) continue;
         std::string& text = tag == software ? found.made : found.pattern;
-        if (!text.empty()) continue;
+        // Each text is read once, also if it is empty: an untrusted file may state it 65,535 times.
+        if (std::exchange(tag == software ? has_made : has_pattern, true)) continue;
         const std::uint64_t length = number(entry.substr(4, width), little);
         const std::string_view value = entry.substr(4 + width);
         require_length(length);
@@ -175,6 +177,7 @@ std::optional<Provenance> read_tiff_provenance(const InputFile& file) {
 }
 
 std::optional<Provenance> read_jpeg_provenance(const InputFile& file) {
+    bool has_exif = false;
     Provenance found;
     std::string comment;
     std::uint64_t at = 2;
@@ -194,8 +197,10 @@ std::optional<Provenance> read_jpeg_provenance(const InputFile& file) {
         const Part segment{file, begin, begin + size - 2};
         at += 2 + size;
         constexpr std::string_view exif = "Exif\0\0"sv;
-        if (marker == application_1 && file.read(begin, std::min<std::uint64_t>(size - 2, exif.size())) == exif) {
+        if (marker == application_1 && !has_exif &&
+            file.read(begin, std::min<std::uint64_t>(size - 2, exif.size())) == exif) {
             found = read_directory({file, begin + exif.size(), segment.end});
+            has_exif = true;
             if (!found.pattern.empty()) break;
         } else if (marker == remark && comment.empty()) {
             comment = segment.read(0, size - 2);
@@ -226,6 +231,7 @@ std::optional<Provenance> read_exr_provenance(const InputFile& file) {
             require_length(size);
             const Part value{file, at, file.size()};
             auto& text = name == "comments" ? comments : software;
+            if (text) refuse_damaged();  // the format has each attribute once
             text = value.read(0, size);
             cut_at_nul(*text);
         }

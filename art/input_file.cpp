@@ -18,7 +18,7 @@ constexpr std::size_t block_bytes = std::size_t{1} << 16;
 InputFile::InputFile(const std::filesystem::path& path) {
     const auto fail = [](int error) { throw std::system_error(error, std::generic_category()); };
     struct stat state = {};
-    // Who only opens a pipe takes the writer's reader away.
+    // Merely opening a pipe would take the reader away from its writer.
     if (::stat(path.c_str(), &state) != 0) fail(errno);
     if (!S_ISREG(state.st_mode)) fail(EINVAL);
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -67,7 +67,7 @@ std::string_view InputStream::ahead(std::size_t least) {
         block_.resize(kept + wanted);
         const std::size_t got = file_.read(at_, block_.data() + kept, wanted);
         block_.resize(kept + got);
-        at_ = got == wanted ? at_ + got : end_;  // a file that has become shorter ends here
+        at_ = got == wanted ? at_ + got : end_;  // a truncated file ends here
     }
     return std::string_view(block_).substr(next_);
 }

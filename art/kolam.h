@@ -47,7 +47,7 @@ struct KolamExamination {
     std::uint64_t lines = 0;                    ///< as drawn; strokes that meet end to end are one line
     std::uint64_t open_lines = 0;               ///< of them
     std::vector<std::uint32_t> line_of_stroke;  ///< for each stroke the number of its line, by their first strokes
-    std::vector<std::uint32_t> orbit_of_line;   ///< lines that the symmetry maps onto each other have one number
+    std::vector<std::uint32_t> orbit_of_line;   ///< lines that are images of each other share a number
     std::uint64_t straight_lines = 0;  ///< lines if one goes straight on wherever edges meet, as the eye does
 
     std::uint64_t vertices = 0;
@@ -87,8 +87,8 @@ struct KolamOptions {
     std::function<bool(const Pen&)> draws = {};  ///< what of the lines is seen; null: all
     /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch = {};
-    Monitor monitor = {};  ///< asked all the time while the drawing is examined
-    bool moves_lift = false;  ///< of a spline, `with lifts`: steps that are not drawn are no control points
+    Monitor monitor = {};  ///< polled throughout the examination
+    bool moves_lift = false;  ///< `spline with lifts`: undrawn steps are not control points
 };
 
 /// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that

@@ -41,7 +41,7 @@ private:
     Style style_;
 };
 
-/// Notes where the discs of a drawing are.
+/// Records the positions of the discs of a drawing.
 class NotedDiscs : public PathSink {
 public:
     NotedDiscs(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
@@ -58,7 +58,7 @@ public:
         sink_.disc(centre, radius, pen);
     }
 
-    std::vector<glm::dvec2> places;  ///< of those that are seen
+    std::vector<glm::dvec2> places;  ///< of the visible ones
 
 private:
     PathSink& sink_;
@@ -89,7 +89,7 @@ public:
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
 
 private:
-    /// A stroke that is seen begins with the pen, or where an unseen one ends.
+    /// A visible stroke begins with the pen, or where an invisible one ends.
     void look(const Pen& pen) {
         const bool is_seen = style_.draws(pen);
         if (is_seen && !is_seen_) ++stroke_;
@@ -120,10 +120,10 @@ double least_distance(std::span<const glm::dvec2> dots);
 double border_width(const Page& page);
 /// With the room that a drawing leaves to it.
 double border_room(double width);
-/// The colours of draw_border(): rice flour and red earth (*kaavi*), in a lighter tone where the usual one would not
-/// stand out from the ground; no ground is white paper.
+/// Colours of draw_border(): rice flour and red earth (*kaavi*), in a lighter tone where the usual one would not
+/// stand out from the ground; without a ground, the paper is white.
 std::vector<Colour> border_colours(const std::optional<Colour>& ground);
-/// Colours that tell the lines of a kolam apart on dark ground, rice flour first; the same as those of grids.
+/// Colours that distinguish the lines of a kolam on dark ground, rice flour first; the same as those of grids.
 std::vector<Colour> kolam_palette();
 /// A frame within the page's margins, of that width: a line of red earth between thin ones of rice flour,
 /// closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in

@@ -22,8 +22,8 @@
 namespace sikku {
 
 /// An entry of the list that remove_unfinished_files() reads. Entries are only ever added, so that a signal handler
-/// can walk the list at any time; those of files that are done are used again. There are as many as files were ever
-/// open at once.
+/// can walk the list at any time; those of completed files are reused. There are as many as the maximum number of
+/// files open at once.
 struct UnfinishedFile {
     std::atomic<const char*> path{nullptr};
     UnfinishedFile* next = nullptr;  // never changes once the entry is in the list
@@ -32,7 +32,7 @@ struct UnfinishedFile {
 namespace {
 
 std::atomic<UnfinishedFile*> unfinished{nullptr};
-/// A signal handler reads the paths: they must not be freed under its eyes.
+/// A signal handler reads the paths: they must not be freed while it does.
 std::atomic<bool> is_removing{false};
 static_assert(std::atomic<UnfinishedFile*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "a signal handler must not wait for a lock");
@@ -67,7 +67,7 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
 constexpr int most_links = 40;             // as the kernel follows
 
-/// Lets a call pass whose file system or kind of file has nothing to synchronise.
+/// Accepts a failed call if the file system or kind of file has nothing to synchronise.
 bool is_not_for_sync(int error) {
     return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
 }
@@ -80,7 +80,7 @@ int synchronise(int descriptor) {
     return 0;
 }
 
-/// Makes the names in a folder durable. A folder that may not be read is left to the system.
+/// Synchronises the names in a folder. An unreadable folder is left to the system.
 int synchronise_folder(const std::filesystem::path& folder) {
     const int descriptor =
         ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
@@ -106,7 +106,7 @@ std::optional<int> named_descriptor(const std::string& name) {
     return std::nullopt;
 }
 
-/// `/proc/PID/fd/N/NAME`: a name in a folder that somebody holds open.
+/// `/proc/PID/fd/N/NAME`: a name in a folder that is held open.
 bool is_in_held_folder(const std::string& name) {
     std::string_view rest = name;
     const auto take = [&](std::string_view piece) {
@@ -162,7 +162,7 @@ OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)),
             if (target_.filename().empty()) fail(target_.empty() ? ENOENT : EISDIR);
             break;
         }
-        // Whoever holds a folder open trusts nothing that lies in it: the name is taken, not what it leads to.
+        // A caller that holds a folder open does not trust its contents: the name itself is used, not its target.
         if (is_held && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) break;
         if (S_ISLNK(status.st_mode)) {
             if (links == most_links) fail(ELOOP);
@@ -293,12 +293,16 @@ const std::filesystem::path& OutputFile::temporary() {
 void OutputFile::commit() {
     flush();
     if (!direct_) {
-        // By name: a library may have made the file anew.
-        const int whole = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+        // By name where a library has made the file anew.
+        struct stat own {};
+        struct stat named {};
+        const bool is_own = ::fstat(descriptor_, &own) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
+                            own.st_ino == named.st_ino && own.st_dev == named.st_dev;
+        const int whole = is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
         if (whole < 0) fail(errno);
         int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
         if (error == 0) error = synchronise(whole);
-        ::close(whole);
+        if (!is_own) ::close(whole);
         if (error != 0) fail(error);
     }
     const int descriptor = std::exchange(descriptor_, -1);

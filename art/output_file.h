@@ -14,8 +14,8 @@ struct UnfinishedFile;
 /// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
 /// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
 /// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
-/// and /dev/stdout are written straight to. In a folder that is named by its descriptor, `/proc/PID/fd/N/NAME`, links,
-/// devices and pipes are themselves replaced.
+/// and /dev/stdout are written directly. In a folder named by its descriptor, `/proc/PID/fd/N/NAME`, links, devices
+/// and pipes are themselves replaced.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path target);
@@ -36,9 +36,9 @@ public:
     /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
     /// not write() after that.
     const std::filesystem::path& temporary();
-    /// Makes the file durable, renames it and makes the folder durable: a crash of the machine leaves the old content
-    /// or the new one, never an empty file. Devices and pipes are not synchronised. To be called once, last. Cost of
-    /// that on a solid-state disk: about 9 ms (5 for the file, 3 for the folder), 70 ms for 100 MB.
+    /// Synchronises the file, renames it and synchronises the folder: after a crash of the machine the file has the
+    /// old or the new content and is never empty. Devices and pipes are not synchronised. Call once, last. Cost on a
+    /// solid-state disk: about 9 ms (5 for the file, 3 for the folder), 70 ms for 100 MB.
     void commit();
 
 private:
@@ -52,14 +52,14 @@ private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
-    int mode_ = -1;                    ///< of the file that is replaced
+    int mode_ = -1;                    ///< of the replaced file
     UnfinishedFile* entry_ = nullptr;  ///< in the list of remove_unfinished_files()
     bool direct_ = false;
     std::string buffer_;
     std::uint64_t written_ = 0;
 };
 
-/// Removes the temporary file of every OutputFile that is neither committed nor destroyed, however many there are.
+/// Removes the temporary files of all OutputFiles that are neither committed nor destroyed, however many there are.
 /// May be called from a signal handler that then ends the program.
 void remove_unfinished_files() noexcept;
 

@@ -1,4 +1,4 @@
-// art/pdf_provenance.cpp: the texts of a PDF in the layout of write_pdf, found from the end of the file.
+// art/pdf_provenance.cpp: finds the texts of a PDF in the layout of write_pdf, from the end of the file.
 #include "art/provenance_readers.h"
 #include "engine/text.h"
 
@@ -175,11 +175,13 @@ std::optional<Provenance> read_dictionary(InputStream& in) {
     in.skip(at + head.size());
     Provenance found;
     bool is_ours = false;
+    std::set<std::string> seen;
     for (int entry = 0; entry < most_entries && in.skip_text("/"); ++entry) {
         const std::string_view bytes = in.ahead(64);
         const std::string name(bytes.substr(0, std::min<std::size_t>(bytes.find(' '), 64)));
         in.skip(name.size() + 1);
         if (name == "Creator" || name == "SikkuPattern" || name == "Subject") {
+            if (!seen.insert(name).second) return std::nullopt;  // a dictionary has each key once
             auto text = read_text(in);
             if (!text) return std::nullopt;
             if (name == "Creator") {

@@ -50,12 +50,12 @@ Picture::Picture(const Print& print, const DrawOptions& options, int channels, O
     image_ = named(file_, [&] { return open_image(output.temporary(), spec); });
 }
 
-/// Less than 3 % of the way from white to black is not seen.
+/// Less than 3 % of the way from white to black is not visible.
 void Picture::look(std::span<const std::uint8_t> pixels) {
     constexpr int least = 8;
     const std::array<int, 4> ground = {ground_.red, ground_.green, ground_.blue, ground_.alpha};
     for (std::size_t i = 0; i + channels_ <= pixels.size() && !has_ink_; i += channels_) {
-        // What is transparent has no colour.
+        // Transparent pixels have no colour.
         const bool is_clear = channels_ == 4 && pixels[i + 3] < least;
         for (std::size_t channel = is_clear ? 3 : 0; channel < channels_; ++channel) {
             has_ink_ = has_ink_ || std::abs(pixels[i + channel] - ground[channel]) >= least;
@@ -63,7 +63,7 @@ void Picture::look(std::span<const std::uint8_t> pixels) {
     }
 }
 
-/// One channel of black and white; what is transparent lies on white.
+/// One channel of black and white; transparent pixels lie on white.
 std::span<const std::uint8_t> Picture::screened(int rows, std::span<const std::uint8_t> pixels) {
     const auto count = static_cast<std::size_t>(rows) * width_;
     greys_.resize(count);

@@ -23,7 +23,7 @@ public:
             std::filesystem::path file);
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
     void close();
-    /// After the last row: is no pixel seen to differ from the ground?
+    /// After the last row: is every pixel indistinguishable from the ground?
     bool is_blank() const { return !has_ink_; }
 
 private:

@@ -18,7 +18,7 @@ struct PlotOptions {
     /// and curves meet, so that one that is longer by itself stays whole. 0: never.
     double split = 0.0;
     bool outlines = true;  ///< of polygons
-    Monitor monitor = {};  ///< asked while the plot is arranged and drawn
+    Monitor monitor = {};  ///< polled while the plot is arranged and drawn
 };
 
 /// How fast a plotter is. Without acceleration: a real one is slower where strokes are short.
@@ -92,7 +92,7 @@ public:
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
-    /// To be called once, after the last stroke and before what follows. @throws Stopped
+    /// Call once, after the last stroke and before what follows. @throws Stopped
     void arrange();
     /// The strokes as they are to be plotted, in pattern units, pen after pen. They are to be drawn in the colour of
     /// their pen whatever `stroke:` says: outlines may be there where lines are not. @throws Stopped

@@ -126,7 +126,7 @@ void check_press(const Press& press, PrintFormat format) {
     if (format != PrintFormat::tiff && !press.cmyk.empty()) throw std::runtime_error("only a TIFF is made in CMYK");
     if (format != PrintFormat::tiff && press.bits == 1) throw std::runtime_error("only a TIFF is made in one bit");
     if (press.bits != 1 && press.screen != Screen{}) {
-        throw std::runtime_error("a screen is for pictures of one bit");
+        throw std::runtime_error("a screen applies only to pictures of one bit");
     }
     if (press.bits == 1 && !press.cmyk.empty()) throw std::runtime_error("a picture in CMYK has 8 bits a channel");
 }

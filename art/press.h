@@ -32,7 +32,7 @@ struct Press {
     std::vector<Spot> spots{};     ///< PDF alone
     std::filesystem::path cmyk{};  ///< ICC profile of inks, which pixels are turned into; empty: none; TIFF alone
     int bits = 8;                  ///< a channel: 8, or 1 for line art; TIFF alone
-    Screen screen{};               ///< of one bit: how greys become black and white
+    Screen screen{};               ///< for one bit: how greys become black and white
     bool icc = true;               ///< pictures hold the profile of their colours
 };
 
@@ -58,9 +58,10 @@ struct CropMark {
 /// Two at each corner, in line with the trimmed edges: 5 mm long, and as far outside as the bleed, or 2 mm.
 std::array<CropMark, 8> crop_marks(const Page& page, const Press& press);
 
-/// The print as formats show it that know one box alone (all but PDF): its page is as large as the bleed box. For one
-/// bit without a screen every colour of the style becomes black or white, whichever its luminance is nearer to, or
-/// transparent if it mostly is, so that the coverage of pixels alone decides on them. To be called when it is placed.
+/// Converts the print for formats with a single page box (all but PDF): its page is as large as the bleed box. For
+/// one bit without a screen, every colour of the style becomes black or white, whichever its luminance is nearer to,
+/// or transparent if it is mostly transparent, so that only the coverage of pixels matters. Call it when the print is
+/// placed.
 Print as_picture(Print print);
 
 }  // namespace sikku

@@ -12,7 +12,7 @@
 
 namespace sikku {
 
-/// Why a file cannot be read back; `what()` continues "this PNG file …".
+/// Reports why a file cannot be read back; `what()` continues "this PNG file …".
 class UnreadableFile : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -22,7 +22,7 @@ class UnreadableFile : public std::runtime_error {
     throw UnreadableFile("is damaged or truncated");
 }
 
-/// A text may be as long as the longest pattern.
+/// Rejects a text that exceeds the limit for patterns.
 [[noreturn]] inline void refuse_length() {
     throw UnreadableFile("contains a text of more than 64 MB, the limit for patterns");
 }
@@ -35,13 +35,13 @@ inline void append_text(std::string& text, std::string_view bytes) {
     text += bytes;
 }
 
-/// Command lines are shorter; what is longer is left out, so that two texts never need the memory of two patterns.
+/// Clears a text over 2 MB, longer than any command line, so that two texts never need the memory of two patterns.
 inline void limit_made(std::string& made) {
     if (made.size() > std::size_t{2} << 20) std::string().swap(made);
 }
 
-/// The readers get a file that begins with their format's signature. They return nullopt (or an empty pattern) where
-/// there is none and throw UnreadableFile where the file is damaged. Memory beyond the texts: less than 2 MB.
+/// The readers receive a file that begins with the signature of their format. They return nullopt (or an empty
+/// pattern) if it contains none, and throw UnreadableFile if it is damaged. Memory beyond the texts: less than 2 MB.
 std::optional<Provenance> read_png_provenance(const InputFile& file);
 std::optional<Provenance> read_tiff_provenance(const InputFile& file);
 std::optional<Provenance> read_jpeg_provenance(const InputFile& file);

@@ -24,7 +24,7 @@ Screen parse_screen(std::string_view text) {
         if (error == std::errc() && at == end && screen.lines >= 1 && screen.lines <= 1000) return screen;
     }
     throw std::runtime_error(fmt::format(
-        "screen '{}': expected threshold, diffusion, halftone, or halftone,LPI with 1 to 1000 lines an inch", text));
+        "screen '{}': expected threshold, diffusion, halftone, or halftone,LPI with 1 to 1000 lines per inch", text));
 }
 
 Screener::Screener(const Screen& screen, int width, double dpi) : kind_(screen.kind) {
@@ -38,8 +38,8 @@ Screener::Screener(const Screen& screen, int width, double dpi) : kind_(screen.k
     const double pitch = std::round(dpi / lines / std::numbers::sqrt2);
     if (!(pitch >= 2 && pitch <= 1000)) {
         throw std::runtime_error(fmt::format(
-            "a halftone of {:g} lines an inch at {:g} dpi has dots {:.3g} pixels apart; 3 to 1400 are possible",
-            lines, dpi, dpi / lines));
+            "a halftone of {:g} lines per inch at {:g} dpi has dots {:.3g} pixels apart; expected 3 to 1400", lines,
+            dpi, dpi / lines));
     }
     side_ = 2 * static_cast<std::size_t>(pitch);
     std::vector<double> heights(side_ * side_);
@@ -87,7 +87,7 @@ void Screener::diffuse(std::span<const std::uint8_t> greys, std::span<std::uint8
         const std::size_t ahead = is_back ? x : x + 2;
         const std::size_t behind = is_back ? x + 2 : x;
         const int wanted = 16 * greys[x] + errors_[x + 1];
-        // What is black or white by itself stays so: lines keep their edges.
+        // Pure black and white are kept: lines keep their edges.
         const bool is_white = greys[x] == 255 || (greys[x] != 0 && wanted >= 16 * 128);
         result[x] = is_white ? 255 : 0;
         if (greys[x] == 0 || greys[x] == 255) continue;

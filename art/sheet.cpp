@@ -258,7 +258,7 @@ std::vector<Grid> Sheet::grids() const {
     for (int columns = from; columns <= to; ++columns) {
         Grid grid{columns, {}, {}};
         for (const int group : groups) {
-            // As many in each row, or one more in the first ones: none stands alone below full rows.
+            // Equal rows, or one more cell in the first ones: no cell stands alone below full rows.
             const int rows = (group + columns - 1) / columns;
             for (int row = 0; row < rows; ++row) {
                 grid.headed.push_back(headed && row == 0);
@@ -638,12 +638,13 @@ void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) 
 }
 
 [[noreturn]] void refuse_memory(double needed, double memory) {
-    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory, and there are {:.0f} for it",
+    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory; only {:.0f} MB are available",
                                          std::ceil(needed / 1e6), memory / 1e6));
 }
 
-/// As many drawings and rows as there is memory for: whole strips, whose drawings come one after the other; else
-/// bands of them, for which all drawings of the strip are kept. @throws std::runtime_error if there is too little
+/// Computes how many drawings and rows fit in memory: whole strips, whose drawings come one after the other;
+/// otherwise bands of them, for which all drawings of the strip are kept. @throws std::runtime_error if there is too
+/// little memory
 Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
     if (!(options_.memory > 0)) return {threads, 0};

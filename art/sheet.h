@@ -61,19 +61,18 @@ struct SheetLayout {
     double letters = 0.0;         ///< height of a caption's capitals
 };
 
-/// Draws the sheet into `file`, which appears whole or not at all; the same cells make the same bytes. Windows, and
-/// in pictures words of any order, are seen as draw() sees them. Pictures are made row by row: of one row the pixels
-/// are in memory, and on each thread one drawing, as Raster keeps it. If that exceeds the memory of the options, a
-/// row is made in bands, with all its drawings in memory; the bytes are the same.
-/// @throws BudgetError, WordError and std::runtime_error, which name the cell that cannot be drawn;
-/// std::runtime_error if there is no cell, the cells have no room, memory does not suffice, or the file cannot be
-/// written
+/// Draws the sheet into `file`, which appears whole or not at all; the same cells give the same bytes. Windows and,
+/// in pictures, words of any order are handled as in draw(). Pictures are made row by row: memory holds the pixels of
+/// one row and, for each thread, one drawing, as Raster keeps it. If that exceeds the memory of the options, a row is
+/// made in bands, with all its drawings in memory; the bytes are the same.
+/// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; std::runtime_error if
+/// there are no cells, the cells do not fit, memory is insufficient, or the file cannot be written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file);
 
-/// Bytes that draw_sheet() takes for a picture, roughly and before the sheet is laid out: what it would take for
-/// whole rows if the options allow that, else the least it can be made with. 0 for other formats.
-/// @throws what draw_sheet() throws of cells that cannot be drawn
+/// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
+/// the options allow that, otherwise the minimum. 0 for other formats.
+/// @throws what draw_sheet() throws for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 
 /// What a caption tells of a pattern: its title, the derivation length and angle, and its productions; as the file

@@ -1,4 +1,4 @@
-// art/sheet_captions.cpp: what a sheet says of its cells, and the cells of rows of generations.
+// art/sheet_captions.cpp: captions of the cells of a sheet, and the cells of rows of generations.
 #include "art/sheet.h"
 #include "engine/derivation.h"
 #include "engine/forecast.h"
@@ -95,8 +95,7 @@ std::vector<std::string> caption_of(const Grammar& grammar, const std::string& t
 std::vector<SheetCell> generations(const SheetCell& cell, std::int64_t first, std::int64_t last) {
     std::vector<SheetCell> row;
     if (last > most_steps) {
-        throw std::runtime_error(
-            fmt::format("'{}': derivation lengths up to {} stand side by side", cell.title, most_steps));
+        throw std::runtime_error(fmt::format("'{}': expected derivation lengths up to {}", cell.title, most_steps));
     }
     for (std::int64_t n = first; n <= last; ++n) {
         auto grammar = cell.grammar->with_steps(n);

@@ -29,7 +29,7 @@ struct DotStyle {
 
 struct Style {
     Line line = Line::straight;
-    bool moves_lift = false;  ///< of splines: moves lift the pen (`spline with lifts`), and are no control points
+    bool moves_lift = false;  ///< of splines: moves lift the pen (`spline with lifts`) and are not control points
     StrokeWidth stroke;
     std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`
@@ -39,7 +39,7 @@ struct Style {
     std::optional<DotStyle> dots;         ///< absent: none are drawn
     Camera camera;                        ///< of drawings in space
 
-    /// Is a step that is not drawn a control point of the line?
+    /// Are undrawn steps control points of the line?
     bool moves_draw() const { return line == Line::spline && !moves_lift; }
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;

@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Name space of the elements that hold what the print was made from.
+/// Namespace of the elements that record what the print was made from.
 constexpr std::string_view svg_name_space = "urn:sikku:print";
 
 /// Begins the document in `file`. `print` and `file` are kept by reference and must outlive the writer. After

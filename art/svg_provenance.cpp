@@ -1,4 +1,4 @@
-// art/svg_provenance.cpp: the texts in the head of an SVG, scanned without building a document.
+// art/svg_provenance.cpp: scans the texts in the head of an SVG without building a document.
 #include "art/provenance_readers.h"
 #include "art/svg.h"
 #include "engine/pattern.h"
@@ -12,19 +12,19 @@
 namespace sikku {
 namespace {
 
-/// Where the writer puts its name space.
+/// Where the writer puts its namespace.
 constexpr std::size_t name_space_bytes = 4096;
 /// A pattern is at most 64 MB, escaped perhaps six times as long, or twice that in hexadecimal digits.
 constexpr std::uint64_t most_head_bytes = std::uint64_t{640} << 20;
 /// Tags, comments and characters within tags; the writer's head has 500.
 constexpr int most_steps = 1'000'000;
 
-/// Finds the texts of the elements that matter while the file goes by.
+/// Finds the texts of the relevant elements in a stream.
 class Scan {
 public:
     explicit Scan(const InputFile& file) : in_(file, 0, most_head_bytes) {}
 
-    /// Up to the end of `desc` and `metadata`. False if they do not come.
+    /// Reads to the end of `desc` and `metadata`; false if they are missing.
     bool run() {
         while (!has_description_ || !has_metadata_) {
             const std::string_view bytes = in_.ahead();
@@ -33,10 +33,10 @@ public:
         return true;
     }
 
-    /// What it found.
+    /// Texts that were found.
     std::optional<Provenance> provenance() {
         if (!has_made_) return std::nullopt;
-        // What XML cannot hold is written in hexadecimal digits as well.
+        // Text that XML cannot hold is also written in hexadecimal digits.
         if (!has_exact_) {
             if (description_.is_too_long) refuse_length();
             return Provenance{std::move(description_.text), std::move(made_.text)};

@@ -16,13 +16,13 @@ inline int thread_count(int threads) {
     return threads > 0 ? threads : oneapi::tbb::info::default_concurrency();
 }
 
-/// How many of `wanted` threads may be started now beside those that are there: fewer under a low `ulimit -u` or
-/// `-v`. Cost: 20 µs a thread.
+/// Number of `wanted` threads that can be started now in addition to the existing ones: fewer under a low `ulimit -u`
+/// or `-v`. Cost: 20 µs per thread.
 int startable_threads(int wanted);
 
-/// Calls `work`, whose parallel parts have so many threads (0: all cores), and gives back what it gives. More threads
-/// than cores are only had, and without a warning of the library's on the terminal, if they are allowed here. Where
-/// fewer threads may be started, which the library would end the program for, there are fewer.
+/// Calls `work`, whose parallel parts use this many threads (0: all cores), and returns its result. Uses more threads
+/// than cores, without a library warning on the terminal, only where the limits allow it. Uses fewer threads where
+/// fewer can be started; the library would end the program.
 template <typename Work>
 decltype(auto) on_threads(int threads, Work&& work) {
     const int count = 1 + startable_threads(thread_count(threads) - 1);

@@ -1,4 +1,4 @@
-// cli/check_midi.cpp: MIDI files: what is wrong with them, and what they were made from.
+// cli/check_midi.cpp: validates MIDI files and reads back what they were made from.
 #include "art/input_file.h"
 #include "cli/command.h"
 #include "engine/pattern.h"

@@ -133,11 +133,11 @@ double expected_symbols(const Grammar& grammar, bool interpreted);
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();
 
-/// What a MIDI file (a regular file) was made from. @throws std::runtime_error, which names the file, if it contains
+/// Reads what a MIDI file (a regular file) was made from. @throws std::runtime_error, naming the file, if it contains
 /// no pattern or is damaged
 Provenance read_score_provenance(const std::string& file);
 
-/// `sikku check` of a MIDI file of up to 128 MB: prints its faults; true if there is none.
+/// Runs `sikku check` on a MIDI file of up to 128 MB: prints its faults; true if there are none.
 /// @throws UsageError if the file cannot be read or is larger
 bool check_midi_file(const std::string& file);
 

@@ -144,8 +144,7 @@ std::pair<std::int64_t, std::int64_t> parse_generations(const std::string& text)
     const std::int64_t first = whole(std::string_view(text).substr(0, colon));
     const std::int64_t last = colon == std::string::npos ? first : whole(std::string_view(text).substr(colon + 1));
     if (last > most_steps) {
-        throw UsageError(fmt::format("--generations {}: derivation lengths up to {} can be drawn one after the other",
-                                     text, most_steps));
+        throw UsageError(fmt::format("--generations {}: expected derivation lengths up to {}", text, most_steps));
     }
     return {first, last};
 }
@@ -167,7 +166,7 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     }
     for (const auto& [name, seconds] : {std::pair("--frame-time", options.frame_time), {"--hold", options.hold}}) {
         if (seconds && !(*seconds >= 0.01 && *seconds <= 600)) {
-            throw UsageError(fmt::format("{}: seconds, 0.01 to 600", name));
+            throw UsageError(fmt::format("{}: expected 0.01 to 600 seconds", name));
         }
     }
     GrowthOptions growth;
@@ -176,7 +175,7 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
     growth.hold = options.hold.value_or(growth.hold);
     growth.fits_each = options.fit_frames;
     if (growth.last < growth.first || growth.last - growth.first >= most_frames) {
-        throw UsageError(fmt::format("--generations {}: up to {} frames, the lowest derivation length first",
+        throw UsageError(fmt::format("--generations {}: expected up to {} frames, the lowest derivation length first",
                                      options.generations, most_frames));
     }
     if (is_gif(options.output)) {
@@ -186,7 +185,7 @@ void draw_growth(const DrawSettings& options, const Print& print, DrawOptions dr
                 "a .gif has at most 65,535 pixels a side and 100 million in all: a smaller --size or --dpi");
         }
     } else if (options.frame_time || options.hold) {
-        throw UsageError("--frame-time and --hold are for a .gif");
+        throw UsageError("--frame-time and --hold apply only to a .gif");
     }
     growth.made = [&](const Grammar& generation) { return made_with(options, generation); };
     Progress progress(0, telling.quiet);
@@ -439,15 +438,13 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
     if (!options.generations.empty()) {
         if (options.frames || is_gif(options.output)) return draw_growth(options, print, drawing, loaded, telling);
         if (options.frame_time || options.hold || options.fit_frames) {
-            throw UsageError(
-                "--frame-time, --hold and --fit-frames are for frames of --generations: a .gif, or --frames");
+            throw UsageError("--frame-time, --hold and --fit-frames need a .gif or --frames");
         }
         return draw_generations(options, print, drawing, loaded, telling);
     }
     if (options.frames) throw UsageError("--frames: goes with --generations A:B");
     if (options.frame_time || options.hold || options.fit_frames) {
-        throw UsageError(
-            "--frame-time, --hold, --fit-frames: each goes with --generations A:B, and a .gif or --frames");
+        throw UsageError("--frame-time, --hold and --fit-frames need --generations A:B and a .gif or --frames");
     }
     // Before the drawing, which may take long.
     if (!print.press.cmyk.empty()) check_cmyk_profile(print.press.cmyk);
@@ -472,12 +469,12 @@ void draw_print(const DrawSettings& given, const Telling& telling) {
         telling.say("sikku: warning: there are no dots: the lines enclose none\n");
     }
     if (report.is_empty) {
-        telling.say("sikku: warning: nothing of the drawing lies in the window\n");
+        telling.say("sikku: warning: the window contains no part of the drawing\n");
     } else if (report.is_blank) {
         telling.say(
             "sikku: warning: the picture looks empty: lines {:.2g} mm wide leave too little ink on pixels of {:.2g} "
             "mm; "
-            "{}, or a lower -n, shows them\n",
+            "use {} or a lower -n\n",
             style.line_width({}, report.step), 25.4 / dpi,
             style.stroke.in_steps ? "a pen in millimetres (--set 'stroke=0.3mm')"
                                   : "a wider pen (--set 'stroke=0.5mm')");
@@ -548,12 +545,13 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->add_option("--frame-time", options->frame_time,
                      "Seconds that each generation is shown (0.5); of --generations A:B -o growth.gif")
         ->group(kolams);
-    command->add_option("--hold", options->hold, "Seconds that the last generation of a .gif is shown at least (2)")
+    command->add_option("--hold", options->hold, "Minimum seconds for the last generation of a .gif (2)")
         ->group(kolams);
     command
-        ->add_flag("--fit-frames", options->fit_frames,
-                   "Fit each frame of --generations to the page by itself; by default all have one scale and place, "
-                   "which shows growth")
+        ->add_flag(
+            "--fit-frames", options->fit_frames,
+            "Fit each frame of --generations to the page separately; by default all share one scale and position, "
+            "which shows growth")
         ->group(kolams);
     command->add_option("--animate", options->animate, "SVG that draws itself, line by line, in so many seconds (20)")
         ->expected(0, 1)
@@ -606,8 +604,8 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->group(press);
     command
         ->add_option("--screen", options->screen,
-                     "How --bits 1 shows colours: threshold (default), diffusion, or a halftone of LPI lines an inch "
-                     "(a twelfth of the dpi) at 45 degrees")
+                     "Screening for --bits 1: threshold (default), diffusion, or a halftone of LPI lines per inch "
+                     "(default: a twelfth of the dpi) at 45 degrees")
         ->type_name("threshold|diffusion|halftone[,LPI]")
         ->group(press);
     command->add_flag("--icc,!--no-icc", options->icc, "Pictures hold the ICC profile of their colours (default)")

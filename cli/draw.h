@@ -28,8 +28,8 @@ struct DrawSettings {
     int threads = 0;                         ///< for pictures; 0: one for each core
     bool frames = false;                     ///< each generation is a file
     std::optional<double> frame_time;        ///< seconds of each in an animation
-    std::optional<double> hold;              ///< seconds of the last one
-    bool fit_frames = false;                 ///< each generation fills the page by itself
+    std::optional<double> hold;              ///< minimum seconds for the last frame
+    bool fit_frames = false;                 ///< scale each generation to the page separately
     std::string view;                        ///< of drawings in space: see parse_camera(); empty: as the pattern says
     std::optional<std::string> dots;         ///< of a kolam: empty, `only`, or a size and a colour
     std::optional<std::string> dot_spacing;  ///< length between the nearest
@@ -51,7 +51,7 @@ struct DrawSettings {
     std::vector<std::string> spots;  ///< NAME=COLOUR each
     std::string cmyk;                ///< ICC profile of the inks
     int bits = 8;                    ///< a channel
-    std::string screen;              ///< of one bit: see parse_screen(); empty: a threshold
+    std::string screen;              ///< for one bit: see parse_screen(); empty: a threshold
     bool icc = true;                 ///< pictures hold the profile of their colours
 };
 

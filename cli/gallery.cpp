@@ -30,6 +30,7 @@ struct Options {
     std::map<std::string, std::string> texts;  ///< of the keys of gallery files, as options
     std::map<std::string, bool> flags;
     std::string output = "gallery";
+    bool names_folder = false;  ///< -o was given
     bool list = false;
     bool json = false;
     bool dry_run = false;
@@ -136,7 +137,7 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-/// The sheets that are asked for.
+/// Requested sheets.
 std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
     std::vector<SheetRequest> sheets;
     if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
@@ -160,8 +161,8 @@ bool tell_sheet_forecast(const std::vector<const GalleryJob*>& jobs, const Optio
             }
             can_be_made = can_be_made && problem.empty();
             if (problem.empty() && forecast.memory == 0) continue;
-            if (problem.empty()) problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "",
-                                                       bytes_text(forecast.memory));
+            if (problem.empty())
+                problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "", bytes_text(forecast.memory));
             fmt::print("{:<40} {}\n", file, printable(problem.substr(0, problem.find('\n')), 200));
         }
     }
@@ -243,16 +244,15 @@ bool is_in_path(const std::string& program) {
     return false;
 }
 
-/// Writes the script for Slurm, with the care that is taken in the folder of the gallery itself.
-/// @param replaces  also a file or a link that is not a script of a gallery
+/// Writes the Slurm script with the same safeguards as files inside the gallery folder.
+/// @param replaces  replace a file or link that is not a gallery script
 void write_script(const GalleryFolder& folder, const std::string& name, const std::string& text, bool replaces) {
     const GalleryPlace place = folder.place(name);
     const bool is_ours = folder.read(name, 400).find("\n#SBATCH --job-name=sikku-gallery\n") != std::string::npos;
     if (const auto there = place.status(); there && !S_ISDIR(there->st_mode)) {
         if (!replaces && !is_ours) {
-            throw std::runtime_error(
-                fmt::format("'{}' is there already and is not a script of a gallery; --force replaces it",
-                            folder.shown(name)));
+            throw std::runtime_error(fmt::format(
+                "'{}' already exists and is not a gallery script; --force replaces it", folder.shown(name)));
         }
         if (!S_ISREG(there->st_mode)) place.remove();
     }
@@ -350,9 +350,8 @@ private:
         try {
             const bool is_ours =
                 name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
-            order.push_back(
-                make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
-                                  [&](const std::filesystem::path& path, auto&) { make_it(path); }));
+            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
+                                              [&](const std::filesystem::path& path, auto&) { make_it(path); }));
         } catch (const Stopped&) {
             if (shown_) tell("\r\033[K");
             throw;
@@ -401,12 +400,15 @@ void run(Options& options, bool quiet) {
     }
 
     const double started = now();
+    if (!options.names_folder && std::filesystem::is_symlink(options.output)) {
+        throw UsageError(fmt::format("'{}' is a symbolic link; -o names the folder to write to", options.output));
+    }
     const GalleryFolder folder(options.output);
     bool told_waiting = false;
     GalleryRecord record(folder, shard.record_name(), options.force, [&] {
         if (interrupted()) throw Interrupted("interrupted while waiting for another run; nothing was made");
         if (std::exchange(told_waiting, true) || quiet) return;
-        tell("sikku: another run is at work on '{}'; waiting for it\n", folder.shown(shard.record_name()));
+        tell("sikku: another run is using '{}'; waiting for it\n", folder.shown(shard.record_name()));
     });
     std::vector<std::string> hashes(jobs.size());
     for_each_number(chosen.size(), options.threads,
@@ -474,8 +476,7 @@ void run(Options& options, bool quiet) {
                 if (++told <= 20) tell("{}: {}\n", printable(result.file, 2000), printable(text, 2000));
             }
         }
-        if (told > 20)
-            tell("sikku: and {} more warnings, which {} holds\n", told - 20, folder.shown(shard.record_name()));
+        if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, folder.shown(shard.record_name()));
         tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
              counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
         if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
@@ -507,7 +508,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
     auto options = std::make_shared<Options>();
     command->add_option("PATTERNS", options->request.patterns,
                         "Names, globs, folders or files; without any, all patterns that come along and draw");
-    command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
+    auto* output = command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
     command->add_option(
         "--file", options->request.gallery_file,
         "A gallery file, gallery.toml: what is to be made; or the name of one that comes along, such as figure-2.5");
@@ -549,15 +550,18 @@ void add_gallery(CLI::App& app, bool& quiet) {
         }
     }
     command->footer(
-        "A run that was ended at any moment goes on when it is started again: what is finished and unchanged is left "
-        "alone. Files that others made are never touched. Several runs may work in one folder at the same time.\n\n"
+        "An interrupted run resumes when it is started again: finished and unchanged files are kept. Files not made "
+        "by the gallery are never touched. Several runs can work in one folder at the same time.\n\n"
         "Examples:\n"
         "  sikku gallery kolams -o prints -f svg,png --size 130x130mm --dpi 100\n"
         "  sikku gallery kolams koch-island -o wall --poster A1\n"
         "  sikku gallery koch-island --generations 0:4 --set 'angle increment=80:100:5'\n"
         "  sikku gallery --file gallery.toml --shard 3/8\n"
         "  seq 8 | parallel sikku gallery --file gallery.toml --shard {}/8");
-    command->callback([options, &quiet] { run(*options, quiet); });
+    command->callback([options, output, &quiet] {
+        options->names_folder = output->count() > 0;
+        run(*options, quiet);
+    });
 }
 
 }  // namespace sikku

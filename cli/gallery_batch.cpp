@@ -118,9 +118,9 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     const auto there = place.status();
     if (there && !replaces) {
         throw std::runtime_error(fmt::format(
-            "'{}' is there already and was not made by this gallery; --force replaces it", folder.shown(file.file)));
+            "'{}' already exists and was not made by this gallery; --force replaces it", folder.shown(file.file)));
     }
-    // What a link points to is not in the way.
+    // The target of a link is not in the way.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
@@ -132,7 +132,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     }
     for (std::string& line : file.told) line = place.readable(line, file.file);
     const auto made = folder.status(file.file);
-    if (!made) throw std::runtime_error("there is nothing to write");
+    if (!made) throw std::runtime_error("nothing to write");
     file.bytes = static_cast<std::uint64_t>(made->st_size);
     file.content = folder.content_hash(file.file);
     record.add(file);
@@ -164,8 +164,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
-/// The first job for which there is memory and that no other run is making; nullopt when there is nothing more to
-/// begin.
+/// Finds the first job that fits in memory and that no other run is making; nullopt when nothing is left to begin.
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {

@@ -1,4 +1,4 @@
-// cli/gallery_batch.h: the jobs of a gallery, made in parallel within a budget of memory.
+// cli/gallery_batch.h: makes the jobs of a gallery in parallel within a memory budget.
 #pragma once
 
 #include "cli/gallery_forecast.h"
@@ -23,16 +23,17 @@ std::string time_text(double seconds);
 /// `17 kB`, `1.2 GB`.
 std::string bytes_text(double bytes);
 
-/// Why a job cannot be made with so many bytes; empty if it can.
+/// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
 
-/// Gets the path, and where to put what there is to tell.
+/// Receives the output path and a list for its messages.
 using FileMaker = std::function<void(const std::filesystem::path& path, std::vector<std::string>& told)>;
 
-/// Makes a file of the gallery and records it. No other run makes it at the same time: that is the caller's care.
+/// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
 /// @param file  its `file`, `hash` and `job` are known
-/// @param replaces  a file that is there already, even if it is of others: else that is a std::runtime_error. What
-///                  is neither a file nor a folder, such as a link, is removed first
+/// @param replaces  replace an existing file even if it was not made by this gallery; otherwise that is a
+///                  std::runtime_error. Anything that is neither a file nor a folder, such as a link, is removed
+///                  first
 /// @throws what `make` throws; other errors than Interrupted as std::runtime_error
 FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
                               const FileMaker& make);
@@ -52,18 +53,18 @@ struct Failure {
 
 struct BatchOptions {
     int threads = 0;        ///< 0: one for each core
-    bool replaces = false;  ///< files of others, too
-    bool redoes = false;    ///< what another run finished meanwhile is made all the same
+    bool replaces = false;  ///< also replace files not made by this gallery
+    bool redoes = false;    ///< also make jobs that another run finished meanwhile
     bool keep_going = false;
     bool quiet = false;
 };
 
 class BatchProgress;
 
-/// Makes jobs in parallel, within a budget of memory. What another run is making is left for the end, and is finished
-/// then, as a rule. The dearest come first, as what is begun last should end soon; but those that an earlier run
-/// began and did not finish come last, the cheapest of them first, so that runs that are killed again and again get
-/// on.
+/// Makes jobs in parallel within a memory budget. Jobs that another run is making wait until the end, by which time
+/// they are usually finished. The most expensive jobs come first, so that the last ones started end soon; jobs that
+/// an earlier run began and did not finish come last, cheapest first, so that repeatedly killed runs still make
+/// progress.
 class Batch {
 public:
     Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes, const GalleryFolder& folder,

@@ -20,7 +20,7 @@ namespace {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
-/// Says an error that there is no such file, or none for this user?
+/// Does the error mean that the file is missing or not accessible to this user?
 bool is_absent(int error) {
     return error == ENOENT || error == ENOTDIR || error == ELOOP || error == EACCES || error == EPERM;
 }
@@ -32,7 +32,7 @@ std::optional<struct stat> status_at(int folder, const std::string& name) {
     return std::nullopt;
 }
 
-/// Hands what a regular file holds to `take`, block by block; false if it cannot be read.
+/// Passes the contents of a regular file to `take`, block by block; false if it cannot be read.
 template <typename Take>
 bool read_blocks(const Descriptor& descriptor, std::size_t most, const Take& take) {
     if (!descriptor) return false;
@@ -100,7 +100,7 @@ void GalleryFolder::refuse(int folder, const std::string& name, const std::strin
     fail(shown(file), error);
 }
 
-/// The folder that `file` lies in. Without `creates`, no descriptor if it is not there.
+/// Opens the folder that contains `file`. Without `creates`, no descriptor if it is missing.
 Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
     const std::filesystem::path path = file;
     std::filesystem::path so_far;
@@ -111,7 +111,7 @@ Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
         so_far /= part;
         if (part.empty() || part == ".." || part.is_absolute()) {
             if (!creates) return {};
-            throw std::runtime_error(fmt::format("'{}' leads out of the folder of the gallery", shown(file)));
+            throw std::runtime_error(fmt::format("'{}' is outside the gallery folder", shown(file)));
         }
         if (creates && ::mkdirat(folder.get(), part.c_str(), 0777) != 0 && errno != EEXIST) {
             fail(shown(so_far.string()), errno);

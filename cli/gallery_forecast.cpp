@@ -25,8 +25,8 @@ double drawn_symbols(const Grammar& grammar, const Forecast& known) {
     return drawn;
 }
 
-/// Seconds for matching contexts, at most: as if every candidate were compared as a whole at every symbol of the
-/// first word, in every step that looks at neighbours. The budget ends it before that.
+/// Upper bound of the seconds for matching contexts: as if every candidate were compared in full at every symbol of
+/// the first word, in every step with contexts. The budget ends it before that.
 double matching_seconds(const Grammar& grammar, double budget) {
     constexpr double seconds_a_symbol = 2e-9;
     if (grammar.whole_word_steps() == 0) return 0;

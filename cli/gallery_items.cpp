@@ -58,11 +58,11 @@ std::vector<std::string> words_of(const GalleryValue& value, std::string_view ke
     } else if (value.type == GalleryValue::Type::list) {
         for (const GalleryValue& element : value.list) {
             if (element.type != GalleryValue::Type::text)
-                fail(element.place, fmt::format("{}: expected a text", key));
+                fail(element.place, fmt::format("{}: expected a string", key));
             words.push_back(element.text);
         }
     } else {
-        fail(value.place, fmt::format("{}: expected a text or a list of texts", key));
+        fail(value.place, fmt::format("{}: expected a string or a list of strings", key));
     }
     if (words.empty()) fail(value.place, fmt::format("{}: this list is empty", key));
     return words;
@@ -157,7 +157,7 @@ bool next_line(std::istream& stream, std::string& line, const std::string& place
     if (byte == end) return false;
     for (; byte != end && byte != '\n'; byte = buffer.sbumpc()) {
         line += static_cast<char>(byte);
-        if (line.size() > longest_line) fail(place, "this line is over 16 MB");
+        if (line.size() > longest_line) fail(place, "this line is longer than 16 MB");
     }
     return true;
 }
@@ -172,18 +172,18 @@ const std::vector<GalleryKeyFacts>& all_gallery_keys() {
              GalleryKind::whole,
              false},
             {{"variant", "One of the pattern's variants", false, true}, GalleryUse::any, GalleryKind::text, false},
-            {{"budget", "Most nodes of a derivation that are visited", false, true},
+            {{"budget", "Maximum number of derivation nodes visited", false, true},
              GalleryUse::any,
              GalleryKind::number,
              false,
              1},
-            {{"seed", "Of chance", false, true}, GalleryUse::any, GalleryKind::whole, false},
-            {{"size", "Of a print: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT", false, true},
+            {{"seed", "Random seed", false, true}, GalleryUse::any, GalleryKind::whole, false},
+            {{"size", "Page size of a print: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"landscape", "The page lies on its side", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"margin", "On all four sides", false, true}, GalleryUse::print, GalleryKind::text, false},
+            {{"landscape", "Landscape page", true, true}, GalleryUse::print, GalleryKind::flag, false},
+            {{"margin", "Margin on all four sides", false, true}, GalleryUse::print, GalleryKind::text, false},
             {{"fit", "Fill the page within its margins (default)", true, true},
              GalleryUse::print,
              GalleryKind::flag,
@@ -192,20 +192,23 @@ const std::vector<GalleryKeyFacts>& all_gallery_keys() {
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"rotate", "Degrees anticlockwise", false, true}, GalleryUse::print, GalleryKind::number, false},
-            {{"mirror", "Left and right exchanged", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"window", "What of the drawing fills the page: X0,Y0,X1,Y1 in turtle steps", false, true},
+            {{"rotate", "Rotation in degrees anticlockwise", false, true},
+             GalleryUse::print,
+             GalleryKind::number,
+             false},
+            {{"mirror", "Mirror left and right", true, true}, GalleryUse::print, GalleryKind::flag, false},
+            {{"window", "Part of the drawing that fills the page: X0,Y0,X1,Y1 in turtle steps", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"compression", "Of PNG: 1, quick and large, to 9", false, true},
+            {{"compression", "PNG compression, 1 (fast) to 9 (small)", false, true},
              GalleryUse::print,
              GalleryKind::whole,
              false,
              1,
              9},
-            {{"dpi", "Pixels an inch of pictures", false, true}, GalleryUse::print, GalleryKind::number, false},
-            {{"dot-spacing", "Length between two dots of a kolam", false, true},
+            {{"dpi", "Pixels per inch of pictures", false, true}, GalleryUse::print, GalleryKind::number, false},
+            {{"dot-spacing", "Distance between neighbouring dots of a kolam", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
@@ -217,47 +220,61 @@ const std::vector<GalleryKeyFacts>& all_gallery_keys() {
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"animate", "SVG that draws itself in so many seconds", false, true},
+            {{"animate", "SVG that draws itself; duration in seconds", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"plotter", "Nothing twice, few lifts of the pen", true, true},
+            {{"plotter", "Draw nothing twice, with few pen lifts", true, true},
              GalleryUse::print,
              GalleryKind::flag,
              false},
-            {{"split", "Length of the longest stroke of a plot", false, true},
+            {{"split", "Maximum length of a plotted stroke", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"travel", "Show the ways of the lifted pen", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"pen-speed", "Drawing, mm a second", false, true}, GalleryUse::print, GalleryKind::number, false},
-            {{"travel-speed", "Lifted, mm a second", false, true}, GalleryUse::print, GalleryKind::number, false},
-            {{"lift-time", "Seconds for lifting and lowering the pen", false, true},
+            {{"travel", "Show pen-up travel", true, true}, GalleryUse::print, GalleryKind::flag, false},
+            {{"pen-speed", "Drawing speed in mm per second", false, true},
              GalleryUse::print,
              GalleryKind::number,
              false},
-            {{"profile", "Of G-code: grbl or z", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"gcode-start", "Lines before the first stroke", false, true},
+            {{"travel-speed", "Pen-up speed in mm per second", false, true},
+             GalleryUse::print,
+             GalleryKind::number,
+             false},
+            {{"lift-time", "Seconds to lift and lower the pen", false, true},
+             GalleryUse::print,
+             GalleryKind::number,
+             false},
+            {{"profile", "G-code profile: grbl or z", false, true}, GalleryUse::print, GalleryKind::text, false},
+            {{"gcode-start", "G-code lines before the first stroke", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"gcode-end", "Lines after the last", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"bleed", "How far the ground goes on beyond the page", false, true},
+            {{"gcode-end", "G-code lines after the last stroke", false, true},
+             GalleryUse::print,
+             GalleryKind::text,
+             false},
+            {{"bleed", "How far the ground extends beyond the page", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
             {{"marks", "Crop marks; PDF", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"spot", "NAME=COLOUR: an ink of its own; PDF", false, true},
+            {{"spot", "Spot ink, NAME=COLOUR; PDF", false, true}, GalleryUse::print, GalleryKind::text, false},
+            {{"cmyk", "ICC profile of the CMYK inks; TIFF", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"cmyk", "Inks by this ICC profile; TIFF", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"bits", "A channel: 8, or 1; TIFF", false, true}, GalleryUse::print, GalleryKind::whole, false, 1, 8},
-            {{"screen", "Of one bit: threshold, diffusion, halftone or halftone,LPI", false, true},
+            {{"bits", "Bits per channel: 8 or 1 (TIFF)", false, true},
+             GalleryUse::print,
+             GalleryKind::whole,
+             false,
+             1,
+             8},
+            {{"screen", "Screening for 1 bit: threshold, diffusion, halftone or halftone,LPI", false, true},
              GalleryUse::print,
              GalleryKind::text,
              false},
-            {{"no-icc", "Pictures without the ICC profile of their colours", true, true},
+            {{"no-icc", "Omit the ICC colour profile from pictures", true, true},
              GalleryUse::print,
              GalleryKind::flag,
              false},
@@ -271,26 +288,24 @@ const std::vector<GalleryKeyFacts>& all_gallery_keys() {
             {{"turn", "", false, false}, GalleryUse::any, GalleryKind::text, true},
             {{"scale-factor", "", false, false}, GalleryUse::print, GalleryKind::text, true},
         };
-        for (const std::string_view key : keys_of(KeyOwner::art)) {
-            list.push_back({{std::string(key), "As the key of patterns", false, true},
-                            GalleryUse::print,
+        for (const KeyInfo& key : language_keys()) {
+            if (key.owner == KeyOwner::engine) continue;
+            const bool is_art = key.owner == KeyOwner::art;
+            list.push_back({{std::string(key.name), std::string(key.help), false, true},
+                            is_art ? GalleryUse::print : GalleryUse::score,
                             GalleryKind::text,
-                            true});
-        }
-        for (const std::string_view key : keys_of(KeyOwner::music)) {
-            list.push_back(
-                {{std::string(key), "As of `sikku play`", false, true}, GalleryUse::score, GalleryKind::text, false});
+                            is_art});
         }
         const std::vector<GalleryKeyFacts> of_play = {
-            {{"from-bar", "Begin at this bar", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
-            {{"bars", "So many bars", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
-            {{"seconds", "At most so long", false, true}, GalleryUse::score, GalleryKind::number, false},
-            {{"transpose", "Semitones", false, true}, GalleryUse::score, GalleryKind::number, false},
-            {{"humanise", "0 to 1: how far from exact a player is", false, true},
+            {{"from-bar", "First bar", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
+            {{"bars", "Number of bars", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
+            {{"seconds", "Maximum length in seconds", false, true}, GalleryUse::score, GalleryKind::number, false},
+            {{"transpose", "Transposition in semitones", false, true}, GalleryUse::score, GalleryKind::number, false},
+            {{"humanise", "Deviation from exact playing, 0 to 1", false, true},
              GalleryUse::score,
              GalleryKind::number,
              false},
-            {{"midi-format", "1, a track for each voice, or 0", false, true},
+            {{"midi-format", "MIDI format: 1 (a track for each voice) or 0", false, true},
              GalleryUse::score,
              GalleryKind::whole,
              false},
@@ -364,10 +379,10 @@ void GalleryItem::take(Axis axis) {
 void GalleryItems::add(GalleryItem item) {
     settings_ += item.axes.size();
     if (static_cast<double>(list.size()) + 1 > most_gallery_jobs) {
-        fail(item.place, fmt::format("too many items: at most {:.0f} jobs are made at a time", most_gallery_jobs));
+        fail(item.place, fmt::format("too many items: at most {:.0f} jobs in one run", most_gallery_jobs));
     }
     if (settings_ > most_settings) {
-        fail(item.place, fmt::format("too many settings: all items together have at most {}", most_settings));
+        fail(item.place, fmt::format("too many settings: at most {} in all items together", most_settings));
     }
     list.push_back(std::move(item));
 }
@@ -397,7 +412,7 @@ void read_gallery_key(const std::string& written, const GalleryValue& value, Gal
     } else if (key == "format") {
         item.formats = read_formats(words_of(value, key), value.place);
     } else if (key == "name") {
-        if (value.type != GalleryValue::Type::text) fail(value.place, "name: expected a text");
+        if (value.type != GalleryValue::Type::text) fail(value.place, "name: expected a string");
         if (value.text.size() > longest_job_name) {
             fail(value.place, fmt::format("name: '{}' is too long: at most {} bytes", printable(value.text, 80),
                                           longest_job_name));
@@ -444,7 +459,7 @@ void read_gallery(const std::string& file, const std::string& text, GalleryItem&
         if (key == "item") {
             listed = &value;
         } else if (key == "title") {
-            if (value.type != GalleryValue::Type::text) fail(value.place, "title: expected a text");
+            if (value.type != GalleryValue::Type::text) fail(value.place, "title: expected a string");
             if (request.title.empty()) request.title = value.text;
         } else if (key == "poster" || key == "contact") {
             if (value.type != GalleryValue::Type::text)
@@ -459,11 +474,12 @@ void read_gallery(const std::string& file, const std::string& text, GalleryItem&
         }
     }
     if (!listed) return;
-    if (listed->type != GalleryValue::Type::list) fail(listed->place, "item: write it as [[item]], one for each");
+    if (listed->type != GalleryValue::Type::list)
+        fail(listed->place, "item: expected one [[item]] table for each item");
     if (listed->list.empty()) fail(listed->place, "item: this list is empty");
     for (const GalleryValue& element : listed->list) {
         if (element.type != GalleryValue::Type::table)
-            fail(element.place, "item: write it as [[item]], one for each");
+            fail(element.place, "item: expected one [[item]] table for each item");
         GalleryItem item = defaults;
         item.place = element.place;
         item.needs_pattern = true;

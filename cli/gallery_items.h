@@ -1,5 +1,5 @@
-// cli/gallery_items.h: what a gallery file, a manifest and the command line ask for together: items, each a list of
-// patterns and formats and keys with the values that they take one after the other. Nothing is expanded yet.
+// cli/gallery_items.h: the requests of a gallery file, a manifest and the command line as items: each a list of
+// patterns, formats, and keys with the values they take in turn. Nothing is expanded yet.
 #pragma once
 
 #include "cli/gallery_jobs.h"
@@ -20,7 +20,7 @@ namespace sikku {
 enum class GalleryUse { any, print, score };
 enum class GalleryKind { text, number, whole, flag };
 
-/// What is known about a key of gallery files.
+/// Properties of a gallery key.
 struct GalleryKeyFacts {
     GalleryKey shown;
     GalleryUse use = GalleryUse::any;
@@ -30,7 +30,7 @@ struct GalleryKeyFacts {
     double most = 1e300;
 };
 const std::vector<GalleryKeyFacts>& all_gallery_keys();
-/// Null if there is none of that name.
+/// Null if the name is unknown.
 const GalleryKeyFacts* find_gallery_key(std::string_view name);
 /// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
 std::string folded_key(std::string key);
@@ -46,8 +46,7 @@ struct GalleryRange {
     std::string value(std::uint64_t index) const;
 };
 
-/// A key and the values it takes one after the other. Ranges are kept as they are written, so that memory is linear
-/// in the file.
+/// A key and the values it takes in turn. Ranges are stored unexpanded, so memory is linear in the file.
 class GalleryAxis {
 public:
     GalleryAxis(std::string its_key, std::string its_place, bool is_in_set)
@@ -80,28 +79,28 @@ private:
     double count_ = 0;
 };
 
-/// What is asked for together. Copies share the values, which may be many.
+/// Settings requested together. Copies share the values, which may be many.
 struct GalleryItem {
     using Axis = std::shared_ptr<const GalleryAxis>;
     std::string place;
     bool needs_pattern = false;
     std::filesystem::path folder;
-    std::shared_ptr<const std::vector<std::string>> patterns;  ///< null: those that are bundled
+    std::shared_ptr<const std::vector<std::string>> patterns;  ///< null: the bundled ones
     std::string patterns_place;
     std::vector<std::string> formats;
-    std::shared_ptr<const std::string> name;  ///< with placeholders; null: as usual
+    std::shared_ptr<const std::string> name;  ///< with placeholders; null: the default form
     std::string name_place;
     std::vector<Axis> axes;
 
     void drop(std::string_view key);
-    /// Takes the place of one of the same key.
+    /// Replaces an axis of the same key.
     void take(Axis axis);
 };
 
-/// A list of items, counted while it grows: each makes one job at least.
+/// A list of items, counted as it grows: each makes at least one job.
 class GalleryItems {
 public:
-    /// @throws UsageError if they, or the settings of all of them, are too many
+    /// @throws UsageError if there are too many items, or too many settings in all of them
     void add(GalleryItem item);
     std::vector<GalleryItem> list;
 
@@ -109,15 +108,15 @@ private:
     std::size_t settings_ = 0;
 };
 
-/// A longer name, or form of one, is refused.
+/// Longest name, or form of a name; longer ones are rejected.
 constexpr std::size_t longest_job_name = 1000;
 
-/// Sets a key of an item to what a file says. @throws UsageError
+/// Sets a key of an item to the value in a file. @throws UsageError
 void read_gallery_key(const std::string& written, const GalleryValue& value, GalleryItem& item);
 /// The axis of a key; of one of the pattern's own where `facts` is null. @throws UsageError
 GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKeyFacts* facts);
 
-/// @throws UsageError if that is not the size of a sheet
+/// @throws UsageError if the value is not a sheet size
 void check_sheet_size(const std::string& key, const std::string& size, const std::string& place);
 
 /// The defaults go into `defaults`; title and sizes of sheets into `request`, unless it has them already.

@@ -5,6 +5,7 @@
 #include "cli/gallery_summary.h"
 #include "cli/gallery_values.h"
 
+#include "art/input_file.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>
@@ -16,12 +17,21 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <unordered_map>
 
 namespace sikku {
 namespace {
+
+/// Would a file or folder of that path stand where galleries keep their records?
+bool is_record(const std::string& name, const std::string& file) {
+    const std::string first = (name.find('/') == std::string::npos ? file : name).substr(0, name.find('/'));
+    return first.starts_with("gallery") && first.ends_with(".jsonl");
+}
 
 /// As part of a file's name.
 std::string name_part(std::string_view value) {
@@ -46,7 +56,7 @@ PatternOptions pattern_options(const GalleryJob& job);
 class Compilations {
 public:
     struct Result {
-        std::string problem;  ///< why it cannot be compiled; empty: it can
+        std::string problem;  ///< reason why it cannot be compiled; empty: it can
         std::string steps;    ///< else the derivation length
     };
 
@@ -55,7 +65,7 @@ public:
         std::string key = fmt::format("{}", static_cast<const void*>(job.pattern.get()));
         const auto add = [&](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
         for (const char* name : {"variant", "n"}) add(job.keys.contains(name) ? job.keys.at(name) : "");
-        // Any seed of up to 18 digits will do.
+        // Any seed of up to 18 digits works.
         const auto seed = job.keys.find("seed");
         add(seed != job.keys.end() && seed->second.size() > 18 ? seed->second : "");
         for (const auto& [name, value] : job.overrides) {
@@ -79,7 +89,7 @@ private:
         } catch (const std::runtime_error& error) {
             std::string message = error.what();
             while (message.ends_with('\n')) message.pop_back();
-            return {message.empty() ? "this does not go with the pattern" : message, ""};
+            return {message.empty() ? "the pattern does not accept this setting" : message, ""};
         }
     }
 
@@ -95,7 +105,7 @@ struct Choice {
     bool is_flag = false;  ///< false is as good as absent
 };
 
-/// The form of a name, `{pattern}-n{n}`, cut at its placeholders.
+/// A name template, `{pattern}-n{n}`, split at its placeholders.
 class NameForm {
 public:
     struct Piece {
@@ -129,7 +139,7 @@ public:
         for (const GalleryItem& item : items_) patterns_.push_back(patterns_of(item));
     }
 
-    /// Counts the jobs of all items before anything is written out. Time: linear in the keys of all items.
+    /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items.
     /// @throws UsageError if they are too many
     void require_few() const {
         double sum = 0;
@@ -147,14 +157,14 @@ public:
             }
             if (sum > most_gallery_jobs) {
                 fail(items_[i].place,
-                     fmt::format("this would make {} jobs; at most {:.0f} are made at a time",
+                     fmt::format("this would make {} jobs; at most {:.0f} fit in one run",
                                  sum < 1e15 ? fmt::format("{:.0f}", sum) : fmt::format("{:.0e}", sum),
                                  most_gallery_jobs));
             }
             if (settings > most_gallery_settings) {
                 fail(items_[i].place,
-                     fmt::format("this would make jobs with {:.0f} settings together; at most {:.0f}", settings,
-                                 most_gallery_settings));
+                     fmt::format("this would make jobs with {:.0f} settings in total; at most {:.0f} are allowed",
+                                 settings, most_gallery_settings));
             }
         }
     }
@@ -288,8 +298,8 @@ private:
         }
     }
 
-    /// Does the pattern compile with what the job sets? If not, the first setting is blamed that spoils it; found by
-    /// halving, as there may be many. A pattern that has mistakes by itself is left to its jobs.
+    /// Does the pattern compile with the settings of the job? If not, the first setting that breaks it is reported;
+    /// found by bisection, as there may be many. A pattern with errors of its own is left to its jobs.
     void check_pattern(const GalleryItem& item, const GalleryJob& job, const std::vector<Choice>& choices,
                        const std::vector<std::uint64_t>& at) {
         if (!job.pattern->text) return;
@@ -351,7 +361,8 @@ private:
         // Parts of a path that are empty, hidden, or lead elsewhere.
         const std::string path = "/" + name + "/";
         if (name.empty() || path.find("//") != std::string::npos || path.find("/.") != std::string::npos ||
-            is_summary(file) || has_controls || !fits_xml(name) || file.size() > longest_job_name) {
+            is_summary(file) || is_record(name, file) || has_controls || !fits_xml(name) ||
+            file.size() > longest_job_name) {
             fail(item.name_place.empty() ? item.place : item.name_place,
                  fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
         }
@@ -368,7 +379,7 @@ private:
             const GalleryAxis& axis = *choices[i].axis;
             if (axis.key == key || axis.key == written) return axis.value(at[i]);
         }
-        // The pattern's own, with what the job changes in it; if there is none, the job itself tells why.
+        // The pattern's own value, with the changes of the job; if it has none, the job itself reports why.
         if (key == "n") return job.pattern->text ? compilations_.of(job).steps : "";
         for (const GalleryItem::Axis& axis : item.axes) {
             if (axis->key == key || axis->key == written) return axis->value(0);
@@ -378,8 +389,8 @@ private:
         for (const GalleryItem::Axis& axis : item.axes) known.push_back(axis->key);
         const std::string_view near = nearest(written, known);
         known.resize(std::min<std::size_t>(known.size(), 50));
-        fail(item.name_place, fmt::format("name: nobody knows {{{}}}{}", printable(written, 80),
-                                          near.empty() ? fmt::format("; there are {}", fmt::join(known, ", "))
+        fail(item.name_place, fmt::format("name: unknown placeholder {{{}}}{}", printable(written, 80),
+                                          near.empty() ? fmt::format("; expected {}", fmt::join(known, ", "))
                                                        : fmt::format("; did you mean {{{}}}?", near)));
     }
 
@@ -549,6 +560,29 @@ std::string GalleryJob::text() const {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+namespace {
+
+/// The hash of an ICC profile, computed once in a run; empty if it cannot be read, which the print itself reports.
+std::string profile_digits(const std::filesystem::path& file) {
+    static std::mutex mutex;
+    static std::map<std::filesystem::path, std::string> known;
+    const std::lock_guard guard(mutex);
+    const auto [entry, is_new] = known.try_emplace(file);
+    if (!is_new) return entry->second;
+    constexpr std::uint64_t largest_profile = 16 << 20;
+    try {
+        const InputFile profile(file);
+        if (profile.size() > largest_profile) return {};
+        TextHash hash;
+        hash.add(profile.read(0, profile.size()));
+        entry->second = hash.digits();
+    } catch (const std::system_error&) {
+    }
+    return entry->second;
+}
+
+}  // namespace
+
 std::string GalleryJob::hash() const {
     TextHash hash;
     hash.add_piece(SIKKU_VERSION);
@@ -564,18 +598,8 @@ std::string GalleryJob::hash() const {
         hash.add_piece(key);
         hash.add_piece(value);
     }
-    if (keys.contains("cmyk")) {
-        // It may change and keep its name. What is not a profile the print itself reports.
-        constexpr std::uintmax_t largest_profile = 64 << 20;
-        const std::filesystem::path file = folder / keys.at("cmyk");
-        std::error_code error;
-        std::ifstream profile;
-        if (std::filesystem::is_regular_file(file, error) &&
-            std::filesystem::file_size(file, error) <= largest_profile) {
-            profile.open(file, std::ios::binary);
-        }
-        hash.add_piece(std::string(std::istreambuf_iterator<char>(profile), std::istreambuf_iterator<char>()));
-    }
+    // The file may change and keep its name.
+    if (keys.contains("cmyk")) hash.add_piece(profile_digits(folder / keys.at("cmyk")));
     if (is_score() && pattern->text) {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {

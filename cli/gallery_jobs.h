@@ -59,18 +59,18 @@ struct GalleryRequest {
     std::vector<std::string> patterns;  ///< names, globs, folders, files
     std::string gallery_file;
     std::string manifest;
-    std::optional<std::string> gallery_text;   ///< instead of reading the gallery file; its name is for messages
+    std::optional<std::string> gallery_text;   ///< replaces the gallery file, whose name is for messages
     std::optional<std::string> manifest_text;  ///< likewise
-    bool bundled_only = false;                 ///< patterns are not looked for in files
-    std::map<std::string, std::string> keys;   ///< these go before what the files say
+    bool bundled_only = false;                 ///< do not search files for patterns
+    std::map<std::string, std::string> keys;   ///< these override the files
     std::vector<std::string> overrides;        ///< KEY=VALUE
-    std::string poster, contact;               ///< sizes of sheets; where empty, the gallery file's are filled in
-    std::string title;                         ///< of the page; where empty, the gallery file's, or what it shows
+    std::string poster, contact;               ///< sizes of sheets; empty: taken from the gallery file
+    std::string title;                         ///< of the page; empty: from the gallery file, or its contents
 };
 
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
-/// @throws UsageError with file, line and column for every mistake that can be seen before a pattern is compiled;
+/// @throws UsageError with file, line and column for every error that can be detected before a pattern is compiled;
 /// Interrupted
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request);
 

@@ -18,7 +18,7 @@ namespace {
 const std::string lock_name = ".gallery.lock";
 constexpr std::string_view line_start = "sikku gallery ";
 
-// Bytes that are locked. Files of the gallery have theirs from `first_file` on.
+// Locked bytes. Gallery files use those from `first_file` on.
 constexpr std::int64_t presence = 0;  // shared by all runs
 constexpr std::int64_t turn = 1;      // for records
 constexpr std::int64_t first_file = 2;
@@ -29,7 +29,7 @@ std::int64_t byte_of(const std::string& file) {
     return first_file + std::stoll(hash.digits().substr(0, 15), nullptr, 16);
 }
 
-/// Who is at work, for whoever looks into the file.
+/// Identifies the running process to readers of the file.
 std::string own_line() {
     std::array<char, HOST_NAME_MAX + 1> host{};
     ::gethostname(host.data(), host.size() - 1);
@@ -44,7 +44,7 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
         const std::string held = folder_.read(lock_name, line_start.size());
         if (!line_start.starts_with(held)) {
             throw std::runtime_error(
-                fmt::format("'{}' is there already and was not made by a gallery", folder_.shown(lock_name)));
+                fmt::format("'{}' already exists and was not made by a gallery", folder_.shown(lock_name)));
         }
         if (lock(F_RDLCK, presence, true) == Result::unsupported) {
             file_.close();
@@ -54,13 +54,13 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
         // The last run may just have removed it.
     } while (!is_named());
     const std::string line = own_line();
-    // On a disk that is full others see this run by its lock alone.
+    // On a full disk, other runs see this run only by its lock.
     [[maybe_unused]] const ssize_t written = ::write(file_.get(), line.data(), line.size());
 }
 
 GalleryLocks::~GalleryLocks() {
     if (!file_) return;
-    // One after the other, so that one of two runs that end at a time sees that it is the last.
+    // In turn, so that of two runs ending at the same time one sees that it is the last.
     lock(F_WRLCK, turn, true);
     if (lock(F_WRLCK, presence, false) == Result::locked) {
         try {

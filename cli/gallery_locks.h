@@ -1,4 +1,4 @@
-// cli/gallery_locks.h: which file of a gallery a run is making just now, seen by all runs in the folder.
+// cli/gallery_locks.h: locks that show all runs in a folder which gallery files are being made.
 #pragma once
 
 #include "cli/gallery_folder.h"
@@ -8,32 +8,32 @@
 
 namespace sikku {
 
-/// Locks of the runs that are at work in a folder, whole ones, shards and restarts alike. They are locks on bytes of
-/// the file `.gallery.lock` (a line in it for each run: host and process), which the last run removes. The system
-/// drops the locks of a process that ends, however it ends; so a file whose lock is free has no living owner, and
-/// what is left unfinished of it may be removed. Network file systems pass the locks on to other hosts; where there
-/// are no locks at all nothing is known of other runs.
+/// Locks of the runs working in a folder: whole runs, shards and restarts alike. They lock bytes of the file
+/// `.gallery.lock` (one line per run: host and process), which the last run removes. The system drops the locks of a
+/// process however it ends, so a file whose lock is free has no living owner, and its unfinished remains may be
+/// removed. Network file systems pass the locks on to other hosts; without lock support, other runs cannot be
+/// detected.
 class GalleryLocks {
 public:
-    /// @throws std::runtime_error if the file cannot be written or is not what it should be
+    /// @throws std::runtime_error if the file cannot be written or has the wrong type or contents
     explicit GalleryLocks(const GalleryFolder& folder);
     ~GalleryLocks();
     GalleryLocks(const GalleryLocks&) = delete;
     GalleryLocks& operator=(const GalleryLocks&) = delete;
 
-    /// Does the file system have locks?
+    /// Does the file system support locks?
     bool work() const { return static_cast<bool>(file_); }
     /// Locks a file of the gallery; false if another run has it. Without locks, always true.
     bool take(const std::string& file);
     void release(const std::string& file);
 
-    /// Is another run at work? Without locks that is not known, and true.
+    /// Is another run active? Without locks this is unknown, and the result is true.
     bool others_present() const;
-    /// Grows when a run begins. Without locks, with each call.
+    /// Counter that grows when a run begins; without locks, with each call.
     std::uint64_t arrivals();
 
-    /// While it lives no other run writes records anew, and, if it is exclusive, none reads them either. Waits for
-    /// its turn. One at a time in a process.
+    /// While it exists, no other run rewrites records and, if it is exclusive, none reads them either. Waits for its
+    /// turn. One at a time in a process.
     class Turn {
     public:
         Turn(GalleryLocks& locks, bool exclusive);

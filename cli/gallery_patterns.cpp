@@ -20,7 +20,7 @@ bool has_wildcards(std::string_view word) {
     return word.find_first_of("*?[") != std::string_view::npos;
 }
 
-/// The place after the set `[…]` that begins at `at`; npos if it does not end. `fits`: is the byte one of it?
+/// Position after the set `[…]` that begins at `at`; npos if it does not end. `fits`: does the set contain the byte?
 std::size_t read_set(std::string_view form, std::size_t at, char byte, bool& fits) {
     const bool is_not = at + 1 < form.size() && (form[at + 1] == '!' || form[at + 1] == '^');
     std::size_t i = at + (is_not ? 2 : 1);
@@ -43,7 +43,7 @@ std::size_t read_set(std::string_view form, std::size_t at, char byte, bool& fit
     return i + 1;
 }
 
-/// The place after what stands for one byte at `at`, if that byte fits; npos if it does not.
+/// Position after the element for one byte at `at` if that byte matches; npos otherwise.
 std::size_t fit_one(std::string_view form, std::size_t at, char byte) {
     if (form[at] == '?') return at + 1;
     if (form[at] == '[') {
@@ -55,8 +55,8 @@ std::size_t fit_one(std::string_view form, std::size_t at, char byte) {
     return form[at] == byte ? at + 1 : std::string_view::npos;
 }
 
-/// Follows a path with wildcards from folder to folder. Folders that are reached in several ways are entered once,
-/// so that `*/../*/..` costs no more than `*`.
+/// Follows a path with wildcards from folder to folder. Folders reachable in several ways are entered once, so
+/// `*/../*/..` costs no more than `*`.
 class Walk {
 public:
     Walk(std::size_t& entries, const std::string& place) : entries_(entries), place_(place) {}
@@ -82,7 +82,9 @@ public:
         for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
              entry.increment(error)) {
             count();
-            if (entry->path().extension() == ".lsys") files.push_back(entry->path());
+            std::error_code unknown;
+            if (entry->path().extension() == ".lsys" && entry->is_regular_file(unknown))
+                files.push_back(entry->path());
         }
         if (error) fail(place_, fmt::format("{}: {}", folder.string(), error.message()));
         std::sort(files.begin(), files.end());
@@ -93,7 +95,7 @@ private:
     void count() {
         if (++entries_ % 256 == 0 && interrupted()) throw Interrupted();
         if (entries_ > most_entries) {
-            fail(place_, fmt::format("more than {} files and folders would be looked through", most_entries));
+            fail(place_, fmt::format("too many files and folders to search: at most {}", most_entries));
         }
     }
 
@@ -105,7 +107,9 @@ private:
             count();
             struct stat status {};
             if (is_last && path.extension() != ".lsys") return;
-            if (::stat(path.c_str(), &status) != 0 || (!is_last && !S_ISDIR(status.st_mode))) return;
+            if (::stat(path.c_str(), &status) != 0) return;
+            // A named pipe would wait for its writer.
+            if (is_last ? !S_ISREG(status.st_mode) : !S_ISDIR(status.st_mode)) return;
             if (is_last || seen.emplace(status.st_dev, status.st_ino).second) reached.push_back(path);
         };
         for (const auto& folder : folders) {
@@ -148,7 +152,7 @@ bool fits_wildcards(std::string_view form, std::string_view name) {
     constexpr std::size_t none = std::string_view::npos;
     std::size_t at = 0;
     std::size_t i = 0;
-    // The last star and what it stands for: earlier ones need not be tried again.
+    // The last star and the bytes it matches: earlier stars need not be retried.
     std::size_t star = none;
     std::size_t star_end = 0;
     while (i < name.size()) {
@@ -196,7 +200,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     if (list) return list;
     if (interrupted()) throw Interrupted();
     if (word == "-") fail(place, "a gallery reads no pattern from standard input");
-    if (word.size() > longest_word) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    if (word.size() > longest_word) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     bool is_folder = false;
     std::vector<Pointer> found = find_files(word, folder, place, is_folder);
     if (found.empty()) {
@@ -213,8 +217,8 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
         list = std::make_shared<const std::vector<Pointer>>(std::move(found));
         return list;
     }
-    if (is_folder) fail(place, fmt::format("{}: there is no pattern in this folder", (folder / word).string()));
-    if (has_wildcards(word)) fail(place, fmt::format("no pattern fits '{}'", printable(word, 80)));
+    if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
+    if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     std::vector<std::string_view> names;
     for (const LibraryPattern& pattern : known()) names.push_back(pattern.name);
     const std::string_view near = nearest(word, names);
@@ -248,7 +252,7 @@ PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, cons
     } catch (const UsageError& error) {
         pattern.problem = error.what();
     }
-    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery are over 1 GB together");
+    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery exceed 1 GB in total");
     known = std::make_shared<const GalleryPattern>(std::move(pattern));
     return known;
 }

@@ -23,22 +23,23 @@ struct GalleryPattern {
     std::string problem;                      ///< then: why
 };
 
-/// Does the whole of `name` fit `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]` for one
-/// that is listed or is not, and `\` takes the next byte literally? Time: at most the product of both lengths.
+/// Does the whole of `name` match `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]` for
+/// one that is listed or not listed, and `\` takes the next byte literally? Time: at most the product of both
+/// lengths.
 bool fits_wildcards(std::string_view form, std::string_view name);
 
-/// Finds patterns and reads each once. At most a million folder entries are looked through, and at most 1 GB is read.
+/// Finds patterns and reads each once. Searches at most a million folder entries and reads at most 1 GB.
 class PatternShelf {
 public:
     using Pointer = std::shared_ptr<const GalleryPattern>;
     using List = std::shared_ptr<const std::vector<Pointer>>;
 
-    /// @param bundled_only  files are not looked for
+    /// @param bundled_only  do not search files
     explicit PatternShelf(bool bundled_only) : bundled_only_(bundled_only) {}
 
-    /// @throws UsageError if there is none, or there is too much to look through; Interrupted
+    /// @throws UsageError if none is found, or there are too many entries to search; Interrupted
     List find(const std::string& word, const std::filesystem::path& folder, const std::string& place);
-    /// All that are bundled and draw.
+    /// All bundled patterns that draw something.
     List all();
 
 private:
@@ -53,7 +54,7 @@ private:
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;
     std::size_t bytes_ = 0;    // of all texts
-    std::size_t entries_ = 0;  // of folders looked through
+    std::size_t entries_ = 0;  // of folders searched
 };
 
 }  // namespace sikku

@@ -97,12 +97,9 @@ RecordText read_record(const std::string& text) {
 
 /// What OutputFile adds to a name until the file is whole: `.NAME.abc234.tmp`, and of sound another such behind it.
 /// Long names are cut to 200 bytes, not inside of a character.
-bool is_unfinished(const std::string& name, std::string target) {
-    if (target.size() > 200) {
-        std::size_t end = 200;
-        while (end > 0 && (static_cast<unsigned char>(target[end]) & 0xC0) == 0x80) --end;
-        target.resize(end);
-    }
+bool is_unfinished(const std::string& name, const std::string& target) {
+    // A cut name may be that of several files, of which another may be under way.
+    if (target.size() > 200) return false;
     std::string_view rest = name;
     const auto take = [&](std::string_view piece) {
         if (!rest.starts_with(piece)) return false;
@@ -122,9 +119,13 @@ bool is_unfinished(const std::string& name, std::string target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
-/// What an open file holds from a byte on.
+/// Contents of an open file from a byte on, up to 1 MB without a line feed: no line of a record is that long.
+/// @throws std::runtime_error for over 1 GB
 std::string read_from(const Descriptor& file, off_t from) {
+    constexpr std::size_t longest_line = std::size_t{1} << 20;
+    constexpr std::size_t most_bytes = std::size_t{1} << 30;
     std::string text;
+    std::size_t line_begin = 0;
     std::vector<char> block(std::size_t{1} << 16);
     while (true) {
         const ssize_t got = ::pread(file.get(), block.data(), block.size(), from + static_cast<off_t>(text.size()));
@@ -132,6 +133,10 @@ std::string read_from(const Descriptor& file, off_t from) {
         if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read the record of a gallery");
         if (got == 0) return text;
         text.append(block.data(), static_cast<std::size_t>(got));
+        const std::size_t line_end = text.rfind('\n');
+        if (line_end != std::string::npos) line_begin = line_end + 1;
+        if (text.size() - line_begin > longest_line) return text;
+        if (text.size() > most_bytes) throw std::runtime_error("the record of a gallery exceeds 1 GB");
     }
 }
 
@@ -165,8 +170,8 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
     const GalleryLocks::Turn turn(locks_, false);
     const RecordText own = read_record(read_from(descriptor_, 0));
     if (!own.is_ours && !replaces) {
-        throw std::runtime_error(fmt::format(
-            "'{}' is there already and was not made by a gallery; --force replaces it", folder_.shown(name_)));
+        throw std::runtime_error(fmt::format("'{}' already exists and was not made by a gallery; --force replaces it",
+                                             folder_.shown(name_)));
     }
     // What is appended begins on a line of its own.
     if (own.is_cut) append("\n", false);
@@ -196,6 +201,7 @@ Descriptor GalleryRecord::open(const std::function<void()>& waiting) const {
             opened.st_dev == named->st_dev) {
             return record;
         }
+        waiting();
     }
 }
 
@@ -208,19 +214,20 @@ std::vector<std::string> GalleryRecord::others() const {
     return files;
 }
 
-/// Is the file still the one that was read, and not another with the same number?
+/// Is this still the file that was read, and not another one with the same number?
 bool GalleryRecord::continues(const Descriptor& record, const Reading& reading) {
     std::string end(reading.end.size(), '\0');
     const off_t at = reading.bytes - static_cast<off_t>(end.size());
-    return ::pread(record.get(), end.data(), end.size(), at) == static_cast<ssize_t>(end.size()) && end == reading.end;
+    return ::pread(record.get(), end.data(), end.size(), at) == static_cast<ssize_t>(end.size()) &&
+           end == reading.end;
 }
 
-/// Takes in what the records of others hold beyond what was read of them.
+/// Reads the unread parts of the records of other runs.
 void GalleryRecord::read_others() {
     for (auto& [file, reading] : others_) {
         const Descriptor record = folder_.open(file);
         struct stat status {};
-        // It may be gone: then its lines stand in the record of the whole.
+        // It may be gone: its lines are then in the record of the whole gallery.
         if (!record || ::fstat(record.get(), &status) != 0) continue;
         if (status.st_ino != reading.inode || status.st_size < reading.bytes || !continues(record, reading)) {
             reading = {status.st_ino, 0, {}};
@@ -264,12 +271,12 @@ void GalleryRecord::refresh() {
     read_others();
 }
 
-/// Removes what is left unfinished of the files in `left_`; those that another run is making stay there.
+/// Removes the unfinished remains of the files in `left_`, except those that another run is making.
 void GalleryRecord::remove_left() {
     std::map<std::string, std::vector<std::string>> by_folder;
     for (const std::string& file : left_) by_folder[folder_of(file)].push_back(file);
     left_.clear();
-    // Nothing then tells whether its owner lives.
+    // Without locks it is unknown whether the owner is still running.
     if (!locks_.work()) return;
     for (const auto& [below, files] : by_folder) {
         for (const std::string& name : folder_.names(below)) {
@@ -353,12 +360,12 @@ void GalleryRecord::claim(const std::string& file) {
 }
 
 void GalleryRecord::add(const FinishedJob& job) {
-    // OutputFile has synchronised the file: what the record says of it holds whatever happens.
+    // OutputFile has synchronised the file: the record stays correct in any case.
     const std::lock_guard guard(mutex_);
     append(job.line(), true);
 }
 
-/// Locks the records of shards that no run is at work on, and takes in what they hold by now.
+/// Locks the shard records that no run is using and reads their current contents.
 std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
     std::vector<Left> shards;
     for (const std::string& file : others()) {
@@ -369,7 +376,7 @@ std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
         } catch (const std::runtime_error&) {
             continue;
         }
-        // Where there are no locks, one that has nothing under way.
+        // Without locks: a record with nothing in progress.
         const bool is_locked = ::flock(shard.descriptor.get(), LOCK_EX | LOCK_NB) == 0;
         if (!is_locked && errno == EWOULDBLOCK) continue;
         const RecordText record = read_record(read_from(shard.descriptor, 0));
@@ -382,7 +389,7 @@ std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
     return shards;
 }
 
-/// Does the record of the whole say the same of all these files?
+/// Does the record of the whole gallery agree on all these files?
 bool GalleryRecord::is_in_the_whole(const std::vector<FinishedJob>& jobs) const {
     if (!folder_.open(std::string(whole_name))) return false;
     const RecordText whole = read_record(folder_.read(std::string(whole_name)));
@@ -422,7 +429,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
         replace(text);
     }
     for (const Left& shard : shards) folder_.remove(shard.name);
-    // Before another run's turn comes, which may then take it over.
+    // Before the turn of another run, which may take it over.
     descriptor_.close();
 }
 

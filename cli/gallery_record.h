@@ -29,17 +29,16 @@ struct FinishedJob {
 
 struct RecordText;
 
-/// The records of a folder. Each run appends to one file, `gallery.jsonl` or that of its shard, and reads those of
-/// all, anew where others are at work at the same time. Before a file is made it is locked against all other runs and
-/// its name is claimed in the record, so that what a killed run leaves is known as the gallery's own. Lines that are
-/// torn, as the last of a killed run may be, count for nothing. May be used from several threads.
+/// The records of a folder. Each run appends to one file, `gallery.jsonl` or that of its shard, and reads all of
+/// them, again whenever other runs are active. Before a file is made, it is locked against all other runs and its
+/// name is claimed in the record, so that the remains of a killed run are recognised as the gallery's own. Torn
+/// lines, such as the last line of a killed run, are ignored. May be used from several threads.
 class GalleryRecord {
 public:
-    /// Locks the record against other runs of the same shard and removes what a killed run left unfinished.
+    /// Locks the record against other runs of the same shard and removes the unfinished files of killed runs.
     /// @param name      of the file of this run, in the folder
-    /// @param replaces  also a file of that name that others made, which is an error otherwise
-    /// @param waiting   called ten times a second while another run of the same shard is at work; may throw to give
-    /// up
+    /// @param replaces  replace a file of that name not made by a gallery, which is an error otherwise
+    /// @param waiting   called ten times a second while another run of the same shard is active; may throw to give up
     /// @throws std::runtime_error if the folder or the record cannot be written, or if it is a link
     GalleryRecord(const GalleryFolder& folder, std::string name, bool replaces, const std::function<void()>& waiting);
     GalleryRecord(const GalleryRecord&) = delete;
@@ -52,39 +51,39 @@ public:
     std::optional<FinishedJob> finished(const std::string& file, const std::string& hash) const;
     /// Was a file of this name made or begun by a gallery?
     bool is_ours(const std::string& file) const;
-    /// Was it begun and not finished, by a run that ended or by one that is at work?
+    /// Was it begun and not finished, by a run that has ended or one that is still active?
     bool is_begun(const std::string& file) const;
 
-    /// Keeps all other runs from making the file; false if one of them makes it.
+    /// Reserves the file for this run; false if another run is making it.
     bool take(const std::string& file) { return locks_.take(file); }
     void release(const std::string& file) { locks_.release(file); }
-    /// Reads what other runs recorded since the last time, if there were any. Where none were, two system calls.
+    /// Reads what other runs have recorded since the last call. Without other runs it costs two system calls.
     void refresh();
 
-    /// To be called before `file` appears, after take().
+    /// Call before `file` appears, after take().
     void claim(const std::string& file);
-    /// Sees the file on the disk, then appends the record in a single write, and sees it there, too.
+    /// Synchronises the file to disk, then appends the record in a single write and synchronises that, too.
     void add(const FinishedJob& job);
-    /// Writes the record anew, beside it and then in its place: the jobs of `order` that are finished, in that order,
-    /// then what else is there that was made or begun. As `sole`, it takes over the records of shards as they are by
-    /// then, with what killed ones left unfinished, and removes them, unless they are in use. The record of a shard
-    /// that says nothing but what `gallery.jsonl` says as well is removed. Nothing may be added after that.
-    /// @param begun  files that this run began and did not finish, so that the next one makes others first
+    /// Rewrites the record beside the old one and renames it into place: the finished jobs of `order`, in that order,
+    /// then all other made or begun files. As `sole`, it takes over the current records of shards, including the
+    /// unfinished files of killed ones, and removes them unless they are in use. A shard record that adds nothing to
+    /// `gallery.jsonl` is removed. Add nothing after that.
+    /// @param begun  files that this run began and did not finish; the next run makes others first
     void complete(const std::vector<FinishedJob>& order, const std::vector<std::string>& begun, bool sole);
 
 private:
     struct Known {
-        std::vector<FinishedJob> versions;  ///< different ones, as the records have them
+        std::vector<FinishedJob> versions;  ///< different ones found in the records
         bool claimed = false;               ///< after the last record, in one of them
         bool kept = false;                  ///< it belongs into the record of this run
     };
-    /// How far the record of another run was read.
+    /// Read position in the record of another run.
     struct Reading {
         ino_t inode = 0;
         off_t bytes = 0;
-        std::string end;  ///< of what was read: numbers of files are used again
+        std::string end;  ///< of the part read: file numbers are reused
     };
-    /// The record of a shard that no run is at work on, locked.
+    /// The record of a shard that no run is using, locked.
     struct Left {
         std::string name;
         Descriptor descriptor;
@@ -109,7 +108,7 @@ private:
     bool others_were_present_ = true;
     std::map<std::string, Reading> others_;
     std::map<std::string, Known> known_;
-    std::set<std::string> left_;  ///< begun by killed runs; what is unfinished of them may lie there
+    std::set<std::string> left_;  ///< begun by killed runs; unfinished remains may exist
     mutable std::mutex mutex_;
 };
 

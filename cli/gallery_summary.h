@@ -13,7 +13,7 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Whether a file that begins so, with 4096 bytes, is a page that write_gallery_index() wrote.
+/// Whether a file that begins with these (up to 4096) bytes is a page written by write_gallery_index().
 bool is_gallery_page(std::string_view beginning);
 
 struct SheetRequest {
@@ -38,7 +38,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Telling& telling);
 
-/// Bytes that drawing that sheet takes, roughly: see sheet_memory(). @throws what draw_gallery_sheet() throws
+/// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                             const std::filesystem::path& file);
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -26,8 +27,8 @@ std::string place_of(const std::string& file, const toml::source_position& posit
     return place_of(file, position.line, position.column);
 }
 
-/// Counts what nests and what takes memory before the parser, which calls itself for each level, sees it. Strings and
-/// comments are passed over as the parser does up to its first mistake.
+/// Counts nesting and values before the parser, which is recursive, sees them. Skips strings and comments like the
+/// parser, up to its first error.
 class TomlScan {
 public:
     TomlScan(const std::string& file, std::string_view text) : file_(file), text_(text) {}
@@ -38,25 +39,30 @@ public:
         std::size_t values = 0;
         for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
-            // Of such a letter the parser of toml++ 3.3 reads beyond its tables.
-            require(static_cast<unsigned char>(letter) < 0x80, "only strings and comments may hold letters beyond ASCII");
+            // toml++ 3.3 reads beyond its tables on such a character.
+            require(static_cast<unsigned char>(letter) < 0x80,
+                    "non-ASCII characters are allowed only in strings and comments");
             if (letter == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
                 continue;
             }
             if (letter == '"' || letter == '\'') {
+                // Elsewhere it would belong to a number or a word, which the parser reads to its end.
+                require(may_begin_string(),
+                        "unexpected quote: expected a key, '=', ',' or a bracket before a string");
                 pass_string(letter);
                 continue;
             }
             if (letter == '.') {
                 require(++dots <= most_depth, "too many dots: keys nest at most 50 deep");
             } else if (letter == '[' || letter == '{') {
-                require(++depth <= most_depth, "too many brackets in each other: values nest at most 50 deep");
+                require(++depth <= most_depth, "too many brackets: values nest at most 50 deep");
             } else if (letter == ']' || letter == '}') {
                 depth -= depth > 0 ? 1 : 0;
             }
             if (letter == ',' || letter == '=' || letter == '[' || letter == '{' || letter == '\n') dots = 0;
-            if (letter == ',' || letter == '=' || letter == '[') {
+            // Each dot of a key makes a table.
+            if (letter == ',' || letter == '=' || letter == '[' || letter == '.') {
                 require(++values <= most_toml_values, "too many values: a gallery file has at most 250000");
             }
             ++at_;
@@ -73,6 +79,20 @@ private:
              message);
     }
 
+    /// After a blank, a separator or a bracket; after a dot if a key and not a number precedes it.
+    bool may_begin_string() const {
+        if (at_ == 0) return true;
+        const char before = text_[at_ - 1];
+        if (before != '.') return std::string_view(" \t\r\n=,[{").find(before) != std::string_view::npos;
+        std::size_t begin = at_ - 1;
+        const auto is_bare = [](char letter) {
+            return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' ||
+                   letter == '+' || letter == '.';
+        };
+        while (begin > 0 && is_bare(text_[begin - 1])) --begin;
+        return std::isalpha(static_cast<unsigned char>(text_[begin])) != 0 || text_[begin] == '.';
+    }
+
     void pass_string(char quote) {
         const std::string three(3, quote);
         const bool is_long = text_.compare(at_, 3, three) == 0;
@@ -85,7 +105,7 @@ private:
                 return;
             } else if (is_long && text_.compare(at_, 3, three) == 0) {
                 at_ += 3;
-                // Up to two quotes may stand before the three that end it.
+                // Up to two quotes may precede the three that end it.
                 while (at_ < text_.size() && text_[at_] == quote) ++at_;
                 return;
             } else {
@@ -136,7 +156,7 @@ GalleryValue value_of(const toml::node& node, const std::string& file) {
     return value;
 }
 
-/// Turns the JSON of a line into values; keys come in the order of the line.
+/// Converts the JSON of a line into values; keys keep the order of the line.
 class JsonLine {
 public:
     JsonLine(const std::string& place, const std::string& line) : place_(place), line_(line) {
@@ -197,7 +217,7 @@ void fail(const std::string& place, const std::string& message) {
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
-    if (text.size() > most_gallery_bytes) fail(file, "a gallery file is at most 16 MB");
+    if (text.size() > most_gallery_bytes) fail(file, "the file is too large: a gallery file has at most 16 MB");
     TomlScan(file, text).run();
     try {
         return value_of(toml::parse(text, file), file);

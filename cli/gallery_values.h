@@ -1,4 +1,4 @@
-// cli/gallery_values.h: what gallery files (TOML) and manifests (JSON lines) state, as plain values with places.
+// cli/gallery_values.h: reads gallery files (TOML) and manifests (JSON lines) as plain values with places.
 #pragma once
 
 #include <cstddef>
@@ -25,23 +25,24 @@ struct GalleryValue::Entry {
     GalleryValue value;
 };
 
-/// A longer gallery file is refused.
+/// Maximum size of a gallery file in bytes.
 constexpr std::size_t most_gallery_bytes = std::size_t{16} << 20;
-/// A table has at most so many keys.
+/// Maximum number of keys in a table.
 constexpr std::size_t most_table_keys = 1000;
 
 /// @param place  may be empty
 /// @throws UsageError always
 [[noreturn]] void fail(const std::string& place, const std::string& message);
 
-/// A gallery file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes a value.
+/// Reads a gallery file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes
+/// per value.
 /// @param file  its name, for places
-/// @throws UsageError for mistakes, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
+/// @throws UsageError for errors, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text);
 
-/// A line of a manifest.
+/// Reads a line of a manifest.
 /// @param place  file and line
-/// @throws UsageError for what is not an object of JSON
+/// @throws UsageError if it is not a JSON object
 GalleryValue read_manifest_line(const std::string& place, const std::string& line);
 
 }  // namespace sikku

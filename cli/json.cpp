@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_depth = 50;
 constexpr std::size_t most_values = 100'000;
-constexpr std::size_t most_object_keys = 1000;  // an ordered object looks for a key one by one
+constexpr std::size_t most_object_keys = 1000;  // lookup in an ordered object is linear
 
 /// Counts brackets and values before memory is spent on them. The places of all keys, in the order of the text.
 std::vector<std::size_t> find_keys(std::string_view text) {
@@ -33,7 +33,7 @@ std::vector<std::size_t> find_keys(std::string_view text) {
         } else if (letter == ']' || letter == '}') {
             depth -= depth > 0 ? 1 : 0;
         } else if (letter == ',' || letter == ':') {
-            if (++values > most_values) throw JsonError("too many values: at most 100000 are read", i + 1);
+            if (++values > most_values) throw JsonError("too many values: at most 100000", i + 1);
             if (letter == ':') keys.push_back(last_text);
         }
     }
@@ -58,7 +58,7 @@ nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_
             ++met;
             const auto key = value.get<std::string>();
             if (!keys.back().insert(key).second) {
-                throw JsonError(fmt::format("the key '{}' stands twice", key), place + 1);
+                throw JsonError(fmt::format("duplicate key '{}'", key), place + 1);
             }
             if (keys.back().size() > most_object_keys) {
                 throw JsonError("too many keys: an object has at most 1000", place + 1);

@@ -18,8 +18,8 @@ public:
 
 /// Objects keep the order of their keys. Time: linear, as objects and the text are limited.
 /// @param key_places  gets the offset of each key of each object, in the order of the text
-/// @throws JsonError for what is not JSON, more than 50 brackets deep, more than 100,000 values, more than 1,000 keys
-/// in an object, a number that doubles do not hold, or a key that stands twice in an object
+/// @throws JsonError for invalid JSON, more than 50 nested brackets, more than 100,000 values, more than 1,000 keys
+/// in an object, a number outside the range of double, or a duplicate key in an object
 nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_t>* key_places = nullptr);
 
 }  // namespace sikku

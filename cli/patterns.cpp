@@ -89,15 +89,14 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
-/// Every variant has to hold as well. Each is compiled as a whole: many of a large pattern would take minutes.
+/// Checks every variant as well. Each is compiled in full: many variants of a large pattern would take minutes.
 void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
     constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
     const std::size_t size = pattern.source->text().size();
     if (pattern.variants.size() > 1 && size > most_bytes / pattern.variants.size()) {
-        diagnostics.error(
-            pattern.variants.front().name,
-            fmt::format("too many variants of a pattern of {} bytes to check: {}; together at most 256 MB", size,
-                        pattern.variants.size()));
+        diagnostics.error(pattern.variants.front().name,
+                          fmt::format("too many variants to check: {1} of {0} bytes each; at most 256 MB in total",
+                                      size, pattern.variants.size()));
         return;
     }
     for (const Variant& variant : pattern.variants) {

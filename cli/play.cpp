@@ -546,25 +546,12 @@ void add_play(CLI::App& app, bool& quiet) {
     command->add_option("-o,--output", options->output,
                         "The file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, notes, time and "
                         "range are told");
-    static const std::map<std::string_view, const char*> help = {
-        {"scale", "A scale by name (`sikku scales` lists them), or a .scl file"},
-        {"keyboard", "A Scala key map, .kbm"},
-        {"tonic", "The note of degree 0: C4, F#3, Bb, or a frequency"},
-        {"anchor",
-         "Which y sounds the tonic: first note, piece (its first note), lowest note, lowest vertex, centre"},
-        {"unit", "The length of a step, such as 1/16 or 1/8"},
-        {"vertical", "Vertical runs: ignore, rest, extend, glissando, voice"},
-        {"runs", "merged, or each step"},
-        {"sloped", "Runs that slope: project, skip, refuse"},
-        {"range", "Notes beyond the keys of MIDI, or of your own: fold, reflect, clamp, refuse; `fold C2-C7`"},
-        {"tempo", "Quarter notes a minute"},
-        {"meter", "Such as 4/4"},
-        {"velocity", "fixed, by turn, by depth, by length"},
-        {"mapping", "runs, counterpoint, symbols"},
-        {"instrument", "A General MIDI instrument by name or number (1 to 128)"}};
     const auto keys = keys_of(KeyOwner::music);
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        command->add_option("--" + std::string(keys[i]), options->keys[i], help.at(keys[i]))->type_name("VALUE");
+        const KeyInfo& key = *find_language_key(keys[i]);
+        command
+            ->add_option("--" + std::string(keys[i]), options->keys[i], fmt::format("{}: {}", key.help, key.values))
+            ->type_name("VALUE");
     }
     command->add_option("--from-bar", options->from_bar, "Begin at this bar, counted from 1")
         ->check(CLI::Range(std::int64_t{1}, INT64_MAX));

@@ -34,16 +34,16 @@ extern "C" void stop_signal(int signal) {
     timer_settime(patience, 0, &time, nullptr);
 }
 
-/// The work did not look for the request in time.
+/// The work did not check for the request in time.
 extern "C" void patience_signal(int) {
     constexpr std::string_view message = "sikku: interrupted\n";
-    // A terminal that is gone must not hold up the end.
+    // A lost terminal must not delay the exit.
     if (::write(STDERR_FILENO, message.data(), message.size()) < 0) {
     }
     end_at_once();
 }
 
-/// Whoever read the output has gone: the program ends, as usual, but leaves nothing behind.
+/// The reader of the output is gone: the program ends as usual, but removes its temporary files.
 extern "C" void pipe_signal(int) {
     remove_unfinished_files();
     std::signal(SIGPIPE, SIG_DFL);

@@ -1,4 +1,4 @@
-// cli/signals.h: what ctrl-C, a terminated session and a closed pipe do to the program.
+// cli/signals.h: handling of ctrl-C, a terminated session and a closed pipe.
 #pragma once
 
 #include "engine/monitor.h"
@@ -10,18 +10,18 @@ class Interrupted : public Stopped {
     using Stopped::Stopped;
 };
 
-/// To be called once, first. The first SIGINT, SIGTERM or SIGHUP asks the work to stop; work that goes on half a
-/// second later is ended, as it is at once by a second signal. No temporary file stays behind. Signals that are
-/// ignored when the program starts (nohup, jobs in the background of a script) stay ignored.
+/// Call once, first. The first SIGINT, SIGTERM or SIGHUP asks the work to stop; the program ends half a second later
+/// if the work continues, or at once on a second signal. Temporary files are removed. Signals ignored at program
+/// start (nohup, background jobs of a script) stay ignored.
 void catch_signals();
 
-/// Whether the work is to stop.
+/// Whether work should stop.
 bool interrupted();
 
-/// Exit status after an interruption: 128 and the number of the signal.
+/// Exit status after an interruption: 128 plus the signal number.
 int interruption_status();
 
-/// For work of the libraries: stops when interrupted() does.
+/// Monitor for library work: stops when interrupted() does.
 inline Monitor stop_monitor() {
     return Monitor([](void*) { return interrupted(); });
 }

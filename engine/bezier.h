@@ -27,7 +27,7 @@ inline Bezier part_of(const Bezier& whole, double from, double to) {
     return {blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)};
 }
 
-/// Calls `visit(end)` for each chord of the curve, the last of which ends at `p3`; the curve departs from them by at
+/// Calls `visit(end)` for each chord of the curve, the last of which ends at `p3`; the curve deviates from them by at
 /// most `tolerance`. At most 100,000 chords.
 /// Source: Wang's bound, Proc. SPIE, 1984: a cubic in n equal parts is off its chords by at most
 /// max |second difference| * 6 / 8 / n^2.

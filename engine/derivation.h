@@ -58,7 +58,7 @@ struct DerivationOptions {
     /// BudgetError. Words that are streamed are not limited here: forecast() tells their cost beforehand.
     std::uint64_t longest_word = UINT64_MAX;
     std::uint64_t whole_words = UINT64_MAX;
-    /// Most symbols that matching contexts and long predecessors compares in all steps together, beside 8 for each
+    /// Maximum number of symbols compared in matching contexts and long predecessors, over all steps, plus 8 for each
     /// symbol of those words; more is a BudgetError.
     std::uint64_t compared = UINT64_MAX;
     /// Most symbols that the blocks hold together: what is kept to be handed out again.
@@ -94,8 +94,8 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
 /// A grammar with the same derived word in which no step that is left looks at its neighbours: `grammar` itself, or
 /// what is left of it when the word after the last step that does so takes the place of the axiom.
 /// Memory: that word, the one before it, and 8 bytes a symbol (up to 16 with parameters or brackets in contexts).
-/// Time: linear in the symbols of the words and in the symbols compared. BudgetError above the limits of `options`,
-/// which alone matter here.
+/// Time: linear in the symbols of the words and in the symbols compared. BudgetError above the limits of `options`;
+/// only those limits matter here.
 Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options);
 
 /// A plain grammar with nothing left to derive whose word is that of `grammar`, `interpret:` applied, so that readers

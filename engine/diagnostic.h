@@ -112,8 +112,8 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 /// Bytes of the code point at the front of `text` (not empty), or 0 if it is no valid UTF-8.
 std::size_t utf8_length(std::string_view text);
 
-/// `text` for a message: control characters, overrides of the direction of writing and invalid UTF-8 as '?', and at most
-/// `most` bytes, the middle left out.
+/// Returns `text` for a message: control characters, direction overrides and invalid UTF-8 become '?', and at most
+/// `most` bytes are kept, omitting the middle.
 std::string printable(std::string_view text, std::size_t most = 240);
 
 /// The whole of `text` as a finite decimal number in any locale, or false.

@@ -41,8 +41,8 @@ std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourceP
 /// The entries of a Fractint collection, at most 10,000; those called `comment` or nothing are none. The pattern
 /// draws what Fractint draws, of any order: `@` becomes a parameter of the steps, what `!` exchanges has symbols of
 /// its own, and tables tell the last steps apart where that matters. `derivation length:` is 2, as Fractint proposes.
-/// Mistakes and losses go to `diagnostics`; a mistake costs its entry only. An entry may become 4 MB, all together
-/// 16 MB and twice the file. Cost: linear in the file for each of at most 20 levels that differ.
+/// Errors and losses go to `diagnostics`; an error costs only its entry. An entry may expand to 4 MB, all together to
+/// 16 MB and twice the file. Cost: linear in the file for each of at most 20 different levels.
 /// Source: Fractint 20.04, section "L-Systems" of its documentation, lsys.c and lsysf.c.
 std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnostics& diagnostics);
 

@@ -32,7 +32,7 @@ constexpr std::array language = {
     KeyInfo{"source", engine, "text", "", "Publication the system comes from"},
     KeyInfo{"description", engine, "text", "", "Remarks"},
 
-    KeyInfo{"line", art, "straight, spline", "straight",
+    KeyInfo{"line", art, "straight, spline, spline with lifts", "straight",
             "Straight segments, or a uniform cubic B-spline over all positions of the turtle"},
     KeyInfo{"stroke", art, "a width and a colour: 0.4mm #fff, 0.2 step white; none", "0.4mm black",
             "Pen: width in mm (or cm, in, pt, px) or in steps, and colour"},

@@ -1,4 +1,4 @@
-// engine/monitor.h: how long work reports its progress and learns that it is to stop.
+// engine/monitor.h: progress reports and stop requests for long work.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 
 namespace sikku {
 
-/// Thrown by work that was asked to stop. It is no std::runtime_error: whoever handles failures must not take it for
-/// one of them.
+/// Thrown by work that was asked to stop. It is not a std::runtime_error, so that failure handlers do not catch it.
 class Stopped : public std::exception {
 public:
     explicit Stopped(std::string message = "interrupted; nothing was written") : message_(std::move(message)) {}
@@ -20,8 +19,8 @@ private:
 };
 
 /// Passed to all work that may take longer than 0.3 s. A value of two pointers and a context, which must outlive the
-/// work; as constructed by default it lets everything run to its end. May be used by several threads at once if what
-/// it points to may.
+/// work; a default-constructed one never stops the work. May be used by several threads at once if its context allows
+/// it.
 class Monitor {
 public:
     using StopRequested = bool (*)(void* context);
@@ -32,11 +31,11 @@ public:
         : stop_requested_(stop), advanced_(advanced), context_(context) {}
 
     bool stop_requested() const { return stop_requested_ && stop_requested_(context_); }
-    /// Cost: a few nanoseconds, as cheap as what is asked. @throws Stopped
+    /// Checks for a stop request. Cost: a few nanoseconds plus the callback. @throws Stopped
     void check() const {
         if (stop_requested()) throw Stopped();
     }
-    /// Reports units of work (symbols, lines, bands) done since the last call. @throws Stopped
+    /// Reports units of work (symbols, lines, bands) completed since the last call. @throws Stopped
     void advance(std::uint64_t units) const {
         if (advanced_) advanced_(context_, units);
         check();
@@ -48,7 +47,7 @@ private:
     void* context_ = nullptr;
 };
 
-/// Asks a monitor in one of 4096 calls: for loops whose turns take less than a microsecond. Keeps a reference.
+/// Polls a monitor once in 4096 calls: for loops whose iterations take less than a microsecond. Keeps a reference.
 class Pulse {
 public:
     explicit Pulse(const Monitor& monitor) : monitor_(&monitor) {}
@@ -62,7 +61,7 @@ private:
     std::uint32_t calls_ = 0;
 };
 
-/// The order `less` for a long sort, which ends with Stopped when the monitor asks for it.
+/// Wraps the order `less` for a long sort, which ends with Stopped on a stop request.
 template <class Less>
 auto stoppable(const Monitor& monitor, Less less) {
     return [pulse = Pulse(monitor), less = std::move(less)](const auto& a, const auto& b) mutable {

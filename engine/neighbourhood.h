@@ -1,4 +1,4 @@
-// engine/neighbourhood.h: what productions with contexts see around a place of a word, and what looking costs.
+// engine/neighbourhood.h: matches contexts around a place of a word and counts the cost.
 #pragma once
 
 #include "engine/derivation.h"
@@ -15,14 +15,14 @@ class MatchingError : public BudgetError {
     using BudgetError::BudgetError;
 };
 
-/// Counts the symbols that matching compares, over all steps of a derivation, so that long contexts at many places
-/// are stopped by the budget. A few comparisons for each symbol of a word are free.
+/// Counts the symbols compared in matching, over all steps of a derivation, so that the budget stops long contexts at
+/// many places. A few comparisons for each symbol of a word are free.
 class MatchingWork {
 public:
     explicit MatchingWork(const DerivationOptions& options)
         : options_(options), most_(options.compared), next_look_(between_looks) {}
 
-    /// Another word of that many symbols is rewritten, in the step of that number.
+    /// Starts rewriting a word of this many symbols in the given step.
     void begin_step(std::int64_t step, std::size_t symbols) {
         step_ = step;
         const std::uint64_t free = free_comparisons * std::uint64_t{symbols};
@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    /// The number of symbols at the front of the context that are there.
+    /// Number of leading context symbols that match.
     std::size_t count_right(const Word& context, std::size_t at, std::uint32_t* seen_at) {
         ends_.clear();
         for (std::size_t k = 0; k < context.size(); ++k) {

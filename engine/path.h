@@ -37,21 +37,21 @@ public:
     /// A filled polygon of at least three vertices, without the first repeated at the end; it may cross itself
     /// (non-zero winding rule).
     virtual void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) = 0;
-    /// A filled area between Béziers: the point where its outline begins, then three control points for each curve,
-    /// at least one; a straight line closes it where the last curve ends elsewhere. It may cross itself (non-zero
-    /// winding rule). Unless overridden, a polygon within 1/1000 of the larger side of its box.
+    /// A filled area bounded by Béziers: the point where its outline begins, then three control points for each
+    /// curve, at least one curve; a straight line closes it if the last curve ends elsewhere. It may cross itself
+    /// (non-zero winding rule). Unless overridden, a polygon within 1/1000 of the larger side of its bounding box.
     virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
     /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
 };
 
-/// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves that are
-/// drawn along it. Outlines nest; a point of a stroke belongs to the one that began last.
+/// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
+/// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.
 class OutlineSink {
 public:
     virtual ~OutlineSink() = default;
     virtual void begin_outline(glm::dvec2 at) = 0;
-    /// A vertex that is reached without drawing.
+    /// A vertex reached without drawing.
     virtual void outline_vertex(glm::dvec2 at) = 0;
     /// `is_area`: it has at least three vertices.
     virtual void end_outline(const Pen& pen, bool is_area) = 0;

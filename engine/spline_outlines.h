@@ -11,13 +11,13 @@
 
 namespace sikku {
 
-/// Bounds polygons by the curves of a SplineSink. An edge from one control point of a stroke to the next follows the
-/// piece of the curve between them: control point k corresponds to the curve at the knot that is k's Greville
-/// abscissa (of uniform knots (P[k-1] + 4 P[k] + P[k+1]) / 6, where the curve comes nearest). An edge that no stroke
+/// Bounds polygons with the curves of a SplineSink. An edge between consecutive control points of a stroke follows
+/// the piece of the curve between them: control point k corresponds to the curve at the knot that is k's Greville
+/// abscissa (with uniform knots (P[k-1] + 4 P[k] + P[k+1]) / 6, where the curve is nearest). An edge that no stroke
 /// draws is straight.
 ///
 /// An outline is passed to the sink as soon as all its curves are known, in the order in which outlines end. Memory:
-/// the curves of outlines that are open or wait; one at the start of a closed stroke waits for the stroke's end.
+/// the curves of open or waiting outlines; one at the start of a closed stroke waits for the end of the stroke.
 class SplineOutlines {
 public:
     explicit SplineOutlines(PathSink& sink) : sink_(sink) {}
@@ -29,11 +29,11 @@ public:
     void piece(const Bezier& bezier);
     void end_stroke();
 
-    /// An outline begins at `at`; control points and vertices belong to the one that began last.
+    /// Begins an outline at `at`; control points and vertices belong to the most recently begun outline.
     void begin(glm::dvec2 at);
-    /// Reached without drawing.
+    /// Adds a vertex reached without drawing.
     void vertex(glm::dvec2 at);
-    /// Ends the one that began last; it is dropped unless it `is_area`.
+    /// Ends the most recently begun outline; it is dropped unless it `is_area`.
     void end(const Pen& pen, bool is_area);
 
 private:

@@ -15,10 +15,10 @@ bool fits_xml(std::string_view text);
 /// For XML and HTML, in elements and in attributes between double quotes. What XML cannot hold becomes U+FFFD.
 std::string xml_escaped(std::string_view text);
 
-/// JSON on one line with its control characters (C0, DEL, C1) and the line separators U+2028 and U+2029 as escapes,
-/// so that a terminal, JavaScript and readers of lines see plain text. They can only be in strings.
+/// Returns JSON on one line with control characters (C0, DEL, C1) and the line separators U+2028 and U+2029 escaped,
+/// so that terminals, JavaScript and line readers see plain text. Such characters can only occur in strings.
 std::string plain_json(std::string_view json);
-/// A string of such JSON with its quotes; `text` is UTF-8.
+/// Formats a string of such JSON with its quotes; `text` is UTF-8.
 std::string json_string(std::string_view text);
 
 /// Appends a code point (up to U+10FFFF) in UTF-8.

@@ -48,7 +48,7 @@ public:
     /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a
     /// control point of a spline. Then brackets lift the pen, and only they.
     static std::unique_ptr<Turtle> drawing(const Grammar& grammar, PathSink& sink, bool moves_draw);
-    /// The same, and polygons go to `outlines` instead.
+    /// As above, but polygons go to `outlines`.
     static std::unique_ptr<Turtle> outlining(const Grammar& grammar, PathSink& sink, OutlineSink& outlines,
                                              bool moves_draw);
     /// The same, and tells `places` each point in exact coordinates, too.

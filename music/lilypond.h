@@ -9,15 +9,15 @@
 
 namespace sikku {
 
-/// A string of LilyPond's language, with its quotation marks, that is one line of text and nothing else. Line and
-/// paragraph separators, which LilyPond 2.24 aborts on, and marks that change the direction of writing, on which it
-/// may hang, become blanks; what is no printable UTF-8 becomes `?`.
+/// Formats a LilyPond string with its quotation marks, on a single line. Line and paragraph separators, which make
+/// LilyPond 2.24 abort, and direction marks, which may make it hang, become blanks; invalid or unprintable UTF-8
+/// becomes `?`.
 std::string lilypond_string(std::string_view text);
 
 /// Writes a file for LilyPond 2.24 that makes a print and a MIDI file: the pattern and what made it as comments,
 /// title and composer, for each part a staff or a piano staff with its instrument, a line for each bar. Pitches are
 /// exact to the quarter tone, the tempo is to a whole number.
-/// Texts are written as lilypond_string() has them.
+/// Texts are written with lilypond_string().
 /// Throws what `sink` throws.
 void write_lilypond(const Notation& notation, const ScoreHead& head, ByteSink& sink);
 

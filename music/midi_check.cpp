@@ -93,7 +93,7 @@ struct TrackState {
     std::size_t sounding = 0;  ///< notes that have not ended
 };
 
-/// Reads a file once and finds what is wrong.
+/// Reads a file once and finds its faults.
 class Walk {
 public:
     explicit Walk(std::span<const std::uint8_t> bytes) : bytes_(bytes), sounding_(std::size_t{16} * 128) {}

@@ -1,4 +1,4 @@
-// music/midi_check.h: what is wrong with a MIDI file.
+// music/midi_check.h: finds faults in a MIDI file.
 #pragma once
 
 #include <cstdint>

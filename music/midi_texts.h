@@ -1,4 +1,4 @@
-// music/midi_texts.h: what a score was made from, read back from a MIDI file.
+// music/midi_texts.h: reads back from a MIDI file what a score was made from.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ struct MidiTexts {
     std::string made;     ///< its second text
 };
 
-/// Reads the texts that write_midi puts first into a Standard MIDI File; what a file does not have stays empty. The
-/// bytes may end after the texts. Memory: the texts. Cost: one pass over the first track at most.
+/// Reads the texts that write_midi puts first into a Standard MIDI File; missing texts stay empty. The bytes may end
+/// after the texts. Memory: the texts. Cost: at most one pass over the first track.
 /// @throws std::runtime_error, whose text continues "this MIDI file …", if the file is damaged before the second text
-/// or if a text is longer than 64 MB
+/// or if a text exceeds 64 MB
 MidiTexts read_midi_texts(std::span<const std::uint8_t> bytes);
 
 }  // namespace sikku

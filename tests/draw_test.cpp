@@ -197,7 +197,7 @@ TEST_F(Draw, ADotThatThePatternDrawsIsDrawnOnce) {
     EXPECT_EQ(found("//circle", "r").size(), 1u);
     draw(square + "dots: 0.2 step red\n");
     EXPECT_EQ(found("//circle", "r").size(), 1u);
-    // Discs elsewhere are no dots of the kolam.
+    // Discs elsewhere are not dots of the kolam.
     draw("axiom: F+F+F+F+[+(45)f(3)@O(0.1)]\ndots: 0.2 step red\n");
     EXPECT_EQ(found("//circle", "r").size(), 2u);
     options_.only_dots = true;

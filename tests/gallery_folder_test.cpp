@@ -1,5 +1,4 @@
-// tests/gallery_folder_test.cpp: galleries in folders that came from strangers: nothing is written, removed or read
-// beyond them.
+// tests/gallery_folder_test.cpp: galleries in untrusted folders: nothing is written, removed or read outside them.
 #include "art/output_file.h"
 #include "tests/gallery.h"
 
@@ -76,7 +75,7 @@ TEST_F(GalleryFolderTest, RecordsThatAreNotFiles) {
 }
 
 TEST_F(GalleryFolderTest, FoldersThatAreLinks) {
-    // As a stranger would pack it: a claim makes hilbert.svg and its temporary files the gallery's own.
+    // A hostile archive: a claim makes hilbert.svg and its temporary files the gallery's own.
     fs::create_directory_symlink("../home", folder / "out/curves");
     folder.write("out/gallery.jsonl",
                  "{\"claim\":\"curves/precious.svg\"}\n{\"claim\":\"curves/../../home/precious.svg\"}\n");
@@ -88,7 +87,7 @@ TEST_F(GalleryFolderTest, FoldersThatAreLinks) {
     EXPECT_EQ(contents(folder / "home/.precious.svg.abcdef.tmp"), "mine");
     fs::remove(folder / "home/.precious.svg.abcdef.tmp");
     expect_home_untouched();
-    // The folder of the gallery is what its user says, be it a link.
+    // The gallery folder itself may be a link.
     fs::remove(folder / "out/curves");
     fs::create_directory_symlink("out", folder / "link");
     EXPECT_EQ(gallery({"hilbert", "-o", "link", "--name", "{kind}/precious"}).status, 0);
@@ -102,7 +101,7 @@ TEST_F(GalleryFolderTest, OutputsThatAreLinks) {
     const std::vector<std::string> asked = {"hilbert", "-o", "out", "--poster", "A6", "--keep-going"};
     expect_refused(gallery(asked), "was not made by this gallery");
     EXPECT_TRUE(fs::is_symlink(folder / "out/index.html"));
-    // A record that says they are the gallery's own, as a stranger may write it.
+    // A forged record that claims them as the gallery's own.
     folder.write("out/gallery.jsonl", "{\"claim\":\"hilbert.svg\"}\n{\"claim\":\"poster.svg\"}\n");
     EXPECT_EQ(gallery(asked).status, 1) << "the page is still not its own";
     std::vector<std::string> forced = asked;
@@ -123,7 +122,7 @@ TEST_F(GalleryFolderTest, ScriptsForSlurm) {
     const std::vector<std::string> asked = {"hilbert", "-o", "out", "--slurm", "2"};
     const std::vector<std::pair<std::string, std::string>> no_slurm = {{"PATH", folder.file("none")}};
     fs::create_symlink("home/precious.svg", folder / "out.sbatch");
-    expect_refused(gallery(asked, no_slurm), "is not a script of a gallery");
+    expect_refused(gallery(asked, no_slurm), "is not a gallery script");
     // Not even if it looks like one.
     folder.write("home/precious.svg", "#!/bin/sh\n#SBATCH --job-name=sikku-gallery\n");
     EXPECT_EQ(gallery(asked, no_slurm).status, 1);
@@ -196,7 +195,7 @@ TEST_F(GalleryFolderTest, ProfilesOfInksBelongToTheJob) {
                              "/usr/share/ghostscript/iccprofiles/default_cmyk.icc"}) {
         if (fs::exists(name)) profile = contents(name);
     }
-    if (profile.empty()) GTEST_SKIP() << "there is no profile of inks here";
+    if (profile.empty()) GTEST_SKIP() << "no CMYK profile on this machine";
     fs::create_directories(folder / "book");
     folder.write("book/inks.icc", profile);
     folder.write("book/g.toml", "pattern = 'hilbert'\nformat = 'tif'\nsize = '40x40mm'\ncmyk = 'inks.icc'\n");

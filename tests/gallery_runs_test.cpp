@@ -53,7 +53,7 @@ TEST_F(GalleryRunsTest, ASecondRunWaitsForTheFirst) {
         stopped.send(SIGINT);
         const Outcome outcome = stopped.wait();
         EXPECT_EQ(outcome.status, 130);
-        EXPECT_TRUE(has(outcome.errors, "another run is at work on 'out/gallery.jsonl'; waiting for it"));
+        EXPECT_TRUE(has(outcome.errors, "another run is using 'out/gallery.jsonl'; waiting for it"));
     }
     Child child(asked, {.folder = folder.path()});
     child.await_handler(SIGTERM);

@@ -112,7 +112,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
             "bad.toml:1:1: there is no file and no pattern 'hilbrt'; did you mean 'hilbert'?");
     refused("format = 'sgv'\n", "bad.toml:1:1: there is no format 'sgv'; did you mean 'svg'?");
     refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: --size 3x");
-    refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: nobody knows {m}");
+    refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: unknown placeholder {m}");
     refused("pattern = 'hilbert'\nname = '../x'\n", "bad.toml:2:1: name: '../x' cannot be");
     refused("pattern = 'hilbert'\nname = '.x'\n", "cannot be the name");
     refused("pattern = ['hilbert', 'dragon']\nname = 'x'\n", "two jobs are named 'x.svg'");
@@ -298,7 +298,7 @@ TEST_F(GalleryTest, ForeignFilesStay) {
     folder.write("out/.hilbert.svg.notes", "and this");
     const Outcome outcome = gallery({"hilbert", "dragon", "-o", "out", "--keep-going"});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.errors, "'out/hilbert.svg' is there already and was not made by this gallery"));
+    EXPECT_TRUE(has(outcome.errors, "'out/hilbert.svg' already exists and was not made by this gallery"));
     EXPECT_EQ(contents(folder / "out/hilbert.svg"), "mine");
     EXPECT_TRUE(std::filesystem::exists(folder / "out/dragon.svg"));
     EXPECT_EQ(gallery({"hilbert", "dragon", "-o", "out", "--force"}).status, 0);
@@ -335,7 +335,7 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
     folder.write("wall/index.html", "<p>mine</p>");
     const Outcome refused = run(command);
     EXPECT_EQ(refused.status, 1);
-    EXPECT_TRUE(has(refused.errors, "index.html' is there already and was not made by this gallery"));
+    EXPECT_TRUE(has(refused.errors, "index.html' already exists and was not made by this gallery"));
     EXPECT_EQ(contents(folder.file("wall/index.html")), "<p>mine</p>");
 }
 
@@ -542,7 +542,7 @@ TEST_F(GalleryTest, JsonOfOthers) {
     };
     refused(std::string(200'000, '['), "bad.jsonl:1:51: too many brackets in each other");
     refused("{\"pattern\":\"hilbert\",\"dpi\":1e400}", "bad.jsonl:1:");
-    refused("{\"pattern\":\"hilbert\",\"n\":1,\"n\":2}", "bad.jsonl:1:28: the key 'n' stands twice");
+    refused("{\"pattern\":\"hilbert\",\"n\":1,\"n\":2}", "bad.jsonl:1:28: duplicate key 'n'");
     std::filesystem::create_directories(folder / "out");
     folder.write("out/gallery.jsonl", "{\"file\":\"a.svg\",\"hash\":\"\",\"bytes\":1,\"content\":\"\",\"job\":" +
                                           std::string(200'000, '[') + std::string(200'000, ']') + "}\n");

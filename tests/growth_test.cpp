@@ -93,9 +93,10 @@ TEST_F(Growth, TheEndOfAnAnimationIsHeld) {
     EXPECT_EQ(with({"--hold", "0.1", "--frame-time", "0.2"}), (std::vector{20, 20, 20}));
     EXPECT_EQ(with({"--frame-time", "3"}), (std::vector{300, 300, 300}));
     expect_refused(draw({"dragon", "--generations", "1:3", "--hold", "0"}, "d.gif"), 2,
-                   "--hold: seconds, 0.01 to 600");
+                   "--hold: expected 0.01 to 600 seconds");
     expect_refused(draw({"dragon", "--hold", "1"}, "d.svg"), 2, "--hold");
-    expect_refused(draw({"dragon", "--generations", "1:3", "--frames", "--hold", "1"}, "d.svg"), 2, "are for a .gif");
+    expect_refused(draw({"dragon", "--generations", "1:3", "--frames", "--hold", "1"}, "d.svg"), 2,
+                   "apply only to a .gif");
 }
 
 TEST_F(Growth, EachFrameFitsThePageOnRequest) {
@@ -203,7 +204,7 @@ TEST_F(Growth, BadGenerationsAreRefused) {
     expect_refused(draw({"dragon", "--generations", "1:60"}, "d.gif"), 1, "budget");
     expect_refused(draw({"dragon", "--generations", "1:3", "--size", "10000x1000mm", "--dpi", "155"}, "d.gif"), 2,
                    "100 million");
-    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "goes with --generations");
+    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "need --generations");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.obj"), 2, "a model has no page");
     expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "nothing to draw in any");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});

@@ -203,15 +203,15 @@ TEST_F(Icc, WhatIsNoProfileOfInksIsRefusedByName) {
     };
     refused(folder_ / "none.icc", "no such file");
     refused(folder_.path(), "no file");
-    refused(folder_.write("empty.icc", ""), "no ICC profile");
-    refused(folder_.write("text.icc", std::string(500, 'x')), "no ICC profile");
+    refused(folder_.write("empty.icc", ""), "not an ICC profile");
+    refused(folder_.write("text.icc", std::string(500, 'x')), "not an ICC profile");
     const std::string srgb = png_profile(flat("png", 3));
     refused(folder_.write("srgb.icc", srgb), "not CMYK");
     refused(folder_.write("grey.icc", png_profile(flat("png", 1))), "not CMYK");
     // A monitor's that only says that it has inks, and one that ends too soon.
     std::string lie = srgb;
     lie.replace(16, 4, "CMYK");
-    refused(folder_.write("lie.icc", lie), "no way from colours to inks");
+    refused(folder_.write("lie.icc", lie), "cannot convert colours to inks");
     refused(folder_.write("short.icc", srgb.substr(0, 300)), "");
     refused("/dev/null", "no file");
     if (ink_profile().empty()) GTEST_SKIP() << "no CMYK profile on this machine";

@@ -1,5 +1,5 @@
-// tests/limits_test.cpp: work is counted before anything is expanded: what is too much is refused soon, in little
-// memory, and what takes long stops when it is asked to.
+// tests/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
+// little memory, and long work stops on request.
 #include "engine/derivation.h"
 #include "engine/import.h"
 #include "tests/program.h"
@@ -287,8 +287,8 @@ TEST(Limits, FoldersThatWildcardsFind) {
     EXPECT_EQ(list("?b.lsys"), "ab.svg ");
     // Folders that are reached in many ways are entered once.
     EXPECT_EQ(list(repeated("*/../", 40) + "*/*.lsys"), "xa.svg xb.svg ");
-    EXPECT_TRUE(has(list(repeated("*a", 400) + "b"), "no pattern fits"));
-    expect_refused(run({"gallery", "--list", "/" + repeated("*/../", 30) + "*.no"}), "no pattern fits");
+    EXPECT_TRUE(has(list(repeated("*a", 400) + "b"), "no pattern matches"));
+    expect_refused(run({"gallery", "--list", "/" + repeated("*/../", 30) + "*.no"}), "no pattern matches");
 }
 
 TEST(Limits, TheSettingThatSpoilsAPatternIsFound) {

@@ -1,5 +1,5 @@
-// tests/low_limits_test.cpp: with few threads, little memory, few files or small ones there is a message and nothing
-// is left behind: no abort, no hang.
+// tests/low_limits_test.cpp: with few threads, little memory, few files or small files there is a message and no
+// leftover files: no abort, no hang.
 #include "art/threads.h"
 #include "tests/program.h"
 
@@ -52,7 +52,7 @@ protected:
 
 TEST_F(LowLimits, OfThreads) {
     if (sanitized) GTEST_SKIP() << "the sanitizer starts threads of its own";
-    if (!can_run_as_nobody()) GTEST_SKIP() << "only root can become another user, whom limits bind";
+    if (!can_run_as_nobody()) GTEST_SKIP() << "only root can switch to a user that limits apply to";
     for (const char* limit : {"-u 1", "-u 2", "-u 6", "-u 12"}) {
         SCOPED_TRACE(limit);
         for (const char* name : {"x.png", "x.tif", "x.svg"}) {

@@ -1,5 +1,5 @@
-// tests/provenance_test.cpp: `sikku show` of prints and scores: what the program writes comes back, and files of
-// strangers cost little.
+// tests/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and untrusted
+// files cost little.
 #include "art/provenance.h"
 
 #include "art/image_file.h"

@@ -70,7 +70,7 @@ def left_behind():
 
 
 def stop(arguments, delay):
-    """Whether a command that is stopped after so many seconds does what it should."""
+    """Whether a command stopped after `delay` seconds behaves correctly."""
     process = subprocess.Popen([program, "-q", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     time.sleep(delay)
     if process.poll() is not None:

@@ -1,5 +1,5 @@
-// tests/fuzz/file_targets.h: what the fuzzers do with files of strangers; tests/corpus_test.cpp does the same with
-// the corpus.
+// tests/fuzz/file_targets.h: checks by the fuzzers on untrusted files; tests/corpus_test.cpp does the same with the
+// corpus.
 #pragma once
 
 #include "art/provenance.h"

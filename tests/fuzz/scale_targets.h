@@ -14,7 +14,7 @@ namespace sikku {
 inline void check_scala_diagnostics(const Diagnostics& diagnostics, bool has_value) {
     require(has_value != diagnostics.has_errors(), "a Scala file has a value and errors, or neither");
     for (const Diagnostic& diagnostic : diagnostics.sorted()) {
-        require(is_utf8(diagnostic.text()), "a diagnostic is no valid UTF-8");
+        require(is_utf8(diagnostic.text()), "a diagnostic is not valid UTF-8");
         require(diagnostic.where.line >= 1 && diagnostic.where.column >= 1, "a place is counted from 1");
     }
 }
@@ -26,7 +26,7 @@ inline void try_scl(std::string_view bytes) {
     const std::optional<Scale> scale = read_scl(source, diagnostics);
     check_scala_diagnostics(diagnostics, scale.has_value());
     if (!scale) return;
-    require(is_utf8(scale->title), "a scale's title is no valid UTF-8");
+    require(is_utf8(scale->title), "a scale's title is not valid UTF-8");
     require(scale->size() >= 1 && scale->period != 0, "a scale has no notes or no period");
     for (const std::int64_t degree : {-100'000, -1, 0, 1, 7, 100'000}) {
         require(std::isfinite(scale->cents(degree, false)) && std::isfinite(scale->cents(degree, true)),
