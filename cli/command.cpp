@@ -96,7 +96,8 @@ PatternText read_pattern_text(const std::string& pattern) {
     try {
         found = find_pattern(pattern);
     } catch (const NotFound& error) {
-        throw UsageError(error.what());
+        throw UsageError(std::string(error.what()) +
+                         (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
     }
     std::error_code error;
     if (std::filesystem::is_directory(found.path, error)) throw UsageError(fmt::format("{} is a folder", pattern));

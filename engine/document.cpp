@@ -54,10 +54,11 @@ PatternFile find_pattern(const std::string& pattern, const PatternLibrary& libra
     const bool is_folder = std::filesystem::is_directory(path, error);
     if (!may_be_name || (std::filesystem::exists(path, error) && !is_folder)) return {pattern, path};
     if (const LibraryPattern* known = library.find(pattern)) return {known->name + ".lsys", known->file};
-    if (is_folder) throw NotFound(fmt::format("{} is a folder", pattern));
+    if (is_folder) throw NotFound(fmt::format("{} is a folder", pattern), true);
     const std::string_view near = library.nearest(pattern);
     throw NotFound(fmt::format("no file or pattern named '{}'{}", pattern,
-                               near.empty() ? std::string() : fmt::format("; did you mean '{}'?", near)));
+                               near.empty() ? std::string() : fmt::format("; did you mean '{}'?", near)),
+                   !near.empty());
 }
 
 Document load(const std::string& pattern, const Overrides& overrides, const PatternLibrary& library) {

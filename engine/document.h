@@ -56,7 +56,14 @@ struct PatternFile {
 
 /// Neither a file nor a pattern of the library has that name.
 class NotFound : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+public:
+    NotFound(const std::string& message, bool has_suggestion)
+        : std::runtime_error(message), has_suggestion_(has_suggestion) {}
+    /// Does the message say what may have been meant?
+    bool has_suggestion() const { return has_suggestion_; }
+
+private:
+    bool has_suggestion_;
 };
 
 /// Finds a pattern: a file by its path, or a pattern of the library by its name. What holds a `/` or ends in .lsys is

@@ -100,30 +100,13 @@ TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
 /// No file sees what comes after it: language, then derivation, then what reads words. Path and spline know no
 /// grammar.
 TEST(Arrows, EngineIsInOrder) {
-    static const std::map<std::string, int> layer = {{"diagnostic", 0},
-                                                     {"bezier", 0},
-                                                     {"monitor", 0},
-                                                     {"path", 1},
-                                                     {"spline_outlines", 2},
-                                                     {"spline", 3},
-                                                     {"expression", 1},
-                                                     {"pattern", 1},
-                                                     {"text", 1},
-                                                     {"grammar", 2},
-                                                     {"derivation", 3},
-                                                     {"lattice", 3},
-                                                     {"parts", 4},
-                                                     {"clumps", 5},
-                                                     {"chance", 0},
-                                                     {"forecast", 4},
-                                                     {"fold", 5},
-                                                     {"turtle", 5},
-                                                     {"extent", 6},
-                                                     {"import", 3},
-                                                     {"import_cpfg", 4},
-                                                     {"import_fractint", 4},
-                                                     {"turtle_state", 4},
-                                                     {"space_turtle", 5}};
+    static const std::map<std::string, int> layer = {
+        {"diagnostic", 0},   {"keys", 0},        {"pattern_library", 1}, {"document", 3},    {"bezier", 0},
+        {"monitor", 0},      {"path", 1},        {"spline_outlines", 2}, {"spline", 3},      {"expression", 1},
+        {"pattern", 1},      {"text", 1},        {"grammar", 2},         {"derivation", 3},  {"lattice", 3},
+        {"parts", 4},        {"clumps", 5},      {"chance", 0},          {"forecast", 4},    {"fold", 5},
+        {"turtle", 5},       {"extent", 6},      {"import", 3},          {"import_cpfg", 4}, {"import_fractint", 4},
+        {"turtle_state", 4}, {"space_turtle", 5}};
     const auto stem = [](const std::string& name) {
         const std::string own = std::filesystem::path(name).stem().string();
         return own == "neighbourhood" ? std::string("derivation") : own;  // a part of derivation.cpp

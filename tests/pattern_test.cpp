@@ -269,7 +269,7 @@ TEST(Pattern, BeyondAHundredMistakesOnlyTheirNumberIsTold) {
 
 TEST(Pattern, ColumnsCountCodePoints) {
     expect_mistakes("axiom: \xCE\xB1\xCE\xB2\xF0\x9F\x8C\xBF)\n", {{{1, 11}, "')'"}});
-    expect_mistakes("\xE0\xB9\x82: 1\naxiom: F\xC3\xA9 (\n", {{{1, 1}, "nobody knows"}, {{2, 11}, "parameters"}});
+    expect_mistakes("\xE0\xB9\x82: 1\naxiom: F\xC3\xA9 (\n", {{{1, 1}, "unknown key"}, {{2, 11}, "parameters"}});
 }
 
 TEST(Pattern, TheCaretStandsUnderItsColumn) {
