@@ -137,10 +137,6 @@ private:
     double width_ = 0.0;
 };
 
-bool is_for_plotters(PrintFormat format) {
-    return format == PrintFormat::hpgl || format == PrintFormat::gcode;
-}
-
 /// A drawing with all that is drawn beside it, in the colours of one palette.
 class Composition {
 public:
@@ -423,25 +419,6 @@ Grammar resolved(const Grammar& given, const DrawOptions& options) {
 
 }  // namespace
 
-bool is_vector(PrintFormat format) {
-    return format == PrintFormat::svg || format == PrintFormat::pdf || is_for_plotters(format);
-}
-
-std::string image_format(PrintFormat format) {
-    switch (format) {
-        case PrintFormat::tiff:
-            return "tif";
-        case PrintFormat::jpeg:
-            return "jpg";
-        case PrintFormat::exr:
-            return "exr";
-        case PrintFormat::png:
-            return "png";
-        default:
-            throw std::logic_error("not a picture");
-    }
-}
-
 Drawing::Drawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
     : grammar_(resolved(grammar, options)), style_(style), options_(options), spline_(style.line == Line::spline) {
     require_affordable(grammar_, true, options.budget);
@@ -590,19 +567,6 @@ bool Drawing::all_lines_are_seen() const {
     return true;
 }
 
-std::optional<PrintFormat> print_format(const std::filesystem::path& file) {
-    const std::string extension = lower_case(file.extension().string());
-    if (extension == ".svg") return PrintFormat::svg;
-    if (extension == ".pdf") return PrintFormat::pdf;
-    if (extension == ".png") return PrintFormat::png;
-    if (extension == ".tif" || extension == ".tiff") return PrintFormat::tiff;
-    if (extension == ".jpg" || extension == ".jpeg") return PrintFormat::jpeg;
-    if (extension == ".exr") return PrintFormat::exr;
-    if (extension == ".hpgl" || extension == ".plt") return PrintFormat::hpgl;
-    if (extension == ".gcode" || extension == ".nc") return PrintFormat::gcode;
-    return std::nullopt;
-}
-
 DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file) {
     DrawOptions options = given_options;
@@ -648,13 +612,13 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
         report.is_blank = write(content, print, options, output, file);
     }
     if (!is_vector(options.format)) {
-        report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
+        report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
     }
     output.commit();
     return report;
 }
 
-ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& options, ModelFormat format,
+ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& options, PrintFormat format,
                        const std::filesystem::path& file) {
     if (print.style.line == Line::spline) {
         throw std::runtime_error("a model is of straight lines, and this drawing is of splines");

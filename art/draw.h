@@ -1,6 +1,7 @@
 // art/draw.h: from a grammar and its style to a finished print in a file.
 #pragma once
 
+#include "art/format.h"
 #include "art/gcode.h"
 #include "art/model.h"
 #include "art/plot.h"
@@ -23,17 +24,6 @@
 #include <vector>
 
 namespace sikku {
-
-enum class PrintFormat { svg, pdf, png, tiff, jpeg, exr, hpgl, gcode };
-
-/// By the file's extension (any case); nullopt for one that no writer knows.
-std::optional<PrintFormat> print_format(const std::filesystem::path& file);
-
-/// True for SVG, PDF, HP-GL and G-code.
-bool is_vector(PrintFormat format);
-
-/// A raster format by the name that ImageSpec has for it.
-std::string image_format(PrintFormat format);
 
 /// What of a drawing is seen, as it will lie on the page: in turtle steps, y up, without the width of its pen.
 struct DrawnExtent {
@@ -148,7 +138,7 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options,
 /// A model of what is drawn: see write_model(). Widths in millimetres are those that a print would have; of `options`
 /// placement, budget, begin and watch count.
 /// @throws as draw()
-ModelReport draw_model(const Grammar& grammar, Print print, const DrawOptions& options, ModelFormat format,
+ModelReport draw_model(const Grammar& grammar, Print print, const DrawOptions& options, PrintFormat format,
                        const std::filesystem::path& file);
 
 }  // namespace sikku

@@ -513,7 +513,7 @@ std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const D
         writer->finish();
     } else {
         seen = draw_pixels(drawing, print, options, output, file, report.is_blank);
-        report.leaves_pattern_out = !keeps_text(image_format(options.format), print.pattern);
+        report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
     }
     report.replaced = seen.chords + seen.blots;
     report.is_empty = options.window && seen.lines + seen.blots == 0;

@@ -353,19 +353,12 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
 
 }  // namespace
 
-std::optional<ModelFormat> model_format(const std::filesystem::path& file) {
-    const std::string extension = lower_case(file.extension().string());
-    if (extension == ".obj") return ModelFormat::obj;
-    if (extension == ".glb") return ModelFormat::glb;
-    return std::nullopt;
-}
-
-ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format, const std::filesystem::path& file,
+ModelReport write_model(const Scene& scene, const Print& print, PrintFormat format, const std::filesystem::path& file,
                         const Monitor& monitor) {
     const Modeller modeller(scene, print, monitor);
     const std::vector<Mesh>& meshes = modeller.meshes();
     if (meshes.empty()) throw std::runtime_error("there is nothing to model: everything is without width and area");
-    if (format == ModelFormat::obj) {
+    if (format == PrintFormat::obj) {
         write_obj(meshes, modeller.origin(), print, file, monitor);
     } else {
         write_glb(meshes, modeller.origin(), print, file, monitor);

@@ -1,6 +1,7 @@
 // art/model.h: a drawing in space as a model for other programs: Wavefront OBJ and binary glTF 2.0.
 #pragma once
 
+#include "art/format.h"
 #include "art/print.h"
 #include "art/scene.h"
 #include "engine/monitor.h"
@@ -9,11 +10,6 @@
 #include <optional>
 
 namespace sikku {
-
-enum class ModelFormat { obj, glb };
-
-/// By the file's extension (any case): .obj or .glb; nullopt for any other.
-std::optional<ModelFormat> model_format(const std::filesystem::path& file);
 
 struct ModelReport {
     std::size_t triangles = 0;
@@ -27,7 +23,7 @@ struct ModelReport {
 /// that cross themselves are filled in part: see Triangulation. The materials are in place before the model.
 /// @throws std::runtime_error if the file cannot be written, would be over 4 GB, or nothing in it has width or area;
 /// Stopped
-ModelReport write_model(const Scene& scene, const Print& print, ModelFormat format, const std::filesystem::path& file,
+ModelReport write_model(const Scene& scene, const Print& print, PrintFormat format, const std::filesystem::path& file,
                         const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -1,5 +1,6 @@
 #include "art/page.h"
 
+#include "art/length.h"
 #include "engine/lattice.h"
 #include "engine/text.h"
 
@@ -7,60 +8,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 namespace sikku {
 namespace {
 
-constexpr double millimetres_of_inch = 25.4;
 constexpr double step_of_a_point = 10.0;  // of a drawing without extent
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
-
-/// A number and what stands behind it; the unit is empty for a bare number.
-struct Measure {
-    double number = 0.0;
-    std::string unit;
-};
-
-std::optional<Measure> read_measure(std::string_view text) {
-    text = trimmed(text);
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    Measure measure;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), measure.number);
-    if (error != std::errc() || !std::isfinite(measure.number)) return std::nullopt;
-    const auto digits = static_cast<std::size_t>(end - text.data());
-    measure.unit = lower_case(trimmed(text.substr(digits)));
-    return measure;
-}
-
-std::optional<double> in_millimetres(const Measure& measure, double dpi) {
-    double result = measure.number;
-    if (measure.unit == "cm") {
-        result *= 10.0;
-    } else if (measure.unit == "m") {
-        result *= 1000.0;
-    } else if (measure.unit == "in") {
-        result *= millimetres_of_inch;
-    } else if (measure.unit == "pt") {
-        result = result * millimetres_of_inch / 72.0;
-    } else if (measure.unit == "px") {
-        result = result * millimetres_of_inch / dpi;
-    } else if (!measure.unit.empty() && measure.unit != "mm") {
-        return std::nullopt;
-    }
-    if (!std::isfinite(result)) return std::nullopt;
-    return result;
-}
 
 struct NamedSize {
     std::string_view name;
@@ -88,12 +44,6 @@ std::optional<double> fitting_step(double room, double extent, double ink_steps,
 
 }  // namespace
 
-std::optional<double> parse_length(std::string_view text, double dpi) {
-    const auto measure = read_measure(text);
-    if (!measure) return std::nullopt;
-    return in_millimetres(*measure, dpi);
-}
-
 std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
     const std::string name = lower_case(trimmed(text));
     for (const NamedSize& named : named_sizes) {
@@ -101,13 +51,13 @@ std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
     }
     // `px` holds an x as well, so every x is tried.
     for (std::size_t x = name.find('x'); x != std::string::npos; x = name.find('x', x + 1)) {
-        auto width = read_measure(std::string_view(name).substr(0, x));
-        const auto height = read_measure(std::string_view(name).substr(x + 1));
+        auto width = read_length(std::string_view(name).substr(0, x));
+        const auto height = read_length(std::string_view(name).substr(x + 1));
         if (!width || !height) continue;
         if (width->unit.empty()) width->unit = height->unit;
         if (height->unit.empty() && !width->unit.empty()) continue;
-        const auto width_mm = in_millimetres(*width, dpi);
-        const auto height_mm = in_millimetres(*height, dpi);
+        const auto width_mm = width->millimetres(dpi);
+        const auto height_mm = height->millimetres(dpi);
         if (width_mm && height_mm) return glm::dvec2(*width_mm, *height_mm);
     }
     return std::nullopt;

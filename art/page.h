@@ -15,9 +15,6 @@ struct Page {
     double margin = 10.0;  ///< on all four sides
 };
 
-/// A length such as `15mm`, `1.5cm`, `2m`, `2in`, `12pt`, `300px` in millimetres; px by `dpi`; a bare number is mm.
-std::optional<double> parse_length(std::string_view text, double dpi);
-
 /// `A0` … `A6`, `letter`, `legal`, `tabloid` (any case, upright), or `WIDTHxHEIGHT` with units (`300x300mm`,
 /// `20cmx30cm`, `12x18in`; a unit at the end serves both). Width and height of the page in millimetres; lengths
 /// are not checked for range here.

@@ -29,7 +29,7 @@ Picture::Picture(const Print& print, const DrawOptions& options, int channels, O
       ground_(print.style.ground.value_or(Colour{255, 255, 255, 0})) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     ImageSpec spec;
-    spec.format = image_format(options.format);
+    spec.format = info(options.format).extension;
     width_ = static_cast<std::size_t>(size.width);
     spec.width = size.width;
     spec.height = size.height;

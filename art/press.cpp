@@ -1,6 +1,5 @@
 #include "art/press.h"
 
-#include "art/draw.h"
 #include "art/print.h"
 #include "engine/diagnostic.h"
 #include "engine/text.h"
@@ -38,21 +37,6 @@ bool is_printable(std::string_view name) {
 
 bool same_ink(Colour a, Colour b) {
     return a.red == b.red && a.green == b.green && a.blue == b.blue;
-}
-
-/// Formats that show a sheet, and not the ways of a pen alone.
-bool shows_sheet(PrintFormat format) {
-    switch (format) {
-        case PrintFormat::svg:
-        case PrintFormat::pdf:
-        case PrintFormat::png:
-        case PrintFormat::tiff:
-        case PrintFormat::jpeg:
-        case PrintFormat::exr:
-            return true;
-        default:
-            return false;
-    }
 }
 
 double mark_offset(const Press& press) {
@@ -117,7 +101,7 @@ void check_press(const Press& press, PrintFormat format) {
         throw std::runtime_error(
             fmt::format("a bleed of {:.6g} mm: it is 0 to {:.6g} mm wide", press.bleed, most_bleed));
     }
-    if (press.bleed > 0.0 && !shows_sheet(format)) throw std::runtime_error("what a plotter draws has no bleed");
+    if (press.bleed > 0.0 && is_for_plotters(format)) throw std::runtime_error("what a plotter draws has no bleed");
     if (press.bits != 1 && press.bits != 8) {
         throw std::runtime_error(fmt::format("{} bits a channel: pictures have 8, or 1 as line art", press.bits));
     }

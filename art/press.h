@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/colour.h"
+#include "art/format.h"
 #include "art/screen.h"
 
 #include <array>
@@ -17,7 +18,6 @@ namespace sikku {
 struct Page;
 struct Print;
 struct Style;
-enum class PrintFormat;
 
 /// An ink of its own for one colour: in PDF it has its own plate.
 struct Spot {

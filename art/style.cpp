@@ -1,6 +1,6 @@
 #include "art/style.h"
 
-#include "art/page.h"
+#include "art/length.h"
 #include "engine/text.h"
 
 #include <fmt/format.h>

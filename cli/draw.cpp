@@ -150,7 +150,7 @@ std::pair<std::int64_t, std::int64_t> parse_generations(const std::string& text)
 }
 
 bool is_gif(const std::string& output) {
-    return lower_case(std::filesystem::path(output).extension().string()) == ".gif";
+    return print_format(output) == PrintFormat::gif;
 }
 
 /// Derivation lengths one after the other, as an animation or in files of their own.
@@ -273,7 +273,7 @@ void check_space(const DrawSettings& options, const Print& print, const DrawOpti
     }
 }
 
-void draw_model(const DrawSettings& given, ModelFormat format, const Telling& telling) {
+void draw_model(const DrawSettings& given, PrintFormat format, const Telling& telling) {
     DrawSettings options = given;
     // What a print is asked for, a model is, as far as it goes.
     options.output = "print.svg";
@@ -414,7 +414,8 @@ PlannedPrint plan_print(const DrawSettings& options) {
 }
 
 void draw_print(const DrawSettings& given, const Telling& telling) {
-    if (const auto format = model_format(given.output)) return draw_model(given, *format, telling);
+    const auto format = print_format(given.output);
+    if (format && info(*format).kind == FormatKind::model) return draw_model(given, *format, telling);
     DrawSettings options = given;
     if (is_gif(given.output)) {
         if (given.generations.empty()) {

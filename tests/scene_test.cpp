@@ -409,7 +409,7 @@ TEST(Model, TubesAndSpheresAreClosedAndFaceOutwards) {
     Print print = pixel_print(64);
     const auto volume_of = [&](const std::string& word) {
         const Scene scene = scene_of("turn: left\naxiom: " + word + "\n", print.style);
-        write_model(scene, print, ModelFormat::obj, folder.file("a.obj"));
+        write_model(scene, print, PrintFormat::obj, folder.file("a.obj"));
         const Obj obj = read_obj(contents(folder.file("a.obj")));
         EXPECT_EQ(obj.vertices.size(), obj.normals.size());
         // By place, as caps have corners of their own: each edge is walked once in each direction.
@@ -445,8 +445,8 @@ TEST(Model, GlbHoldsWhatObjHolds) {
     Print print = pixel_print(64);
     print.title = "A \"plant\"";
     const Scene scene = scene_of("turn: left\naxiom: $F(10)[;&F(5)@O(2)][{f(3)+f(3)+f(3)}]\n", print.style);
-    const ModelReport obj_report = write_model(scene, print, ModelFormat::obj, folder.file("b.obj"));
-    const ModelReport glb_report = write_model(scene, print, ModelFormat::glb, folder.file("b.glb"));
+    const ModelReport obj_report = write_model(scene, print, PrintFormat::obj, folder.file("b.obj"));
+    const ModelReport glb_report = write_model(scene, print, PrintFormat::glb, folder.file("b.glb"));
     EXPECT_EQ(obj_report.triangles, glb_report.triangles);
     EXPECT_EQ(glb_report.materials, 4u) << "lines and fills in two colours";
     const Obj obj = read_obj(contents(folder.file("b.obj")));
@@ -481,10 +481,10 @@ TEST(Model, WhatHasNoWidthIsRefusedAndLeavesNothing) {
     const ScratchFolder folder;
     Print print = pixel_print(64);
     const Scene scene = scene_of("axiom: $F(0)\n", print.style);
-    EXPECT_THROW(write_model(scene, print, ModelFormat::glb, folder.file("c.glb")), std::runtime_error);
+    EXPECT_THROW(write_model(scene, print, PrintFormat::glb, folder.file("c.glb")), std::runtime_error);
     EXPECT_FALSE(std::filesystem::exists(folder.file("c.glb")));
-    EXPECT_EQ(model_format("x.GLB"), ModelFormat::glb);
-    EXPECT_FALSE(model_format("x.gltf"));
+    EXPECT_EQ(print_format("x.GLB"), PrintFormat::glb);
+    EXPECT_FALSE(print_format("x.gltf"));
 }
 
 }  // namespace
