@@ -1,9 +1,9 @@
 // cli/check_midi.cpp: validates MIDI files and reads back what they were made from.
-#include "art/input_file.h"
 #include "cli/command.h"
-#include "engine/pattern.h"
-#include "music/midi_check.h"
-#include "music/midi_texts.h"
+#include "engine/base/input_file.h"
+#include "engine/language/pattern.h"
+#include "music/score/midi_check.h"
+#include "music/score/midi_texts.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "cli/command.h"
 
-#include "art/style.h"
-#include "engine/forecast.h"
-#include "music/melody.h"
+#include "art/style/style.h"
+#include "engine/derivation/forecast.h"
+#include "music/melody/melody.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

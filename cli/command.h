@@ -1,9 +1,9 @@
 // cli/command.h: what the commands share: finding and loading patterns, progress, errors.
 #pragma once
 
-#include "art/provenance.h"
+#include "art/provenance/provenance.h"
 #include "cli/signals.h"
-#include "engine/document.h"
+#include "engine/language/document.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // cli/derive.cpp: `sikku derive`: the word itself.
 #include "cli/command.h"
-#include "engine/forecast.h"
+#include "engine/derivation/forecast.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,11 +1,12 @@
 // cli/draw.cpp: `sikku draw`: a print.
 #include "cli/draw.h"
 
-#include "art/growth.h"
-#include "art/image_file.h"
-#include "art/sheet.h"
-#include "engine/forecast.h"
-#include "engine/text.h"
+#include "art/drawing/growth.h"
+#include "art/image/image_file.h"
+#include "art/sheet/sheet.h"
+#include "art/style/length.h"
+#include "engine/base/text.h"
+#include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
 

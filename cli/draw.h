@@ -1,7 +1,7 @@
 // cli/draw.h: a print as `sikku draw` makes it, for whoever else makes prints.
 #pragma once
 
-#include "art/draw.h"
+#include "art/drawing/draw.h"
 #include "cli/command.h"
 
 #include <optional>

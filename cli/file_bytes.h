@@ -1,8 +1,8 @@
 // cli/file_bytes.h: music and pages into a file that appears whole or not at all.
 #pragma once
 
-#include "art/output_file.h"
-#include "music/score.h"
+#include "engine/base/output_file.h"
+#include "music/score/score.h"
 
 #include <cstdint>
 #include <string>

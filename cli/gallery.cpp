@@ -1,12 +1,12 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
-#include "art/draw.h"
-#include "art/image_file.h"
-#include "art/output_file.h"
-#include "art/threads.h"
+#include "art/drawing/draw.h"
+#include "art/image/image_file.h"
 #include "cli/gallery_batch.h"
 #include "cli/gallery_shards.h"
 #include "cli/gallery_summary.h"
-#include "engine/text.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
+#include "engine/base/threads.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>

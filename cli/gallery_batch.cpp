@@ -1,6 +1,6 @@
 #include "cli/gallery_batch.h"
 
-#include "art/threads.h"
+#include "engine/base/threads.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -1,9 +1,9 @@
 #include "cli/gallery_forecast.h"
 
-#include "art/draw_view.h"
-#include "art/raster.h"
-#include "art/style.h"
-#include "engine/forecast.h"
+#include "art/drawing/draw_view.h"
+#include "art/raster/raster.h"
+#include "art/style/style.h"
+#include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "cli/gallery_items.h"
 
-#include "art/style.h"
-#include "engine/keys.h"
-#include "engine/text.h"
+#include "art/style/style.h"
+#include "engine/base/keys.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 

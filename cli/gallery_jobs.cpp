@@ -5,8 +5,8 @@
 #include "cli/gallery_summary.h"
 #include "cli/gallery_values.h"
 
-#include "art/input_file.h"
-#include "engine/text.h"
+#include "engine/base/input_file.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

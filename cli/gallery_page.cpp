@@ -1,7 +1,7 @@
 #include "cli/gallery_page.h"
 
-#include "engine/diagnostic.h"
-#include "engine/text.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // cli/gallery_page.h: the page of a gallery: its prints to search, to look at closely, and to take along.
 #pragma once
 
-#include "music/score.h"
+#include "music/score/score.h"
 
 #include <span>
 #include <string>

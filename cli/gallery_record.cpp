@@ -1,7 +1,7 @@
 #include "cli/gallery_record.h"
 
-#include "art/output_file.h"
 #include "cli/json.h"
+#include "engine/base/output_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "cli/gallery_summary.h"
 
-#include "art/output_file.h"
-#include "art/sheet.h"
+#include "art/sheet/sheet.h"
 #include "cli/file_bytes.h"
 #include "cli/gallery_page.h"
-#include "engine/forecast.h"
+#include "engine/base/output_file.h"
+#include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
 

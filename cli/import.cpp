@@ -1,9 +1,9 @@
 // cli/import.cpp: `sikku import`: systems that other programs keep become pattern files.
-#include "engine/import.h"
+#include "engine/import/import.h"
 
-#include "art/output_file.h"
 #include "cli/command.h"
-#include "engine/text.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // cli/kolam.cpp: `sikku kolam`: what there is to know of a drawing as a kolam.
-#include "art/kolam.h"
-#include "art/style.h"
+#include "art/kolam/kolam.h"
+#include "art/style/style.h"
 #include "cli/command.h"
 #include "cli/kolam_grid.h"
-#include "engine/text.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 

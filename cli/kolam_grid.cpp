@@ -1,10 +1,10 @@
 // cli/kolam_grid.cpp: `sikku kolam --grid`.
 #include "cli/kolam_grid.h"
 
-#include "art/dot_grid_enumeration.h"
-#include "art/dot_grid_pattern.h"
-#include "art/output_file.h"
-#include "engine/text.h"
+#include "art/kolam/dot_grid_enumeration.h"
+#include "art/kolam/dot_grid_pattern.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // cli/kolam_grid.h: `sikku kolam --grid`: kolams made on a grid of dots, and all single lines of a small one.
 #pragma once
 
-#include "art/dot_grid.h"
+#include "art/kolam/dot_grid.h"
 #include "cli/command.h"
 
 #include <cstdint>

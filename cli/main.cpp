@@ -1,8 +1,8 @@
 // cli/main.cpp: the program: its commands and its errors.
 #include "cli/command.h"
 #include "cli/signals.h"
-#include "engine/derivation.h"
-#include "music/score.h"
+#include "engine/derivation/derivation.h"
+#include "music/score/score.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // cli/measure.cpp: `sikku measure`: what is known of a word without deriving it.
 #include "cli/command.h"
-#include "engine/extent.h"
-#include "engine/text.h"
+#include "engine/base/text.h"
+#include "engine/measure/extent.h"
 
 #include <fmt/format.h>
 

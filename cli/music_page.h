@@ -2,7 +2,7 @@
 // as a page that plays.
 #pragma once
 
-#include "music/score.h"
+#include "music/score/score.h"
 
 #include <cstddef>
 #include <cstdint>

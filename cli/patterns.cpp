@@ -1,8 +1,8 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
-#include "art/provenance.h"
+#include "art/provenance/provenance.h"
 #include "cli/command.h"
-#include "engine/text.h"
-#include "music/scale.h"
+#include "engine/base/text.h"
+#include "music/scale/scale.h"
 
 #include <fmt/format.h>
 

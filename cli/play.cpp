@@ -1,17 +1,17 @@
 // cli/play.cpp: `sikku play`: a curve as music.
 #include "cli/play.h"
 
-#include "art/output_file.h"
 #include "cli/file_bytes.h"
 #include "cli/music_page.h"
-#include "engine/text.h"
-#include "music/audio.h"
-#include "music/lilypond.h"
-#include "music/mapping.h"
-#include "music/midi.h"
-#include "music/musicxml.h"
-#include "music/notation.h"
-#include "music/spelling.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
+#include "music/melody/mapping.h"
+#include "music/score/audio.h"
+#include "music/score/lilypond.h"
+#include "music/score/midi.h"
+#include "music/score/musicxml.h"
+#include "music/score/notation.h"
+#include "music/score/spelling.h"
 
 #include <fmt/format.h>
 

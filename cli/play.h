@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/command.h"
-#include "engine/keys.h"
-#include "music/melody.h"
+#include "engine/base/keys.h"
+#include "music/melody/melody.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // cli/scales.cpp: `sikku scales`: the scales that come along, and those in Scala files.
-#include "music/scale.h"
+#include "music/scale/scale.h"
 
 #include "cli/command.h"
-#include "engine/text.h"
-#include "music/spelling.h"
+#include "engine/base/text.h"
+#include "music/score/spelling.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "cli/signals.h"
 
-#include "art/output_file.h"
+#include "engine/base/output_file.h"
 
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // cli/signals.h: handling of ctrl-C, a terminated session and a closed pipe.
 #pragma once
 
-#include "engine/monitor.h"
+#include "engine/base/monitor.h"
 
 namespace sikku {
 

@@ -1,4 +1,4 @@
-#include "music/audio.h"
+#include "music/score/audio.h"
 
 #include "tests/files.h"
 #include "tests/print_tools.h"

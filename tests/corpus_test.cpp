@@ -1,5 +1,5 @@
 // tests/corpus_test.cpp: what the fuzzers do, done with every file of the corpus and every pattern.
-#include "art/image_file.h"
+#include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/targets.h"

@@ -1,6 +1,6 @@
-#include "engine/derivation.h"
+#include "engine/derivation/derivation.h"
 
-#include "engine/forecast.h"
+#include "engine/derivation/forecast.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "art/dot_grid.h"
+#include "art/kolam/dot_grid.h"
 
-#include "art/dot_grid_enumeration.h"
-#include "art/dot_grid_pattern.h"
-#include "art/style.h"
-#include "engine/spline.h"
+#include "art/kolam/dot_grid_enumeration.h"
+#include "art/kolam/dot_grid_pattern.h"
+#include "art/style/style.h"
+#include "engine/geometry/spline.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "art/draw.h"
+#include "art/drawing/draw.h"
 
 #include "tests/print_tools.h"
 

@@ -1,4 +1,4 @@
-#include "engine/expression.h"
+#include "engine/language/expression.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/extent.h"
+#include "engine/measure/extent.h"
 
 #include "tests/reference.h"
 

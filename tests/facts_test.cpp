@@ -1,5 +1,5 @@
 // Every pattern that comes along states in a comment what it measures: `// expect: symbols 3803, drawn 2048, ...`.
-#include "engine/extent.h"
+#include "engine/measure/extent.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 

@@ -1,6 +1,6 @@
-#include "engine/fold.h"
+#include "engine/measure/fold.h"
 
-#include "engine/turtle.h"
+#include "engine/geometry/turtle.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

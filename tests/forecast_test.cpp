@@ -1,4 +1,4 @@
-#include "engine/forecast.h"
+#include "engine/derivation/forecast.h"
 
 #include "tests/reference.h"
 

@@ -1,5 +1,5 @@
 // tests/gallery_folder_test.cpp: galleries in untrusted folders: nothing is written, removed or read outside them.
-#include "art/output_file.h"
+#include "engine/base/output_file.h"
 #include "tests/gallery.h"
 
 #include <fcntl.h>

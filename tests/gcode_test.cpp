@@ -1,4 +1,4 @@
-#include "art/gcode.h"
+#include "art/plotter/gcode.h"
 
 #include "tests/plot_tools.h"
 
@@ -113,12 +113,13 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
         sink.lines(std::vector<glm::dvec2>{{20, 30}});
         sink.end_stroke(true);
     });
-    EXPECT_EQ(text(*plan, print),
-              "(title: Na_ve left kolam)\nG21 G90 G17\nM5\nG4 P0.2\n(pen 1: black)\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\n"
-              "G1 X90 Y10 F2400\n"
-              "G1 X90 Y50.013\nM5\nG4 P0.2\n(pen 2: blue)\nT2\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 "
-              "F2400\nM5\n"
-              "G4 P0.2\nG0 X0 Y0\nM2\n");
+    EXPECT_EQ(
+        text(*plan, print),
+        "(title: Na_ve left kolam)\nG21 G90 G17\nM5\nG4 P0.2\n(pen 1: black)\nG0 X10 Y10 F4800\nM3 S1000\nG4 P0.2\n"
+        "G1 X90 Y10 F2400\n"
+        "G1 X90 Y50.013\nM5\nG4 P0.2\n(pen 2: blue)\nT2\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 "
+        "F2400\nM5\n"
+        "G4 P0.2\nG0 X0 Y0\nM2\n");
     options_ = gcode_profile("z").value();
     options_.start = "$H";
     options_.end = "M30\n";

@@ -1,4 +1,4 @@
-#include "engine/grammar.h"
+#include "engine/language/grammar.h"
 
 #include "tests/reference.h"
 

@@ -1,5 +1,5 @@
 // tests/growth_test.cpp: generations one after the other, views and models, by running the program.
-#include "art/growth.h"
+#include "art/drawing/growth.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 

@@ -1,7 +1,7 @@
 // tests/hostile_text_test.cpp: one title that tries to be a command, in every language that the program writes.
-#include "art/gcode.h"
-#include "engine/diagnostic.h"
-#include "music/lilypond.h"
+#include "art/plotter/gcode.h"
+#include "engine/base/diagnostic.h"
+#include "music/score/lilypond.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

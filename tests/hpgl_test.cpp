@@ -1,4 +1,4 @@
-#include "art/hpgl.h"
+#include "art/plotter/hpgl.h"
 
 #include "tests/plot_tools.h"
 

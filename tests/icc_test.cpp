@@ -1,4 +1,4 @@
-#include "art/image_file.h"
+#include "art/image/image_file.h"
 #include "tests/print_tools.h"
 
 #include <zlib.h>

@@ -1,8 +1,8 @@
 // tests/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the patterns that
 // come along.
-#include "engine/import.h"
+#include "engine/import/import.h"
 
-#include "engine/space_turtle.h"
+#include "engine/geometry/space_turtle.h"
 #include "tests/fuzz/targets.h"
 #include "tests/module_reference.h"
 #include "tests/program.h"

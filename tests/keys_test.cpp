@@ -1,8 +1,8 @@
 // tests/keys_test.cpp: the table of keys, its readers and the manual.
-#include "art/style.h"
-#include "engine/document.h"
-#include "engine/keys.h"
-#include "music/melody.h"
+#include "engine/base/keys.h"
+#include "art/style/style.h"
+#include "engine/language/document.h"
+#include "music/melody/melody.h"
 #include "tests/files.h"
 
 #include <fmt/format.h>
@@ -60,7 +60,8 @@ TEST(Keys, UnknownOnesNameTheNearest) {
 }
 
 TEST(Document, IsParsedWithOverrides) {
-    const std::string text = "title: Koch\naxiom: F\nF --> F-F++F-F\nangle factor: 6\nvariant long: derivation length = 5\n";
+    const std::string text =
+        "title: Koch\naxiom: F\nF --> F-F++F-F\nangle factor: 6\nvariant long: derivation length = 5\n";
     EXPECT_EQ(parse("koch.lsys", text).grammar().steps(), 0);
     EXPECT_EQ(parse("koch.lsys", text, {"long", {}}).grammar().steps(), 5);
     EXPECT_EQ(parse("koch.lsys", text, {"long", {{"-n", "derivation length", "7"}}}).grammar().steps(), 7);

@@ -1,6 +1,6 @@
 // tests/kolam_families_test.cpp: the kolams of polynomial growth against mirror curves traced around their dots.
-#include "engine/extent.h"
-#include "engine/fold.h"
+#include "engine/measure/extent.h"
+#include "engine/measure/fold.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 

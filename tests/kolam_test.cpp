@@ -1,7 +1,7 @@
-#include "art/kolam.h"
+#include "art/kolam/kolam.h"
 
-#include "engine/spline.h"
-#include "engine/turtle.h"
+#include "engine/geometry/spline.h"
+#include "engine/geometry/turtle.h"
 #include "tests/files.h"
 #include "tests/program.h"
 #include "tests/reference.h"

@@ -1,4 +1,4 @@
-#include "engine/lattice.h"
+#include "engine/geometry/lattice.h"
 
 #include "tests/reference.h"
 

@@ -1,7 +1,7 @@
-#include "art/lettering.h"
+#include "art/print/lettering.h"
 
-#include "art/page.h"
-#include "engine/pattern.h"
+#include "art/print/page.h"
+#include "engine/language/pattern.h"
 #include "tests/files.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "music/lilypond.h"
+#include "music/score/lilypond.h"
 
 #include "tests/files.h"
 #include "tests/notation_tools.h"

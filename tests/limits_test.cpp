@@ -1,7 +1,7 @@
 // tests/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
 // little memory, and long work stops on request.
-#include "engine/derivation.h"
-#include "engine/import.h"
+#include "engine/derivation/derivation.h"
+#include "engine/import/import.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // tests/low_limits_test.cpp: with few threads, little memory, few files or small files there is a message and no
 // leftover files: no abort, no hang.
-#include "art/threads.h"
+#include "engine/base/threads.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

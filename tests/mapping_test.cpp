@@ -1,7 +1,7 @@
 // tests/mapping_test.cpp: curves as notes, against sequences worked out by hand and by another road.
-#include "music/mapping.h"
+#include "music/melody/mapping.h"
 
-#include "music/melody_fold.h"
+#include "music/melody/melody_fold.h"
 #include "tests/hilbert.h"
 #include "tests/reference.h"
 

@@ -1,4 +1,4 @@
-#include "music/midi_check.h"
+#include "music/score/midi_check.h"
 
 #include "tests/files.h"
 #include "tests/fuzz/file_targets.h"

@@ -1,4 +1,4 @@
-#include "music/midi.h"
+#include "music/score/midi.h"
 
 #include "tests/files.h"
 #include "tests/midi_tools.h"

@@ -1,8 +1,8 @@
 // tests/midi_tools.h: what the tests of MIDI files share: scores by chance, files in memory, events by hand.
 #pragma once
 
-#include "music/midi.h"
-#include "music/midi_check.h"
+#include "music/score/midi.h"
+#include "music/score/midi_check.h"
 #include "tests/midi_reader.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // brackets: lists of modules, expressions read anew each time they are evaluated.
 #pragma once
 
-#include "engine/chance.h"
+#include "engine/base/chance.h"
 #include "tests/reference.h"
 
 #include <fmt/format.h>

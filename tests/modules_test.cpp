@@ -1,6 +1,6 @@
 // Parameters, chance, cuts and contexts with brackets: against a second algorithm, and as they are published.
-#include "engine/extent.h"
-#include "engine/forecast.h"
+#include "engine/derivation/forecast.h"
+#include "engine/measure/extent.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 

@@ -1,4 +1,4 @@
-#include "music/musicxml.h"
+#include "music/score/musicxml.h"
 
 #include "tests/files.h"
 #include "tests/notation_tools.h"

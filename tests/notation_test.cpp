@@ -1,4 +1,4 @@
-#include "music/notation.h"
+#include "music/score/notation.h"
 
 #include "tests/notation_tools.h"
 

@@ -1,8 +1,8 @@
 // tests/notation_tools.h: what the tests of printed scores share: random melodies, memory to write to.
 #pragma once
 
-#include "music/notation.h"
-#include "music/spelling.h"
+#include "music/score/notation.h"
+#include "music/score/spelling.h"
 #include "tests/tools.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "art/output_file.h"
+#include "engine/base/output_file.h"
 
 #include "tests/print_tools.h"
 

@@ -1,4 +1,5 @@
-#include "art/page.h"
+#include "art/print/page.h"
+#include "art/style/length.h"
 
 #include <gtest/gtest.h>
 

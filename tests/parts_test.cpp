@@ -1,9 +1,9 @@
 // tests/parts_test.cpp: what parts do and cover, against the fold and against walking the word.
-#include "engine/parts.h"
+#include "engine/measure/parts.h"
 
-#include "engine/derivation.h"
-#include "engine/extent.h"
-#include "engine/turtle.h"
+#include "engine/derivation/derivation.h"
+#include "engine/geometry/turtle.h"
+#include "engine/measure/extent.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 

@@ -1,4 +1,4 @@
-#include "engine/pattern.h"
+#include "engine/language/pattern.h"
 
 #include "tests/reference.h"
 

@@ -1,4 +1,4 @@
-#include "art/pdf.h"
+#include "art/vector/pdf.h"
 #include "tests/print_tools.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "art/pdf.h"
+#include "art/vector/pdf.h"
 
-#include "art/svg.h"
+#include "art/vector/svg.h"
 #include "tests/print_tools.h"
 
 #include <charconv>

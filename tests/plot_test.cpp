@@ -1,4 +1,4 @@
-#include "art/plot.h"
+#include "art/plotter/plot.h"
 
 #include "tests/hilbert.h"
 #include "tests/plot_tools.h"

@@ -2,9 +2,9 @@
 // apart.
 #pragma once
 
-#include "art/draw.h"
-#include "art/plot.h"
-#include "art/point_tree.h"
+#include "art/drawing/draw.h"
+#include "art/plotter/plot.h"
+#include "engine/geometry/point_tree.h"
 #include "tests/print_tools.h"
 #include "tests/reference.h"
 

@@ -1,9 +1,9 @@
-#include "art/press.h"
+#include "art/print/press.h"
 
-#include "art/draw.h"
-#include "art/pdf.h"
-#include "art/raster.h"
-#include "art/svg.h"
+#include "art/drawing/draw.h"
+#include "art/raster/raster.h"
+#include "art/vector/pdf.h"
+#include "art/vector/svg.h"
 #include "tests/print_tools.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // tests/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
-#include "art/ornaments.h"
+#include "art/print/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 

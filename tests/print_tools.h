@@ -1,9 +1,9 @@
 // tests/print_tools.h: what the tests of prints share: other people's programs, pixels.
 #pragma once
 
-#include "art/output_file.h"
-#include "art/print.h"
-#include "art/provenance.h"
+#include "art/print/print.h"
+#include "art/provenance/provenance.h"
+#include "engine/base/output_file.h"
 #include "tests/files.h"
 #include "tests/tools.h"
 

@@ -1,8 +1,8 @@
 // tests/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and untrusted
 // files cost little.
-#include "art/provenance.h"
+#include "art/provenance/provenance.h"
 
-#include "art/image_file.h"
+#include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/print_tools.h"
 #include "tests/program.h"

@@ -1,10 +1,10 @@
-#include "art/raster.h"
+#include "art/raster/raster.h"
 
-#include "art/blend.h"
-#include "art/fill.h"
-#include "art/image_file.h"
-#include "art/image_module.h"
-#include "art/stroke.h"
+#include "art/image/image_file.h"
+#include "art/image/image_module.h"
+#include "art/raster/blend.h"
+#include "art/raster/fill.h"
+#include "art/raster/stroke.h"
 #include "tests/hilbert.h"
 #include "tests/print_tools.h"
 

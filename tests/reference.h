@@ -2,7 +2,7 @@
 // systems, words rewritten as lists of strings, a turtle that takes a sine for each step.
 #pragma once
 
-#include "engine/turtle.h"
+#include "engine/geometry/turtle.h"
 
 #include <gtest/gtest.h>
 

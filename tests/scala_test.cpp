@@ -1,5 +1,5 @@
 // tests/scala_test.cpp: scales and key maps in the files of Scala.
-#include "music/scale.h"
+#include "music/scale/scale.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // tests/scale_test.cpp: the scales that come along, the melakarta, how a melody takes its degrees, `sikku scales`.
-#include "music/scale.h"
+#include "music/scale/scale.h"
 
 #include "tests/program.h"
 

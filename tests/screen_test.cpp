@@ -1,4 +1,4 @@
-#include "art/screen.h"
+#include "art/print/screen.h"
 
 #include "tests/program.h"
 #include "tests/tools.h"

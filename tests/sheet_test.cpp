@@ -1,7 +1,7 @@
-#include "art/sheet.h"
+#include "art/sheet/sheet.h"
 
-#include "art/lettering.h"
-#include "engine/derivation.h"
+#include "art/print/lettering.h"
+#include "engine/derivation/derivation.h"
 #include "tests/print_tools.h"
 
 #include <algorithm>

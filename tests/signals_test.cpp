@@ -1,7 +1,7 @@
 // tests/signals_test.cpp: what ctrl-C, SIGTERM and SIGHUP do to long work, and that nothing is left behind.
-#include "art/kolam.h"
-#include "art/plot.h"
-#include "engine/monitor.h"
+#include "art/kolam/kolam.h"
+#include "art/plotter/plot.h"
+#include "engine/base/monitor.h"
 #include "tests/print_tools.h"
 #include "tests/program.h"
 #include "tests/reference.h"

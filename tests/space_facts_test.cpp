@@ -1,5 +1,5 @@
 // Plants in space: their measures, which a plain walk through the derived word found, and their words as published.
-#include "engine/extent.h"
+#include "engine/measure/extent.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 

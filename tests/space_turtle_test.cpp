@@ -1,6 +1,6 @@
-#include "engine/space_turtle.h"
+#include "engine/geometry/space_turtle.h"
 
-#include "engine/turtle.h"
+#include "engine/geometry/turtle.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "music/spelling.h"
+#include "music/score/spelling.h"
 
 #include <gtest/gtest.h>
 

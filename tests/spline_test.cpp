@@ -1,7 +1,7 @@
-#include "engine/spline.h"
+#include "engine/geometry/spline.h"
 
-#include "engine/derivation.h"
-#include "engine/turtle.h"
+#include "engine/derivation/derivation.h"
+#include "engine/geometry/turtle.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

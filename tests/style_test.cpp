@@ -1,4 +1,4 @@
-#include "art/style.h"
+#include "art/style/style.h"
 
 #include <gtest/gtest.h>
 

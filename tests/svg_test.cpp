@@ -1,4 +1,4 @@
-#include "art/svg.h"
+#include "art/vector/svg.h"
 
 #include "tests/print_tools.h"
 

@@ -1,4 +1,4 @@
-#include "engine/turtle.h"
+#include "engine/geometry/turtle.h"
 
 #include "tests/reference.h"
 

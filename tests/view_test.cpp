@@ -1,18 +1,18 @@
 // tests/view_test.cpp: what is seen of drawings too large to be read: edge for edge against another form of the
 // curve, and pixel for pixel against drawings read in full.
-#include "art/view.h"
+#include "art/drawing/view.h"
 
-#include "art/raster.h"
-#include "art/spline_pieces.h"
-#include "engine/fold.h"
-#include "engine/spline.h"
-#include "engine/turtle.h"
+#include "art/drawing/spline_pieces.h"
+#include "art/raster/raster.h"
+#include "engine/geometry/spline.h"
+#include "engine/geometry/turtle.h"
+#include "engine/measure/fold.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // The engine alone: derivation, turtle, fold.
 #include <benchmark/benchmark.h>
 
-#include "engine/extent.h"
-#include "engine/turtle.h"
+#include "engine/geometry/turtle.h"
+#include "engine/measure/extent.h"
 
 #include <cstdlib>
 #include <string>

@@ -1,5 +1,5 @@
 // tests/bench/plot_bench.cpp: arranging drawings for a plotter, at the size of large ones.
-#include "art/plot.h"
+#include "art/plotter/plot.h"
 #include "tests/hilbert.h"
 
 #include <benchmark/benchmark.h>

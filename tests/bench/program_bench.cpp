@@ -114,8 +114,8 @@ void play_hilbert(benchmark::State& state) {
 }
 void bar_of_hilbert_40(benchmark::State& state) {
     const std::string file = output("sikku_bench.mid");
-    measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", "40", "--from-bar", "1000000000", "--bars", "1", "-o",
-                    file});
+    measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", "40", "--from-bar", "1000000000", "--bars", "1",
+                    "-o", file});
     std::filesystem::remove(file);
 }
 

@@ -1,6 +1,6 @@
 // tests/bench/raster_bench.cpp: our pixels against Cairo's, one thread each unless the name says otherwise. Ours
 // includes collecting the drawing; Cairo's fills one surface of the whole canvas that is made before.
-#include "art/raster.h"
+#include "art/raster/raster.h"
 #include "tests/hilbert.h"
 
 #include <benchmark/benchmark.h>

@@ -1,8 +1,8 @@
 // tests/bench/svg_bench.cpp: the vector writers at the size of a poster.
-#include "art/output_file.h"
-#include "art/pdf.h"
-#include "art/print.h"
-#include "art/svg.h"
+#include "art/print/print.h"
+#include "art/vector/pdf.h"
+#include "art/vector/svg.h"
+#include "engine/base/output_file.h"
 #include "tests/hilbert.h"
 
 #include <benchmark/benchmark.h>
@@ -104,4 +104,3 @@ BENCHMARK(pdf_lines)->Unit(benchmark::kMillisecond);
 BENCHMARK(pdf_curves)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-

@@ -2,11 +2,11 @@
 // corpus.
 #pragma once
 
-#include "art/provenance.h"
-#include "engine/pattern.h"
-#include "engine/text.h"
-#include "music/midi_check.h"
-#include "music/midi_texts.h"
+#include "art/provenance/provenance.h"
+#include "engine/base/text.h"
+#include "engine/language/pattern.h"
+#include "music/score/midi_check.h"
+#include "music/score/midi_texts.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

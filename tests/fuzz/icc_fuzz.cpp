@@ -1,5 +1,5 @@
 // tests/fuzz/icc_fuzz.cpp: ICC profiles of inks.
-#include "art/icc.h"
+#include "art/image/icc.h"
 #include "tests/fuzz/file_targets.h"
 
 #include <array>

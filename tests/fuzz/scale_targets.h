@@ -1,7 +1,7 @@
 // tests/fuzz/scale_targets.h: what the fuzzers do with any bytes as a Scala scale or key map.
 #pragma once
 
-#include "music/scale.h"
+#include "music/scale/scale.h"
 #include "tests/fuzz/targets.h"
 
 #include <optional>

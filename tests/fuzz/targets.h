@@ -1,17 +1,17 @@
 // tests/fuzz/targets.h: what the fuzzers do with any bytes; tests/corpus_test.cpp does the same with the corpus.
 #pragma once
 
-#include "art/style.h"
-#include "engine/derivation.h"
-#include "engine/extent.h"
-#include "engine/fold.h"
-#include "engine/forecast.h"
-#include "engine/grammar.h"
-#include "engine/import.h"
-#include "engine/lattice.h"
-#include "engine/space_turtle.h"
-#include "engine/spline.h"
-#include "engine/turtle.h"
+#include "art/style/style.h"
+#include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
+#include "engine/geometry/lattice.h"
+#include "engine/geometry/space_turtle.h"
+#include "engine/geometry/spline.h"
+#include "engine/geometry/turtle.h"
+#include "engine/import/import.h"
+#include "engine/language/grammar.h"
+#include "engine/measure/extent.h"
+#include "engine/measure/fold.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,524 @@
+#include "art/drawing/draw_view.h"
+
+#include "art/drawing/picture.h"
+#include "art/drawing/spline_pieces.h"
+#include "art/drawing/view.h"
+#include "art/raster/raster.h"
+#include "art/vector/pdf.h"
+#include "art/vector/svg.h"
+#include "engine/base/output_file.h"
+#include "engine/base/threads.h"
+#include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
+#include "engine/geometry/turtle.h"
+#include "engine/measure/clumps.h"
+#include "engine/measure/fold.h"
+
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr double nodes_a_pixel = 32;  // that are always allowed for
+constexpr double strip_chords = 4e6;  // about as many are kept at a time
+constexpr double strip_pixels = 4e6;
+constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses so many rows at a time
+
+// Measured: what memory takes.
+constexpr double line_bytes = 5;         // of a line in a raster
+constexpr double band_pixel_bytes = 10;  // of a band that is rendered
+constexpr double picture_bytes = 6e6;    // of the library, for a file
+constexpr double writer_bytes = 5e6;
+constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
+
+/// Takes blots for nothing: for writers of lines, to whom none is sent.
+class LinesOnly : public BlotSink {
+public:
+    explicit LinesOnly(PathSink& sink) : sink_(sink) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+    std::size_t prepare(const Blot&, const Pen&) override { return 0; }
+    void blot(std::size_t, glm::dvec2) override {}
+
+private:
+    PathSink& sink_;
+};
+
+/// What lies on the page between two heights (millimetres from its top), as the drawing sees it.
+Box seen_box(const Print& print, double top, double bottom, double around) {
+    const glm::dmat3x2& to_page = print.placement.to_page;
+    const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
+    Box box;
+    for (const double x : {-around, print.page.width + around}) {
+        for (const double y : {top - around, bottom + around}) box.add(back * (glm::dvec2(x, y) - to_page[2]));
+    }
+    return box;
+}
+
+/// Length of what passes; of curves by chords of an eighth.
+class LengthSink : public PathSink {
+public:
+    void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
+    void lines(std::span<const glm::dvec2> ends) override {
+        for (const glm::dvec2 end : ends) add(end);
+    }
+    void curves(std::span<const glm::dvec2> controls) override {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const glm::dvec2 start = at_;
+            for (int k = 1; k <= 8; ++k) {
+                const double t = k / 8.0;
+                const double u = 1 - t;
+                add(u * u * u * start + 3 * u * u * t * controls[i] + 3 * u * t * t * controls[i + 1] +
+                    t * t * t * controls[i + 2]);
+            }
+        }
+    }
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+    double length = 0;
+
+private:
+    void add(glm::dvec2 point) {
+        length += glm::length(point - at_);
+        at_ = point;
+    }
+    glm::dvec2 at_{0.0};
+};
+
+/// How much shorter splines are than the lines through their control points: of the largest derivation length that
+/// costs little.
+double spline_share(const Grammar& grammar) {
+    constexpr double little = 3e5;
+    for (std::int64_t n = std::min<std::int64_t>(grammar.steps(), 64); n >= 0; --n) {
+        const auto smaller = grammar.with_steps(n);
+        if (!smaller) continue;
+        const auto cost = estimate(*smaller, true);
+        if (!cost || cost->nodes > little) continue;
+        LengthSink straight;
+        LengthSink curved;
+        const std::vector<bool> all_open;
+        SplineSink spline(curved, all_open);
+        DerivationOptions interpreted;
+        interpreted.interpreted = true;
+        derive(*smaller, *Turtle::drawing(*smaller, straight, true), interpreted);
+        derive(*smaller, *Turtle::drawing(*smaller, spline, true), interpreted);
+        if (straight.length > 0) return curved.length / straight.length;
+    }
+    return 1;
+}
+
+/// Longest part, in millimetres, that is replaced; by chords under a pen of a pixel and more.
+double longest_replaced(double width, double pixel) {
+    const double pixels = width / pixel;
+    return pixels < 1 ? pixel / 2 : pixels < 2 ? width / 8 : width / 4;
+}
+
+/// Rows of pixels that are drawn at a time.
+int strip_rows(double width, double pixel, PixelSize size) {
+    const bool has_blots = width < pixel;
+    // Parts that are replaced may be a third of the limit.
+    const double share = 3 * pixel / longest_replaced(width, pixel);
+    const double pixels = has_blots ? strip_pixels : strip_chords / std::max(1.0, share * share);
+    return row_block * static_cast<int>(std::clamp(pixels / size.width / row_block, 1.0, 64.0));
+}
+
+/// All nodes that a budget allows for, whatever it is.
+double most_nodes(PixelSize size, double budget) {
+    return std::max(budget, nodes_a_pixel * size.width * size.height);
+}
+
+/// True if more is to be drawn than a View shows.
+bool is_composed(const Style& style, const DrawOptions& options) {
+    return style.dots || options.border || options.colours_strokes || options.plot || options.tiles ||
+           options.format == PrintFormat::hpgl || options.format == PrintFormat::gcode;
+}
+
+double longest_step(const Grammar& grammar) {
+    double longest = 0;
+    const std::vector<char> reached = grammar.reachable();
+    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+        const Command& command = grammar.symbols()[symbol].command;
+        if (reached[symbol] && (command.action == Action::draw || command.action == Action::move)) {
+            longest = std::max(longest, std::fabs(command.value));
+        }
+    }
+    return longest;
+}
+
+DrawReport place_seen(Print& print, const DrawnExtent& seen, const Grammar& grammar, PlacementOptions placement) {
+    placement.scale *= grammar.scale_percent() / 100;
+    return place_print(print, seen, print.style.stroke, placement);
+}
+
+/// What a walk comes by that replaces parts up to some extent.
+struct WalkCount {
+    double nodes = 0;     ///< looked at
+    double lines = 0;     ///< drawn, steps and chords
+    double blots = 0;     ///< drawn
+    double children = 0;  ///< of all parts that may be looked into
+};
+WalkCount count_walk(const Grammar& grammar, const Parts<double>& parts, double longest, bool has_blots) {
+    struct Node {
+        double nodes = 1, lines = 0, blots = 0;
+    };
+    std::vector<Node> all(parts.all().size());
+    WalkCount count;
+    std::vector<std::uint32_t> open;
+    const auto sum = [&](const Word& word, int level, std::uint32_t heading) {
+        Node node;
+        open.clear();
+        for (const Symbol child : word) {
+            node.nodes += 1;
+            if (grammar.is_push(child)) {
+                open.push_back(heading);
+            } else if (grammar.is_pop(child)) {
+                heading = open.back();
+                open.pop_back();
+            } else if (!parts.occurs(level, heading)) {
+                break;
+            } else {
+                const std::size_t index = parts.index(child, level, heading);
+                node.nodes += all[index].nodes - 1;
+                node.lines += all[index].lines;
+                node.blots += all[index].blots;
+                heading = (heading + parts.all()[index].turn) % parts.headings();
+            }
+        }
+        return node;
+    };
+    for (int level = 0; level <= parts.levels(); ++level) {
+        for (std::uint32_t heading = 0; heading < parts.headings(); ++heading) {
+            if (!parts.occurs(level, heading)) continue;
+            for (Symbol symbol = 0; symbol < grammar.symbols().size(); ++symbol) {
+                const std::size_t index = parts.index(symbol, level, heading);
+                const DrawnPart<double>& part = parts.all()[index];
+                if (!part.draws()) continue;
+                const Word* word = level > 0 ? parts.successor(symbol, level) : nullptr;
+                if (level > 0) count.children += word ? static_cast<double>(word->size()) : 1;
+                if (static_cast<double>(part.extent) <= longest) {
+                    (has_blots ? all[index].blots : all[index].lines) = 1;
+                } else if (level == 0) {
+                    all[index].lines = 1;
+                } else {
+                    all[index] = word ? sum(*word, level - 1, heading) : all[parts.index(symbol, level - 1, heading)];
+                }
+            }
+        }
+    }
+    const Node whole = sum(grammar.axiom(), parts.levels(), 0);
+    count.nodes = whole.nodes;
+    count.lines = whole.lines;
+    count.blots = whole.blots;
+    return count;
+}
+
+/// Lines that become of a spline's piece, whose step is so many pixels long.
+double curve_lines(double pixels) {
+    return std::clamp(1.6 * std::sqrt(pixels), 1.0, 100.0);
+}
+
+/// Bytes of a thread that renders lines, for each of the pixels of a band.
+double band_bytes(PixelSize size) {
+    const double rows = std::min({128.0, static_cast<double>(size.height), std::max(32.0, 4194304.0 / size.width)});
+    return size.width * rows * band_pixel_bytes;
+}
+
+DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
+    constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving tells
+    DrawingCost cost;
+    cost.nodes = std::min(unknown_symbols, options.budget);
+    cost.lines = cost.nodes / 2;
+    if (const auto known = estimate(grammar, true)) {
+        cost.nodes = std::min(known->nodes, options.budget);
+        cost.lines = 0;
+        const std::size_t symbols = std::min(grammar.symbols().size(), known->rough_counts.size());
+        for (std::size_t symbol = 0; symbol < symbols; ++symbol) {
+            const Action action = grammar.symbols()[symbol].command.action;
+            if (action == Action::draw || action == Action::disc) cost.lines += known->rough_counts[symbol];
+        }
+        cost.lines = std::min(cost.lines, cost.nodes);
+    }
+    if (is_vector(options.format)) {
+        cost.memory = writer_bytes;
+        return cost;
+    }
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    double pieces = cost.lines;
+    if (print.style.line == Line::spline) {
+        // Of steps that fill the page evenly.
+        const double step = std::sqrt(static_cast<double>(size.width) * size.height / std::max(cost.lines, 1.0));
+        pieces *= curve_lines(step);
+    }
+    cost.thread_memory = band_bytes(size);
+    cost.lines_memory = pieces * line_bytes;
+    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory;
+    return cost;
+}
+
+}  // namespace
+
+std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options) {
+    const auto none = [&](const char* why) -> std::optional<Parts<double>> {
+        if (options.window) throw std::runtime_error(std::string("--window: ") + why);
+        return std::nullopt;
+    };
+    if (is_vector(options.format) && !options.window) return std::nullopt;
+    if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
+    if (is_composed(style, options)) {
+        return none("dots, borders, colours by strand, tiles and plots need the whole drawing");
+    }
+    if (style.moves_lift) return none("splines whose moves lift the pen need the whole drawing");
+    if (!style.draws({})) return none("lines that leave no ink are not seen");
+    if (!options.window) {
+        const auto cost = estimate(grammar, true);
+        if (cost && cost->nodes <= most_read_symbols) return std::nullopt;
+    }
+    auto parts = Parts<double>::make(grammar, style.line == Line::spline);
+    if (parts) return parts;
+    return none(
+        "only drawings in one pen, without polygons and discs, turning by parts of 360 degrees, whose brackets close "
+        "in the word in which they open, are seen through a window");
+}
+
+DrawingCost drawing_cost(const Grammar& grammar, const Parts<double>* parts, const Print& given,
+                         const DrawOptions& options) {
+    if (!parts) return cost_of_reading(grammar, given, options);
+    Print print = given;
+    DrawnExtent seen = SeenDrawing::extent_of(parts->whole(), print.style, options);
+    place_seen(print, seen, grammar, options.placement);
+    const double step = print.placement.step;
+    const double width = print.style.line_width({}, step);
+    const bool has_pixels = !is_vector(options.format);
+    const double pixel = 25.4 / print.dpi;
+    const bool has_blots = has_pixels && width < pixel;
+    const double longest = has_pixels ? longest_replaced(width, pixel) : width / 4;
+    // Of splines, lines are looked at where steps are.
+    const bool reads_steps = print.style.line == Line::spline && longest_step(grammar) > longest / step;
+    const WalkCount walk = count_walk(grammar, *parts, reads_steps ? -1.0 : longest / step, has_blots);
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    DrawingCost cost;
+    const double allowed = has_pixels ? most_nodes(size, options.budget) : options.budget;
+    // What a window shows is not known before it is looked at.
+    const double most = options.window ? std::min(allowed, std::max(1e5, 8 * pixels)) : allowed;
+    cost.nodes = std::min(walk.nodes, most);
+    const double share = walk.nodes > 0 ? cost.nodes / walk.nodes : 0;
+    cost.lines = (walk.lines + walk.blots) * share;
+    const double parts_count = static_cast<double>(parts->all().size());
+    const double clumps = clump_share * walk.children;
+    cost.memory = parts_count * (options.window ? 320 : 224) + clumps * sizeof(Clump) + picture_bytes;
+    if (!has_pixels) return cost;
+    const double rows = std::min(strip_rows(width, pixel, size), size.height);
+    const double lines = walk.lines * share * (reads_steps ? curve_lines(longest_step(grammar) * step / pixel) : 1);
+    const double strips = std::max(1.0, size.height / rows);
+    cost.lines_memory = lines * line_bytes;
+    cost.thread_memory = size.width * rows * (has_blots ? 7 : 3) + band_bytes({size.width, static_cast<int>(rows)}) +
+                         std::min(lines, 2 * lines / strips) * line_bytes;
+    if (has_blots) cost.thread_memory += (parts_count + clumps) * 8 + std::min(parts_count + clumps, walk.blots) * 64;
+    cost.memory += cost.thread_memory;
+    return cost;
+}
+
+SeenDrawing::SeenDrawing(const Grammar& grammar, Parts<double> parts, const Style& style, const DrawOptions& options)
+    : grammar_(grammar),
+      options_(options),
+      extent_(extent_of(parts.whole(), style, options)),
+      spline_(style.line == Line::spline),
+      longest_step_(longest_step(grammar)) {
+    if (!options.window) {
+        // Closer than the box of all its headings.
+        const auto folded = fold(grammar_);
+        if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
+        const glm::dmat3x2 turned = orientation(options_.placement);
+        extent_.box = {};
+        for (const glm::dvec2 corner : spline_ ? folded->box_hull : folded->ink_hull) {
+            extent_.box.add(turned * glm::dvec3(corner, 1.0));
+        }
+    }
+    if (extent_.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
+    if (spline_) spline_share_ = spline_share(grammar_);
+    view_ = View::make(grammar_, std::move(parts), options_.window, spline_);
+    if (!view_) throw std::runtime_error("the drawing is too large to be looked at");
+}
+
+DrawnExtent SeenDrawing::extent_of(const DrawnPart<double>& whole, const Style& style, const DrawOptions& options) {
+    glm::dvec2 low = whole.low, high = whole.high;
+    if (options.window) {
+        low = glm::dvec2(0.0);
+        high = {static_cast<double>(options.window->x1 - options.window->x0),
+                static_cast<double>(options.window->y1 - options.window->y0)};
+    }
+    DrawnExtent seen;
+    const glm::dmat3x2 turned = orientation(options.placement);
+    if (options.window || whole.draws()) {
+        for (const double x : {low.x, high.x}) {
+            for (const double y : {low.y, high.y}) seen.box.add(turned * glm::dvec3(x, y, 1.0));
+        }
+    }
+    // What a window shows goes on around it.
+    seen.widest = options.window ? 0 : style.pen_width({});
+    return seen;
+}
+
+DrawReport SeenDrawing::place(Print& print) const {
+    return place_seen(print, options_.frame.value_or(extent_), grammar_, options_.placement);
+}
+
+ViewReport SeenDrawing::read(const Print& print, double pixel, BlotSink& sink, double budget,
+                             const std::function<void(std::uint64_t)>& watch) const {
+    const double step = print.placement.step;
+    const double width = print.style.line_width({}, step);
+    const bool has_blots = width < pixel;
+    Sight sight;
+    sight.box = seen_box(print, 0, print.page.height, width + 2 * pixel + print.press.bleed);
+    (has_blots ? sight.blot : sight.chord) = (pixel > 0 ? longest_replaced(width, pixel) : width / 4) / step;
+    // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
+    // wide.
+    sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
+    // Curves are told from the lines through their control points only where steps are.
+    if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
+        sight.ink = spline_ ? spline_share_ : 1;
+        return view_->read(sight, sink, budget, watch);
+    }
+    sight.chord = sight.blot = -1;
+    sight.least = 0;
+    // Where a line enters what is seen, its curve is wrong for a few steps.
+    const glm::dvec2 around(6 * longest_step_);
+    sight.box.low -= around;
+    sight.box.high += around;
+    SplinePieces pieces(sink, 1e-6 * longest_step_);
+    return view_->read(sight, pieces, budget, watch);
+}
+
+ViewReport SeenDrawing::draw_lines(const Print& print, PathSink& writer) const {
+    LinesOnly lines(writer);
+    return read(print, 0, lines, options_.budget, options_.watch);
+}
+
+namespace {
+
+/// A page of some rows of the page.
+struct Strip {
+    Strip(const Print& whole, int first, int count) : print(whole) {
+        print.page.height = count * 25.4 / print.dpi;
+        print.placement.to_page[2].y -= first * 25.4 / print.dpi;
+        raster = make_raster(print);
+        raster->expect({});
+    }
+    Strip(const Strip&) = delete;
+    Strip& operator=(const Strip&) = delete;
+    Print print;
+    std::unique_ptr<Raster> raster;
+};
+
+/// Sets `is_blank` if nothing of the drawing is visible.
+ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
+                       const std::filesystem::path& file, bool& is_blank) {
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixel = 25.4 / print.dpi;
+    const int rows = strip_rows(print.style.line_width({}, print.placement.step), pixel, size);
+    const double most = most_nodes(size, options.budget);
+    std::mutex mutex;
+    double nodes = 0;
+    const auto watch = [&](std::uint64_t more) {
+        const std::scoped_lock lock(mutex);
+        nodes += static_cast<double>(more);
+        if (nodes > most) throw too_much(most);
+        if (options.watch) options.watch(more);
+    };
+    const int channels = Strip(print, 0, row_block).raster->channels();
+    Picture picture(print, options, channels, output, file);
+    const int threads = thread_count(options.threads);
+    struct Rows {
+        int first = 0;
+        int count = 0;
+        std::vector<std::uint8_t> pixels;
+    };
+    using Token = std::shared_ptr<Rows>;
+    ViewReport all;
+    int next = 0;
+    using oneapi::tbb::filter_mode;
+    const auto strips = oneapi::tbb::make_filter<void, Token>(
+        filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Token {
+            if (next >= size.height) {
+                control.stop();
+                return nullptr;
+            }
+            auto strip = std::make_shared<Rows>(Rows{next, std::min(rows, size.height - next), {}});
+            next += strip->count;
+            return strip;
+        });
+    const auto draw = oneapi::tbb::make_filter<Token, Token>(filter_mode::parallel, [&](Token strip) {
+        const Strip made(print, strip->first, strip->count);
+        const ViewReport report = drawing.read(made.print, pixel, *made.raster, most, watch);
+        strip->pixels.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels) *
+                              static_cast<std::size_t>(strip->count));
+        made.raster->watch([&] { watch(0); });
+        made.raster->render(1, [&](int, int, std::span<const std::uint8_t> part) {
+            strip->pixels.insert(strip->pixels.end(), part.begin(), part.end());
+        });
+        const std::scoped_lock lock(mutex);
+        all.visited += report.visited;
+        all.lines += report.lines;
+        all.chords += report.chords;
+        all.blots += report.blots;
+        return strip;
+    });
+    const auto hand_on = oneapi::tbb::make_filter<Token, void>(filter_mode::serial_in_order, [&](const Token& strip) {
+        picture.rows(strip->first, strip->count, strip->pixels);
+    });
+    on_threads(threads,
+               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
+    picture.close();
+    is_blank = picture.is_blank();
+    return all;
+}
+
+}  // namespace
+
+std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const DrawOptions& options,
+                                    const std::filesystem::path& file) {
+    auto parts = seen_parts(grammar, print.style, options);
+    if (!parts) return std::nullopt;
+    const SeenDrawing drawing(grammar, std::move(*parts), print.style, options);
+    if (options.begin) options.begin(1);
+    OutputFile output(file);
+    DrawReport report = drawing.place(print);
+    check_spots(print.press, print.style);
+    if (options.format != PrintFormat::pdf) print = as_picture(std::move(print));
+    ViewReport seen;
+    if (is_vector(options.format)) {
+        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
+        seen = drawing.draw_lines(print, *writer);
+        writer->finish();
+    } else {
+        seen = draw_pixels(drawing, print, options, output, file, report.is_blank);
+        report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
+    }
+    report.replaced = seen.chords + seen.blots;
+    report.is_empty = options.window && seen.lines + seen.blots == 0;
+    output.commit();
+    return report;
+}
+
+}  // namespace sikku

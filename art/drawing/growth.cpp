@@ -1,0 +1,155 @@
+#include "art/drawing/growth.h"
+
+#include "art/drawing/draw_view.h"
+#include "art/image/image_file.h"
+#include "art/raster/raster.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
+    auto other = grammar.with_steps(steps);
+    if (!other)
+        throw std::runtime_error(fmt::format("the schedule is too short for a derivation length of {}", steps));
+    return std::move(*other);
+}
+
+/// What the page has to hold of all generations; `bounds` grows by what they fill in space.
+DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions options, const GrowthOptions& growth,
+                     std::optional<SpaceBounds>& bounds) {
+    options.begin = nullptr;
+    DrawnExtent frame;
+    const auto add = [&](const DrawnExtent& seen) {
+        if (seen.box.empty()) return;
+        frame.box.add(seen.box.low);
+        frame.box.add(seen.box.high);
+        frame.widest = std::max(frame.widest, seen.widest);
+    };
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        const Grammar generation = generation_of(grammar, n);
+        if (const auto parts = seen_parts(generation, style, options)) {
+            add(SeenDrawing::extent_of(parts->whole(), style, options));
+            continue;
+        }
+        Drawing drawing(generation, style, options);
+        add(drawing.seen());
+        if (const auto own = drawing.bounds()) {
+            if (!bounds) bounds = *own;
+            bounds->low = glm::min(bounds->low, own->low);
+            bounds->high = glm::max(bounds->high, own->high);
+        }
+    }
+    return frame;
+}
+
+/// With the frame of this generation alone, if each is to have its own and it draws anything.
+DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions& options,
+                   const GrowthOptions& growth, std::int64_t n) {
+    DrawOptions result = options;
+    if (!growth.fits_each) return result;
+    std::optional<SpaceBounds> bounds;
+    DrawOptions alone = options;
+    alone.frame.reset();
+    const DrawnExtent own = frame_of(grammar, style, alone, {.first = n, .last = n}, bounds);
+    if (!own.box.empty()) result.frame = own;
+    return result;
+}
+
+void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
+              const std::filesystem::path& file, DrawReport& report) {
+    const PixelSize size = pixel_size(given.page, given.dpi);
+    OutputFile output(file);
+    std::unique_ptr<AnimationWriter> animation;
+    const auto named = [&](auto&& action) {
+        try {
+            return action();
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
+        }
+    };
+    named([&] { animation = open_animation(output.temporary(), size.width, size.height); });
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        Print print = given;
+        Drawing drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
+        report = drawing.place(print);
+        print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
+        print.style.ground->alpha = 255;
+        std::unique_ptr<Rendering> rendering = drawing.rendering(print);
+        if (!rendering) {
+            auto raster = make_raster(print);
+            drawing.read(print, *raster);
+            rendering = std::move(raster);
+        }
+        const auto channels = static_cast<std::size_t>(rendering->channels());
+        std::vector<std::uint8_t> pixels;
+        pixels.reserve(std::size_t(size.width) * std::size_t(size.height) * 3);
+        rendering->render(options.threads, [&](int, int, std::span<const std::uint8_t> rows) {
+            if (options.watch) options.watch(0);
+            for (std::size_t i = 0; i + channels <= rows.size(); i += channels) {
+                for (std::size_t channel = 0; channel < 3; ++channel) {
+                    pixels.push_back(rows[i + (channels < 3 ? 0 : channel)]);
+                }
+            }
+        });
+        const double seconds = n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds;
+        named([&] { animation->frame(pixels, seconds); });
+    }
+    named([&] { animation->close(); });
+    output.commit();
+}
+
+}  // namespace
+
+std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last) {
+    std::filesystem::path named = file;
+    named.replace_filename(fmt::format("{}-{:0{}}{}", file.stem().string(), generation,
+                                       fmt::formatted_size("{}", last), file.extension().string()));
+    return named;
+}
+
+DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOptions& given_options,
+                       const GrowthOptions& growth, const std::filesystem::path& file) {
+    if (growth.first < 0 || growth.last > most_steps || growth.last - growth.first >= most_frames) {
+        throw std::runtime_error(
+            fmt::format("expected up to {} generations, with derivation "
+                        "lengths up to {}",
+                        most_frames, most_steps));
+    }
+    Print print = given;
+    DrawOptions options = given_options;
+    if (!is_vector(options.format)) prepare_images(options.threads);
+    std::optional<SpaceBounds> bounds;
+    options.frame = frame_of(grammar, print.style, options, growth, bounds);
+    if (options.frame->box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+    if (print.style.camera.distance && bounds && !growth.fits_each) {
+        // Only now it is known where a camera with perspective stands.
+        print.style.camera.aim = bounds;
+        options.frame = frame_of(grammar, print.style, options, growth, bounds);
+    }
+    DrawReport report;
+    if (lower_case(file.extension().string()) == ".gif") {
+        draw_gif(grammar, print, options, growth, file, report);
+        return report;
+    }
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        const Grammar generation = generation_of(grammar, n);
+        if (growth.made) print.made = growth.made(generation);
+        report = draw(generation, print, framed(grammar, print.style, options, growth, n),
+                      frame_file(file, n, growth.last));
+    }
+    return report;
+}
+
+}  // namespace sikku

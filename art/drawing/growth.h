@@ -1,0 +1,38 @@
+// art/drawing/growth.h: one generation after the other, before a camera that stands still.
+#pragma once
+
+#include "art/drawing/draw.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace sikku {
+
+/// Maximum number of generations; more are rejected.
+constexpr std::int64_t most_frames = 10'000;
+
+struct GrowthOptions {
+    std::int64_t first = 0, last = 0;  ///< derivation lengths, both included
+    double seconds = 0.5;              ///< display time of each generation
+    double hold = 2.0;                 ///< minimum display time of the last one
+    bool fits_each = false;            ///< scale each to the page instead of sharing one scale and position
+    /// What Print::made says of a file of its own; null: as it stands.
+    std::function<std::string(const Grammar& generation)> made{};
+};
+
+/// `growth.png` becomes `growth-07.png`, with as many digits as `last` has.
+std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last);
+
+/// Draws each generation like draw(), but all with one scale and position, chosen for the largest of them and the
+/// area they cover together (unless `fits_each`): as an animated GIF if `file` ends in .gif, otherwise as one file
+/// for each (frame_file()). For GIF, `print` and `options` have the same meaning as for a PNG on white paper.
+/// Generations that draw nothing are empty pages. Separate files appear one after the other, each whole; an error in
+/// a later one leaves earlier ones in place.
+/// @return what became of the last
+/// @throws as draw(); std::runtime_error if all are empty or there are more than most_frames
+DrawReport draw_growth(const Grammar& grammar, const Print& print, const DrawOptions& options,
+                       const GrowthOptions& growth, const std::filesystem::path& file);
+
+}  // namespace sikku

@@ -1,0 +1,43 @@
+// art/drawing/picture.h: the pixels of a print on their way into a file.
+#pragma once
+
+#include "art/drawing/draw.h"
+#include "art/image/image_file.h"
+#include "art/print/screen.h"
+#include "engine/base/output_file.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Failures are std::runtime_error and name the file.
+class Picture {
+public:
+    Picture(const Print& print, const DrawOptions& options, int channels, OutputFile& output,
+            std::filesystem::path file);
+    void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
+    void close();
+    /// After the last row: is every pixel indistinguishable from the ground?
+    bool is_blank() const { return !has_ink_; }
+
+private:
+    void look(std::span<const std::uint8_t> pixels);
+    std::span<const std::uint8_t> screened(int rows, std::span<const std::uint8_t> pixels);
+
+    std::filesystem::path file_;
+    std::size_t channels_;
+    std::size_t width_;
+    Colour ground_;
+    bool has_ink_ = false;
+    std::optional<Screener> screener_;
+    std::vector<std::uint8_t> greys_, screened_;
+    std::unique_ptr<ImageWriter> image_;
+};
+
+}  // namespace sikku

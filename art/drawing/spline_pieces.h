@@ -1,0 +1,49 @@
+// art/drawing/spline_pieces.h: splines of which only pieces are seen.
+#pragma once
+
+#include "art/print/print.h"
+#include "engine/geometry/spline.h"
+
+#include <vector>
+
+namespace sikku {
+
+/// Hands the strokes that a View sees of lines on as splines. Where a line leaves and enters what is seen, its curve
+/// is wrong for six steps; where it truly begins and ends it is as SplineSink would have it, and a line that ends
+/// where it began is smooth there, too, however many pieces are seen of it.
+/// Memory: the first piece of a line, which waits for the line's end.
+class SplinePieces : public BlotSink {
+public:
+    /// @param tolerance  points are the same within so many steps
+    SplinePieces(PathSink& sink, double tolerance) : spline_(sink, closed_), tolerance_(tolerance) {}
+
+    void begin_line(glm::dvec2 at) override;
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override;
+    void lines(std::span<const glm::dvec2> ends) override;
+    void curves(std::span<const glm::dvec2> controls) override;
+    void change_pen(const Pen& pen) override;
+    void end_stroke(bool closed) override;
+    void end_line(glm::dvec2 at) override;
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+    std::size_t prepare(const Blot&, const Pen&) override { return 0; }
+    void blot(std::size_t, glm::dvec2) override {}
+
+private:
+    bool same(glm::dvec2 a, glm::dvec2 b) const;
+    void begin(glm::dvec2 start, bool closed);
+    void end_last();
+
+    std::vector<bool> closed_;  // of the strokes begun
+    SplineSink spline_;
+    double tolerance_;
+    Pen pen_;
+    glm::dvec2 line_start_{0.0};
+    std::vector<glm::dvec2> first_;  // points of the piece with which the line begins, if that is seen
+    bool is_first_ = false;          // such a piece is being gathered,
+    bool is_open_ = false;           // or another, which has been begun and not ended
+    bool may_be_first_ = false;      // no piece of this line has been seen
+    glm::dvec2 at_{0.0};
+};
+
+}  // namespace sikku

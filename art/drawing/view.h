@@ -1,0 +1,69 @@
+// art/drawing/view.h: a drawing whose cost is what is seen: parts off the page are passed over, parts too small to be
+// told apart are replaced by what they look like.
+#pragma once
+
+#include "art/print/print.h"
+#include "engine/derivation/derivation.h"
+#include "engine/measure/parts.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+namespace sikku {
+
+/// A rectangle of a drawing, in turtle steps, y up: x0 < x1, y0 < y1.
+struct ViewWindow {
+    Quad x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// `X0,Y0,X1,Y1`: four decimal numbers of any length; what is beyond 34 digits is rounded. Nullopt for anything else
+/// and for rectangles without area.
+std::optional<ViewWindow> parse_window(std::string_view text);
+
+/// What can be told apart, in turtle steps; an extent is the longer side of a part's box.
+struct Sight {
+    Box box;            ///< what is seen, the pen's width around it included, as seen from the view's origin
+    double chord = -1;  ///< parts up to this extent become their chords
+    double blot = -1;   ///< parts up to this extent become blots
+    double ink = 1;     ///< so much of a blot's length is drawn: curves are shorter than what they follow
+    double least = 0;   ///< parts that have less ink than this and join others are left out
+};
+
+struct ViewReport {
+    std::uint64_t visited = 0;  ///< nodes of the derivation
+    std::uint64_t lines = 0;    ///< that were drawn, chords included
+    std::uint64_t chords = 0;   ///< parts of several steps that became chords,
+    std::uint64_t blots = 0;    ///< and blots
+};
+
+/// More than `budget` nodes were visited.
+BudgetError too_much(double budget);
+
+/// A drawing of lines in one pen, ready to be looked at.
+class View {
+public:
+    virtual ~View() = default;
+
+    /// The whole drawing in doubles or, with a window, what is seen from its lower left corner, with places in as
+    /// many bits as it takes (up to 113; exact where steps are whole and turns are quarters).
+    /// With `moves_draw`, what is seen are the control points of a spline: see Turtle::drawing().
+    /// `grammar` must outlive it. Nullptr where Parts cannot be made.
+    static std::unique_ptr<View> make(const Grammar& grammar, const std::optional<ViewWindow>& window,
+                                      bool moves_draw = false);
+
+    /// The same of parts that were made with `moves_draw` from that grammar.
+    static std::unique_ptr<View> make(const Grammar& grammar, Parts<double> parts,
+                                      const std::optional<ViewWindow>& window, bool moves_draw);
+
+    /// One walk. Several threads may walk at once.
+    /// @param budget  most nodes to visit; more is a BudgetError
+    /// @param watch   called every 65,536 nodes with as many; may throw to stop
+    /// Cost: what is seen; 20 ns a node or less.
+    virtual ViewReport read(const Sight& sight, BlotSink& sink, double budget,
+                            const std::function<void(std::uint64_t)>& watch) const = 0;
+};
+
+}  // namespace sikku

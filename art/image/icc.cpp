@@ -1,0 +1,199 @@
+#include "art/image/icc.h"
+
+#include "engine/base/input_file.h"
+
+#include <lcms2.h>
+#include <lcms2_plugin.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr std::uint64_t most_profile_bytes = std::uint64_t{16} << 20;
+/// The tables of the largest published profiles take less than 20 MB.
+constexpr std::size_t most_library_bytes = std::size_t{64} << 20;
+
+/// Limits the memory of the library: a profile may state any number of tables of any size.
+class Memory {
+public:
+    static cmsPluginMemHandler* plugin() {
+        static cmsPluginMemHandler handler = {{cmsPluginMagicNumber, LCMS_VERSION, cmsPluginMemHandlerSig, nullptr},
+                                              allocate,
+                                              release,
+                                              reallocate,
+                                              nullptr,
+                                              nullptr,
+                                              nullptr};
+        return &handler;
+    }
+
+private:
+    struct alignas(std::max_align_t) Block {
+        Memory* owner;
+        std::size_t size;
+    };
+
+    static void* allocate(cmsContext context, cmsUInt32Number size) {
+        // While the context is made it has no owner yet.
+        auto* const owner = context ? static_cast<Memory*>(cmsGetContextUserData(context)) : nullptr;
+        if (owner && (size > most_library_bytes || owner->used_.fetch_add(size) > most_library_bytes - size)) {
+            if (size <= most_library_bytes) owner->used_ -= size;
+            return nullptr;
+        }
+        void* const memory = std::malloc(sizeof(Block) + size);
+        if (!memory) {
+            if (owner) owner->used_ -= size;
+            return nullptr;
+        }
+        return new (memory) Block{owner, size} + 1;
+    }
+    static void release(cmsContext, void* bytes) {
+        if (!bytes) return;
+        Block* const block = static_cast<Block*>(bytes) - 1;
+        if (block->owner) block->owner->used_ -= block->size;
+        std::free(block);
+    }
+    static void* reallocate(cmsContext context, void* bytes, cmsUInt32Number size) {
+        void* const larger = allocate(context, size);
+        if (!larger || !bytes) return larger;
+        std::memcpy(larger, bytes, std::min<std::size_t>((static_cast<Block*>(bytes) - 1)->size, size));
+        release(context, bytes);
+        return larger;
+    }
+
+    std::atomic<std::size_t> used_ = 0;
+};
+
+struct Closer {
+    void operator()(void* profile) const { cmsCloseProfile(profile); }
+};
+using Profile = std::unique_ptr<void, Closer>;
+
+struct CurveFreer {
+    void operator()(cmsToneCurve* curve) const { cmsFreeToneCurve(curve); }
+};
+
+/// What the library complains of is told by what its functions return.
+struct Context {
+    Context() : handle(cmsCreateContext(Memory::plugin(), &memory)) {
+        if (!handle) throw std::runtime_error("lcms2: no memory");
+        cmsSetLogErrorHandlerTHR(handle, [](cmsContext, cmsUInt32Number, const char*) {});
+    }
+    ~Context() { cmsDeleteContext(handle); }
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    Memory memory;
+    cmsContext handle;
+};
+
+std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
+    cmsUInt32Number size = 0;
+    if (!profile || !cmsSaveProfileToMem(profile, nullptr, &size)) throw std::runtime_error("lcms2: no memory");
+    std::vector<std::uint8_t> bytes(size);
+    if (!cmsSaveProfileToMem(profile, bytes.data(), &size)) throw std::runtime_error("lcms2: no memory");
+    // The time at which it was made, ICC.1:2010, 7.2.8: that of the standard's year, so that it does not change.
+    constexpr std::uint8_t date[12] = {1999 >> 8, 1999 & 0xFF, 0, 1, 0, 1};
+    std::copy(std::begin(date), std::end(date), bytes.begin() + 24);
+    return bytes;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw std::runtime_error("the ICC profile '" + file.string() + "': " + why);
+}
+
+std::vector<std::uint8_t> read_profile(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) refuse(file, error ? error.message() : "no such file");
+    if (!std::filesystem::is_regular_file(file, error)) refuse(file, "it is not a regular file");
+    try {
+        const InputFile input(file);
+        if (input.size() > most_profile_bytes) refuse(file, "it is larger than 16 MB");
+        std::vector<std::uint8_t> bytes(static_cast<std::size_t>(input.size()));
+        if (input.read(0, reinterpret_cast<char*>(bytes.data()), bytes.size()) == bytes.size()) return bytes;
+        refuse(file, "it cannot be read");
+    } catch (const std::system_error& failure) {
+        refuse(file, failure.code().message());
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> srgb_profile() {
+    const Context context;
+    const Profile profile(cmsCreate_sRGBProfileTHR(context.handle));
+    return saved(profile.get());
+}
+
+std::vector<std::uint8_t> grey_profile() {
+    const Context context;
+    // The curve of sRGB as lcms2 itself has it: type 4 is ((x + 0.055) / 1.055)^2.4, below 0.04045 x / 12.92.
+    const cmsFloat64Number values[] = {2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045};
+    const std::unique_ptr<cmsToneCurve, CurveFreer> curve(cmsBuildParametricToneCurve(context.handle, 4, values));
+    if (!curve) throw std::runtime_error("lcms2: no memory");
+    const Profile profile(cmsCreateGrayProfileTHR(context.handle, cmsD50_xyY(), curve.get()));
+    return saved(profile.get());
+}
+
+struct InkTransform::Handles {
+    Context context;
+    std::vector<std::uint8_t> bytes;
+    cmsHTRANSFORM transform = nullptr;
+    ~Handles() {
+        if (transform) cmsDeleteTransform(transform);
+    }
+};
+
+InkTransform::InkTransform(const std::filesystem::path& file) : handles_(std::make_unique<Handles>()) {
+    handles_->bytes = read_profile(file);
+    const cmsContext context = handles_->context.handle;
+    const Profile inks(cmsOpenProfileFromMemTHR(context, handles_->bytes.data(),
+                                                static_cast<cmsUInt32Number>(handles_->bytes.size())));
+    if (!inks) refuse(file, "it is not an ICC profile");
+    if (cmsGetColorSpace(inks.get()) != cmsSigCmykData) refuse(file, "its colours are not CMYK");
+    const Profile colours(cmsCreate_sRGBProfileTHR(context));
+    if (!colours) throw std::runtime_error("lcms2: no memory");
+    handles_->transform =
+        cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_8, inks.get(), TYPE_CMYK_8,
+                              INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
+    if (!handles_->transform) refuse(file, "it is damaged or cannot convert colours to inks");
+}
+
+InkTransform::~InkTransform() = default;
+
+const std::vector<std::uint8_t>& InkTransform::profile() const {
+    return handles_->bytes;
+}
+
+void InkTransform::convert(std::span<const std::uint8_t> rgb, std::span<std::uint8_t> inks) const {
+    const std::size_t pixels = std::min(rgb.size() / 3, inks.size() / 4);
+    // Drawings are mostly flat: of each run of equal pixels one is converted.
+    constexpr std::size_t most = 1024;
+    std::uint8_t colours[3 * most], converted[4 * most];
+    std::size_t ends[most];
+    for (std::size_t at = 0; at < pixels;) {
+        std::size_t runs = 0;
+        std::size_t next = at;
+        while (next < pixels && runs < most) {
+            const std::uint8_t* colour = &rgb[3 * next];
+            std::memcpy(colours + 3 * runs, colour, 3);
+            // Three bytes on, pixels of a run look the same.
+            const auto ends_at = std::mismatch(colour + 3, rgb.data() + 3 * pixels, colour).first;
+            next += 1 + static_cast<std::size_t>(ends_at - (colour + 3)) / 3;
+            ends[runs++] = next;
+        }
+        cmsDoTransform(handles_->transform, colours, converted, static_cast<cmsUInt32Number>(runs));
+        for (std::size_t run = 0; run < runs; ++run) {
+            for (; at < ends[run]; ++at) std::memcpy(&inks[4 * at], converted + 4 * run, 4);
+        }
+    }
+}
+
+}  // namespace sikku

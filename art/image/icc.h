@@ -1,0 +1,38 @@
+// art/image/icc.h: ICC profiles, through lcms2. Part of the module with OpenImageIO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// The profile of sRGB (IEC 61966-2-1), or of grey with the same curve: ICC version 4, always the same bytes.
+std::vector<std::uint8_t> srgb_profile();
+std::vector<std::uint8_t> grey_profile();
+
+/// Turns sRGB into the inks of a CMYK profile: relative colorimetric with black point compensation.
+class InkTransform {
+public:
+    /// Safe for untrusted files: loading takes at most 64 MB of memory plus the size of the file.
+    /// @throws std::runtime_error, naming the file, if it cannot be read, is not a regular file, exceeds 16 MB, is
+    /// not an ICC profile, is damaged, is not CMYK or cannot convert colours to inks
+    explicit InkTransform(const std::filesystem::path& file);
+    ~InkTransform();
+    InkTransform(const InkTransform&) = delete;
+    InkTransform& operator=(const InkTransform&) = delete;
+
+    /// The bytes of the file.
+    const std::vector<std::uint8_t>& profile() const;
+    /// 3 bytes a pixel into 4, 255 for full ink. May be called from several threads at a time. Runs of one colour
+    /// cost little more than to be copied.
+    void convert(std::span<const std::uint8_t> rgb, std::span<std::uint8_t> inks) const;
+
+private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace sikku

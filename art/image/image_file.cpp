@@ -1,0 +1,93 @@
+#include "art/image/image_file.h"
+
+#include "art/image/image_module.h"
+#include "engine/base/threads.h"
+
+#include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+/// Rejects limits under which the libraries of the module, which start threads and allocate memory on loading, would
+/// end the program.
+void require_resources(int threads) {
+    // Logging of an unused library; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    constexpr int at_load = 4;
+    constexpr int least_pool = 3;
+    const int bands = thread_count(threads);
+    const int wanted = at_load + 2 * std::max({bands, thread_count(0), least_pool}) + bands;
+    if (const int there = startable_threads(wanted); there < wanted) {
+        throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, but only " +
+                                 std::to_string(there) +
+                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads (-j 1)");
+    }
+    constexpr std::size_t address_space = std::size_t{640} << 20;
+    void* const reserved =
+        ::mmap(nullptr, address_space, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (reserved == MAP_FAILED) {
+        throw std::runtime_error("pictures need 640 MB of address space; raise `ulimit -v`");
+    }
+    ::munmap(reserved, address_space);
+}
+
+/// Loads the module that comes with the running program, else the installed one. Never unloaded: OpenImageIO keeps
+/// threads of its own.
+/// @param threads  that pictures will have (0: one for each core), as far as the first caller knows
+const ImageModule& image_module(int threads = 0) {
+    static const ImageModule& loaded = [threads]() -> const ImageModule& {
+        require_resources(threads);
+        std::string reasons;
+        const auto load = [&](const std::filesystem::path& file) -> const ImageModule* {
+            const std::string name = file.string();
+            void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+            if (!library) {
+                const char* reason = dlerror();
+                reasons += std::string("\n  ") + (reason ? reason : "unknown error");
+                return nullptr;
+            }
+            void* symbol = dlsym(library, image_module_symbol);
+            const ImageModule* found = symbol ? reinterpret_cast<const ImageModule* (*)()>(symbol)() : nullptr;
+            if (found && found->version == image_module_version(SIKKU_VERSION)) return found;
+            dlclose(library);
+            reasons += "\n  " + name + ": made for another version of sikku";
+            return nullptr;
+        };
+        std::error_code error;
+        const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+        if (!error) {
+            const auto file = (program.parent_path() / SIKKU_MODULE_RELATIVE).lexically_normal();
+            if (const ImageModule* found = load(file)) return *found;
+        }
+#ifdef SIKKU_MODULE_INSTALLED
+        if (const ImageModule* found = load(SIKKU_MODULE_INSTALLED)) return *found;
+#endif
+        throw std::runtime_error("raster images need the module with OpenImageIO, which could not be loaded:" +
+                                 reasons);
+    }();
+    return loaded;
+}
+
+}  // namespace
+
+void prepare_images(int threads) {
+    image_module(threads);
+}
+
+std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec) {
+    return image_module().open(path, spec);
+}
+
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height) {
+    return image_module().open_animation(path, width, height);
+}
+
+void check_cmyk_profile(const std::filesystem::path& file) {
+    image_module().check_cmyk_profile(file);
+}
+
+}  // namespace sikku

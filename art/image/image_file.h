@@ -1,0 +1,79 @@
+// art/image/image_file.h: raster files through OpenImageIO, which is loaded only when the first one is made.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+struct ImageSpec {
+    std::string format;  ///< `png`, `tif`, `jpg` or `exr`
+    int width = 0, height = 0;
+    int channels = 3;  ///< 1, 3 or 4
+    double dpi = 300.0;
+    int threads = 1;
+    std::string title;             ///< Title where the format has one
+    std::string description;       ///< ImageDescription
+    std::string software;          ///< Software
+    int compression = 6;           ///< of PNG: 1, quick and large, to 9
+    bool icc = true;               ///< PNG, TIFF and JPEG hold the profile of their colours
+    std::filesystem::path cmyk{};  ///< ICC profile of inks, which the pixels are turned into; empty: none; TIFF alone
+    int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
+};
+
+/// JPEG stores texts in one EXIF block of 64 kB; other TIFF readers accept as much. Half a pattern is not a pattern.
+constexpr std::size_t longest_short_text = 60'000;
+/// Does a file of that format (as in ImageSpec) hold that text?
+inline bool keeps_text(std::string_view format, std::string_view text) {
+    return (format != "jpg" && format != "tif") || text.size() <= longest_short_text;
+}
+
+/// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures are
+/// std::runtime_error; a full disk is one at the latest when the file is closed. The same rows make the same bytes.
+///
+/// PNG and TIFF keep the pixels; JPEG (quality 95), CMYK and one bit have no alpha and lie on white; EXR is 16-bit
+/// linear light with associated alpha. CMYK is relative colorimetric with black point compensation; of one bit white
+/// is what has at least half the luminance. JPEG and TIFF leave out texts that they would not keep: see keeps_text().
+class ImageWriter {
+public:
+    virtual ~ImageWriter() = default;
+    /// In calls of a multiple of 32 rows, but for the last, TIFF compresses them in parallel.
+    virtual void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) = 0;
+    /// Completes the file. Without it the file is of no use.
+    virtual void close() = 0;
+};
+
+/// One picture after the other, as animated GIF: each in up to 256 colours of its own, over and over again.
+class AnimationWriter {
+public:
+    virtual ~AnimationWriter() = default;
+    /// Adds all rows of a picture, 3 channels, with its display time: rounded to hundredths of a second, at least
+    /// one.
+    virtual void frame(std::span<const std::uint8_t> pixels, double seconds) = 0;
+    /// Completes the file. Without it the file is of no use.
+    virtual void close() = 0;
+};
+
+/// Loads the module and checks that it can start its threads, for pictures using this many (0: one for each core).
+/// Call before work whose result would be lost: under a low `ulimit -u` or `-v` the libraries of the module would end
+/// the program.
+/// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
+void prepare_images(int threads);
+
+/// Loads the module, too.
+/// @throws std::runtime_error also for sides over 65,535 pixels, and over 100 million of them
+std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height);
+
+/// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
+/// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks
+std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);
+
+/// @throws std::runtime_error, which names the file, if it is no ICC profile that turns colours into CMYK. Loads the
+/// module, too.
+void check_cmyk_profile(const std::filesystem::path& file);
+
+}  // namespace sikku

@@ -1,0 +1,28 @@
+// art/image/image_module.h: what the module with OpenImageIO exports to image_file.cpp.
+#pragma once
+
+#include "art/image/image_file.h"
+
+#include <string_view>
+
+namespace sikku {
+
+/// Both sides must be built from the same sources: `version` is compared when the module is loaded.
+struct ImageModule {
+    std::uint64_t version;
+    std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
+    std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height);
+    void (*check_cmyk_profile)(const std::filesystem::path& file);
+};
+/// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).
+constexpr std::uint64_t image_module_version(std::string_view program) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3; };
+    for (const char byte : program) add(static_cast<unsigned char>(byte));
+    for (const std::size_t size : {sizeof(ImageSpec), sizeof(ImageModule)}) add(size);
+    return hash;
+}
+/// The one symbol, of type `const ImageModule* ()`, without C++ name.
+constexpr const char* image_module_symbol = "sikku_image_module";
+
+}  // namespace sikku

@@ -1,0 +1,35 @@
+// art/kolam/dot_grid_enumeration.h: all kolams of a single line on a small grid of dots.
+#pragma once
+
+#include "art/kolam/dot_grid.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+struct EnumerationOptions {
+    GridSymmetry symmetry = GridSymmetry::none;  ///< only those that have it
+    std::size_t keep = 0;                        ///< at most so many of them are listed
+    int threads = 0;                             ///< 0: all cores
+    Monitor monitor = {};                        ///< asked on any thread
+};
+
+/// What the kolams of a grid are.
+struct Enumeration {
+    int choices = 0;                ///< gaps, or orbits of gaps, that are crossings or not
+    std::uint64_t states = 0;       ///< 2^choices
+    std::uint64_t single_line = 0;  ///< of one line
+    std::uint64_t distinct = 0;     ///< of these, up to the symmetries of the grid
+    /// The first `keep` of the distinct ones: of each class the least when written as digits, in that order.
+    std::vector<Crossings> kolams;
+};
+
+/// More choices are refused: 2^36 states take minutes.
+constexpr int most_choices = 36;
+
+/// Decides gap by gap and gives up as soon as a line closes with gaps left. The same whatever the number of threads.
+/// @throws std::runtime_error if the grid does not have the symmetry, or for over most_choices choices
+Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions& options = {});
+
+}  // namespace sikku

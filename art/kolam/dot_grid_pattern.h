@@ -1,0 +1,36 @@
+// art/kolam/dot_grid_pattern.h: a kolam on a grid of dots as an ordinary pattern file.
+#pragma once
+
+#include "art/kolam/dot_grid.h"
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+struct KolamPatternOptions {
+    std::string title = {};
+    std::string description = {};
+    bool coloured = false;     ///< each line in a colour of its own, eight of them in turn
+    bool dot_symbols = false;  ///< draws the dots, too, as `@.`
+    Monitor monitor = {};
+};
+
+struct KolamPattern {
+    std::string text;              ///< of the pattern file
+    std::vector<glm::dvec2> dots;  ///< where the turtle's plane has the dots, in the order of DotGrid::dots()
+    std::size_t lines = 0;
+};
+
+/// The turtle steps `F` diagonally from the middle of one side of a dot to the next, turning where the line does; the
+/// middles are the control points of a spline, which therefore runs straight through each crossing, at right angles,
+/// and rounds a dot where it turns back. Dots are sqrt(2) steps apart; the first line starts at 0 0. Each line is one
+/// closed stroke. A single line is a word without brackets; several are branches, and between them the turtle moves
+/// with a transparent pen, for a spline takes `f` as a control point as well.
+/// Up to 1000 gaps are listed in a comment, as parse_crossings() reads them. Steps are whole (or halves, to dots), so
+/// that every position is exact.
+/// @throws std::runtime_error if the text were too long for a pattern file
+KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, const KolamPatternOptions& options = {});
+
+}  // namespace sikku

@@ -1,0 +1,103 @@
+// art/kolam/kolam.h: what there is to know of a drawing as a kolam: its lines, crossings, faces, dots and symmetry.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/geometry/path.h"
+#include "engine/language/grammar.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Rotations and mirrors that map a drawing onto itself: a cyclic or a dihedral group.
+struct KolamSymmetry {
+    std::uint32_t rotations = 1;  ///< the identity included
+    std::uint32_t mirrors = 0;    ///< 0, or as many as rotations
+    std::string name() const;     ///< C1, C4, D1, D4, …
+};
+
+/// A dot where the tradition would set one, in turtle steps.
+struct KolamDot {
+    glm::dvec2 at{0.0};
+    bool is_enclosed = false;  ///< the closed lines as they are drawn run around it an odd number of times
+    bool is_alone = false;     ///< the whole line around its face is seen from it
+};
+
+/// The examination of a drawing. Vertices are where the turtle pauses and where segments meet; edges are the pieces
+/// of segments between them, each counted once however often it is drawn.
+///
+/// Dots: faces are coloured like a chessboard by the closed lines, the outside even; each odd face carries one dot,
+/// at its centroid or, where that lies outside of it, elsewhere inside. So every loop has its dot, and the gaps
+/// between loops have none. Open lines enclose nothing.
+///
+/// Of splines the control polygon is examined, as the turtle walks it: the curve runs along it. It passes
+/// through a crossing where both strands go straight on; where they turn back (touchings) it keeps them apart.
+/// Whether dots are enclosed is asked of the curve itself. Polygons and discs are not looked at.
+struct KolamExamination {
+    bool is_exact = false;   ///< all that is said here was found in whole numbers but where the dots are
+    double tolerance = 0.0;  ///< else: points that are as near as this, in steps, are one
+    bool is_spline = false;
+    std::uint64_t segments = 0;  ///< steps that draw (or guide a spline), as often as they are drawn
+    std::uint64_t strokes = 0;
+
+    std::uint64_t lines = 0;                    ///< as drawn; strokes that meet end to end are one line
+    std::uint64_t open_lines = 0;               ///< of them
+    std::vector<std::uint32_t> line_of_stroke;  ///< for each stroke the number of its line, by their first strokes
+    std::vector<std::uint32_t> orbit_of_line;   ///< lines that are images of each other share a number
+    std::uint64_t straight_lines = 0;  ///< lines if one goes straight on wherever edges meet, as the eye does
+
+    std::uint64_t vertices = 0;
+    std::uint64_t edges = 0;
+    std::uint64_t components = 0;
+    std::uint64_t faces = 0;         ///< bounded ones
+    std::uint64_t reused_edges = 0;  ///< drawn more than once
+
+    std::uint64_t meetings = 0;       ///< vertices that are visited more than once
+    std::uint64_t crossings = 0;      ///< visited by two strands that cross
+    std::uint64_t skew = 0;           ///< crossings where two straight strands at right angles are not what crosses
+    std::uint64_t mid_crossings = 0;  ///< crossings inside of segments, where the turtle does not pause
+    std::uint64_t touchings = 0;      ///< visited by two strands that do not cross
+    std::uint64_t multiple = 0;       ///< visited by more than two
+
+    KolamSymmetry symmetry;
+    glm::dvec2 centre{0.0};  ///< about which it is symmetric
+
+    std::vector<KolamDot> dots;  ///< by y, then by x
+
+    std::uint64_t loose_dots() const;  ///< not enclosed, or not alone
+
+    /// What breaks a rule of kolams: every dot is circumscribed, every line is closed, no stretch is drawn twice.
+    /// Empty for a kolam. Source: Gopalan & VanLeeuwen, Forma 30 (2015), section 2.
+    std::vector<std::string> faults() const;
+    /// What is not customary, and still allowed: several lines, crossings of more than two strands or not at right
+    /// angles.
+    std::vector<std::string> remarks() const;
+    bool is_kolam() const { return faults().empty(); }
+};
+
+struct KolamOptions {
+    bool spline = false;  ///< the pattern's `line: spline`
+    /// Most nodes of the derivation that are visited. A segment takes the memory and time of 40 of them, a crossing
+    /// those of 10.
+    double budget = 200e6;
+    std::function<bool(const Pen&)> draws = {};  ///< what of the lines is seen; null: all
+    /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
+    std::function<void(std::uint64_t symbols)> watch = {};
+    Monitor monitor = {};     ///< polled throughout the examination
+    bool moves_lift = false;  ///< `spline with lifts`: undrawn steps are not control points
+};
+
+/// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that
+/// (engine/geometry/lattice.h), else with a tolerance of 1e-6 steps.
+/// Cost: for n segments that are of similar length, O(n log n) time and O(n) memory; 3 s and 250 MB for a million.
+/// @throws BudgetError, WordError; std::runtime_error if no segment is drawn
+KolamExamination examine_kolam(const Grammar& grammar, const KolamOptions& options);
+
+/// Where the dots of an examination are.
+std::vector<glm::dvec2> dot_places(const KolamExamination& examination);
+
+}  // namespace sikku

@@ -1,0 +1,437 @@
+// art/kolam/kolam_plane.h: the planes in which drawings are examined: where points are, which way lines go, where
+// they meet; in whole numbers, and in doubles with a tolerance.
+#pragma once
+
+#include "engine/geometry/lattice.h"
+
+#include <fmt/format.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace sikku::kolam_plane {
+
+__extension__ using Wide = __int128;
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double steps_are_one = 1e-6;
+
+inline double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline double dot(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+inline int sign_of(double value) {
+    return (value > 0) - (value < 0);
+}
+inline std::uint64_t mixed(std::uint64_t value) {  // the finaliser of splitmix64
+    value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9;
+    value = (value ^ (value >> 27)) * 0x94d049bb133111eb;
+    return value ^ (value >> 31);
+}
+
+/// A straight piece from node to node. Directions are anticlockwise, in units of which Plane::turn() are a full turn.
+struct Segment {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    double direction = 0.0;
+};
+
+/// A point of a segment where it is cut: a node, or where another segment crosses it.
+struct Cut {
+    std::uint32_t segment = 0;
+    std::uint32_t other = 0;  ///< node, or the segment that crosses
+    std::uint32_t vertex = 0;
+    bool is_crossing = false;
+    double along = 0.0;  ///< roughly, in steps from the segment's beginning
+};
+
+/// Points of Z[zeta]; every question is answered without rounding.
+class ExactPlane {
+public:
+    explicit ExactPlane(const Lattice& lattice)
+        : lattice_(lattice),
+          k_(static_cast<int>(lattice.headings)),
+          turn_(k_ % 2 == 0 ? k_ : 2 * k_),
+          rank_(static_cast<std::size_t>(lattice.rank)),
+          table_(64, none) {
+        for (int i = 0; i < k_; ++i) {
+            const long double angle = 2 * std::numbers::pi_v<long double> * i / k_;
+            cosines_.push_back(std::cos(angle));
+            sines_.push_back(std::sin(angle));
+        }
+    }
+
+    /// Thrown by node(): sums of coordinates would no longer fit into 64 bits.
+    struct OutOfRange {};
+
+    static constexpr bool is_exact = true;
+    double turn() const { return turn_; }
+    bool same_direction(double a, double b) const { return a == b; }
+    /// How far coordinates in doubles may be off.
+    double rounding() const { return 1e-15 * static_cast<double>(rank_) * largest_ * lattice_.unit + 1e-300; }
+    std::size_t size() const { return places_.size(); }
+    glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
+
+    std::uint32_t node(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
+        if (2 * places_.size() >= table_.size()) grow();
+        std::size_t slot = slot_of(coordinates);
+        while (table_[slot] != none) {
+            if (std::equal(coordinates.begin(), coordinates.end(), coordinates_of(table_[slot]).begin())) {
+                return table_[slot];
+            }
+            slot = (slot + 1) & (table_.size() - 1);
+        }
+        table_[slot] = static_cast<std::uint32_t>(places_.size());
+        coordinates_.insert(coordinates_.end(), coordinates.begin(), coordinates.end());
+        places_.push_back(place);
+        for (const std::int64_t coordinate : coordinates) {
+            largest_ = std::max(largest_, std::fabs(static_cast<double>(coordinate)));
+        }
+        if (largest_ > 0x1p52) throw OutOfRange();
+        return table_[slot];
+    }
+
+    /// Every step goes along a power of zeta.
+    double direction(std::uint32_t from, std::uint32_t to) const {
+        const Vector step = between(from, to);
+        long double x = 0;
+        long double y = 0;
+        for (std::size_t i = 0; i < rank_; ++i) {
+            x += static_cast<long double>(step[i]) * cosines_[i];
+            y += static_cast<long double>(step[i]) * sines_[i];
+        }
+        const long double turned = std::atan2(y, x) / (2 * std::numbers::pi_v<long double>)*turn_;
+        return static_cast<double>((std::llround(turned) + turn_) % turn_);
+    }
+
+    /// 1 if the node lies left of the segment's line, 0 on it, -1 right of it.
+    int side(const Segment& line, std::uint32_t node) const {
+        return sign_imaginary(rotated(between(line.from, node), -index(line)));
+    }
+    /// 1 if `b` lies farther along the line than `a`, 0 if neither does.
+    int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
+        return sign_real(rotated(between(a, b), -index(line)));
+    }
+    /// Which of two cuts comes first along its segment: negative, 0 (they are one point), positive.
+    int compare(std::span<const Segment> segments, const Cut& a, const Cut& b) const {
+        const Segment& line = segments[a.segment];
+        if (!a.is_crossing && !b.is_crossing) return a.other == b.other ? 0 : -order(line, a.other, b.other);
+        if (a.is_crossing != b.is_crossing) {
+            const Cut& crossing = a.is_crossing ? a : b;
+            const std::uint32_t node = a.is_crossing ? b.other : a.other;
+            const Segment& other = segments[crossing.other];
+            const int node_is_behind = side(other, node) * sign_of_sine(index(line) - index(other));
+            return a.is_crossing ? -node_is_behind : node_is_behind;
+        }
+        // With y = the way to the other line, turned into it, and w = the direction of this one, turned likewise, a
+        // crossing lies Im y / Im w along; 2 Im y Im w = Re(y conj(w)) - Re(y w).
+        const Segment& first = segments[a.other];
+        const Segment& second = segments[b.other];
+        const Vector way_1 = rotated(between(line.from, first.from), -index(first));
+        const Vector way_2 = rotated(between(line.from, second.from), -index(second));
+        const int turn_1 = index(line) - index(first);
+        const int turn_2 = index(line) - index(second);
+        const Vector a_1 = rotated(way_1, -turn_2);
+        const Vector a_2 = rotated(way_1, turn_2);
+        const Vector b_1 = rotated(way_2, -turn_1);
+        const Vector b_2 = rotated(way_2, turn_1);
+        Vector difference{};
+        for (std::size_t i = 0; i < rank_; ++i) difference[i] = (a_1[i] - a_2[i]) - (b_1[i] - b_2[i]);
+        return sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
+    }
+
+    /// The nodes that the symmetries about the centroid of `nodes` map them onto.
+    class Images {
+    public:
+        Images(const ExactPlane& plane, std::span<const std::uint32_t> nodes)
+            : plane_(plane), count_(static_cast<std::int64_t>(nodes.size())) {
+            for (const std::uint32_t node : nodes) {
+                for (std::size_t i = 0; i < plane.rank_; ++i) sum_[i] += plane.coordinates_of(node)[i];
+            }
+            for (std::size_t i = 0; i < plane.rank_; ++i) {
+                centre += static_cast<double>(sum_[i]) / static_cast<double>(count_) *
+                          (plane.lattice_.unit * plane.lattice_.basis(static_cast<int>(i)));
+            }
+        }
+        /// Orders that the group of rotations may have: rotations map directions of steps onto such directions.
+        std::vector<std::uint32_t> orders() const {
+            std::vector<std::uint32_t> divisors;
+            for (int order = plane_.turn_; order > 1; --order) {
+                if (plane_.turn_ % order == 0) divisors.push_back(static_cast<std::uint32_t>(order));
+            }
+            return divisors;
+        }
+        /// With that many rotations known, the mirrors that remain to be tried.
+        std::uint32_t mirrors(std::uint32_t rotations) const {
+            return static_cast<std::uint32_t>(plane_.turn_) / rotations;
+        }
+        std::uint32_t rotation(std::uint32_t node, std::uint32_t order) const {
+            return image(node, plane_.turn_ / static_cast<int>(order), false);
+        }
+        std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
+            return image(node, static_cast<int>(which), true);
+        }
+        glm::dvec2 centre{0.0};
+
+    private:
+        using Vector = std::array<Wide, 8>;
+        std::uint32_t image(std::uint32_t node, int index, bool mirrored) const {
+            Vector from_centre{};
+            const auto coordinates = plane_.coordinates_of(node);
+            for (std::size_t i = 0; i < plane_.rank_; ++i) from_centre[i] = Wide(count_) * coordinates[i] - sum_[i];
+            if (mirrored) from_centre = plane_.conjugate(from_centre);
+            const Vector turned = plane_.rotated(from_centre, index);
+            std::array<std::int64_t, 8> found{};
+            for (std::size_t i = 0; i < plane_.rank_; ++i) {
+                const Wide scaled = turned[i] + sum_[i];
+                if (scaled % count_ != 0) return none;
+                found[i] = static_cast<std::int64_t>(scaled / count_);
+            }
+            return plane_.find({found.data(), plane_.rank_});
+        }
+        const ExactPlane& plane_;
+        std::int64_t count_;
+        Vector sum_{};
+    };
+
+private:
+    using Vector = std::array<std::int64_t, 8>;
+
+    static int index(const Segment& segment) { return static_cast<int>(segment.direction); }
+    std::span<const std::int64_t> coordinates_of(std::uint32_t node) const {
+        return {coordinates_.data() + node * rank_, rank_};
+    }
+    std::size_t slot_of(std::span<const std::int64_t> coordinates) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t coordinate : coordinates) {
+            hash = mixed(hash + 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(coordinate));
+        }
+        return hash & (table_.size() - 1);
+    }
+    void grow() {
+        table_.assign(2 * table_.size(), none);
+        for (std::uint32_t node = 0; node < places_.size(); ++node) {
+            std::size_t slot = slot_of(coordinates_of(node));
+            while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
+            table_[slot] = node;
+        }
+    }
+    std::uint32_t find(std::span<const std::int64_t> coordinates) const {
+        for (std::size_t slot = slot_of(coordinates);; slot = (slot + 1) & (table_.size() - 1)) {
+            if (table_[slot] == none) return none;
+            if (std::equal(coordinates.begin(), coordinates.end(), coordinates_of(table_[slot]).begin())) {
+                return table_[slot];
+            }
+        }
+    }
+
+    Vector between(std::uint32_t from, std::uint32_t to) const {
+        Vector step{};
+        for (std::size_t i = 0; i < rank_; ++i) step[i] = coordinates_of(to)[i] - coordinates_of(from)[i];
+        return step;
+    }
+    /// By `count` of `turn_`: if k is odd, odd powers of the 2k-th root are negative powers of zeta.
+    template <class Coordinates>
+    Coordinates rotated(const Coordinates& vector, int count) const {
+        count = (count % turn_ + turn_) % turn_;
+        const bool negative = turn_ != k_ && count % 2 != 0;
+        const int power = turn_ == k_ ? count : (negative ? count + k_ : count) / 2 % k_;
+        Coordinates result{};
+        for (std::size_t i = 0; i < rank_; ++i) {
+            const auto& unit = lattice_.power[(i + static_cast<std::size_t>(power)) % static_cast<std::size_t>(k_)];
+            const auto value = negative ? -vector[i] : vector[i];
+            for (std::size_t j = 0; j < rank_; ++j) result[j] += unit[j] * value;
+        }
+        return result;
+    }
+    template <class Coordinates>
+    Coordinates conjugate(const Coordinates& vector) const {
+        Coordinates result{};
+        const auto k = static_cast<std::size_t>(k_);
+        for (std::size_t i = 0; i < rank_; ++i) {
+            const auto& unit = lattice_.power[(k - i) % k];
+            for (std::size_t j = 0; j < rank_; ++j) result[j] += unit[j] * vector[i];
+        }
+        return result;
+    }
+    int sign_of_sine(int count) const {
+        count = (count % turn_ + turn_) % turn_;
+        return 2 * count % turn_ == 0 ? 0 : (2 * count < turn_ ? 1 : -1);
+    }
+    int sign_real(const Vector& vector) const { return sign(vector, cosines_, false); }
+    int sign_imaginary(const Vector& vector) const { return sign(vector, sines_, true); }
+
+    int sign(const Vector& vector, const std::vector<long double>& weights, bool imaginary) const {
+        long double sum = 0;
+        long double size = 0;
+        for (std::size_t i = 0; i < rank_; ++i) {
+            const long double term = static_cast<long double>(vector[i]) * weights[i];
+            sum += term;
+            size += std::fabs(static_cast<long double>(vector[i]));
+        }
+        if (std::fabs(sum) > size * 0x1p-58L) return sum > 0 ? 1 : -1;
+        const Vector other = conjugate(vector);
+        bool is_zero = true;
+        for (std::size_t i = 0; i < rank_; ++i) is_zero = is_zero && other[i] == (imaginary ? vector[i] : -vector[i]);
+        if (is_zero) return 0;
+        // Twice the number is an algebraic integer of degree up to 8, in pairs of equal size, so the product of its
+        // 4 sizes is 1 or more; as none exceeds 2^67, it is above 2^-202.
+        using Precise = boost::multiprecision::number<
+            boost::multiprecision::cpp_bin_float<360, boost::multiprecision::digit_base_2>>;
+        const Precise full_turn = 2 * acos(Precise(-1));
+        Precise precise = 0;
+        for (std::size_t i = 0; i < rank_; ++i) {
+            const Precise angle = full_turn * static_cast<int>(i) / k_;
+            precise += Precise(vector[i]) * (imaginary ? Precise(sin(angle)) : Precise(cos(angle)));
+        }
+        return precise > 0 ? 1 : -1;
+    }
+
+    const Lattice& lattice_;
+    int k_;
+    int turn_;
+    std::size_t rank_;
+    std::vector<long double> cosines_;  // of the powers of zeta
+    std::vector<long double> sines_;
+    std::vector<std::int64_t> coordinates_;
+    std::vector<glm::dvec2> places_;
+    std::vector<std::uint32_t> table_;  // nodes by hash, open addressing
+    double largest_ = 0.0;
+};
+
+/// Points in doubles; what is as near as the tolerance is one.
+class RoughPlane {
+public:
+    static constexpr bool is_exact = false;
+    double turn() const { return 2 * std::numbers::pi; }
+    bool same_direction(double a, double b) const {
+        return std::fabs(std::remainder(a - b, 2 * std::numbers::pi)) <= steps_are_one;
+    }
+    double rounding() const { return 2 * steps_are_one; }
+    std::size_t size() const { return places_.size(); }
+    glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
+
+    std::uint32_t node(std::span<const std::int64_t>, glm::dvec2 place) {
+        if (!(std::fabs(place.x) < 1e9 && std::fabs(place.y) < 1e9)) {
+            throw std::runtime_error(
+                "the drawing goes more than 1e9 steps away from its beginning, where a tolerance "
+                "of 1e-6 steps has no meaning");
+        }
+        if (const std::uint32_t found = find(place); found != none) return found;
+        const auto node = static_cast<std::uint32_t>(places_.size());
+        next_.push_back(std::exchange(cells_.try_emplace(cell(place, 0, 0), none).first->second, node));
+        places_.push_back(place);
+        return node;
+    }
+    double direction(std::uint32_t from, std::uint32_t to) const {
+        const glm::dvec2 step = at(to) - at(from);
+        const double angle = std::atan2(step.y, step.x);
+        return angle < 0 ? angle + turn() : angle;
+    }
+    int side(const Segment& line, std::uint32_t node) const {
+        const double distance = cross(unit(line), at(node) - at(line.from));
+        return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
+    }
+    int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
+        const double distance = dot(unit(line), at(b) - at(a));
+        return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
+    }
+    int compare(std::span<const Segment>, const Cut& a, const Cut& b) const { return sign_of(a.along - b.along); }
+
+    class Images {
+    public:
+        Images(const RoughPlane& plane, std::span<const std::uint32_t> nodes) : plane_(plane) {
+            for (const std::uint32_t node : nodes) centre += plane.at(node) / static_cast<double>(nodes.size());
+            // Points are mapped onto others of the same distance: what is sparsest leaves the fewest choices.
+            std::vector<std::pair<double, std::uint32_t>> distances;
+            for (const std::uint32_t node : nodes) {
+                distances.emplace_back(std::hypot(plane.at(node).x - centre.x, plane.at(node).y - centre.y), node);
+            }
+            std::sort(distances.begin(), distances.end());
+            distances.erase(std::unique(distances.begin(), distances.end()), distances.end());
+            std::size_t least = std::numeric_limits<std::size_t>::max();
+            for (std::size_t begin = 0; begin < distances.size();) {
+                std::size_t end = begin + 1;
+                while (end < distances.size() && distances[end].first - distances[end - 1].first < steps_are_one)
+                    ++end;
+                if (distances[begin].first > 100 * steps_are_one && end - begin < least) {
+                    least = end - begin;
+                    alike_.clear();
+                    for (std::size_t i = begin; i < end; ++i) alike_.push_back(distances[i].second);
+                }
+                begin = end;
+            }
+        }
+        std::vector<std::uint32_t> orders() const {
+            std::vector<std::uint32_t> divisors;
+            const auto count = static_cast<std::uint32_t>(alike_.size());
+            for (std::uint32_t order = count; order > 1; --order) {
+                if (count % order == 0) divisors.push_back(order);
+            }
+            return divisors;
+        }
+        std::uint32_t mirrors(std::uint32_t) const { return static_cast<std::uint32_t>(alike_.size()); }
+        std::uint32_t rotation(std::uint32_t node, std::uint32_t order) const {
+            const double angle = 2 * std::numbers::pi / order;
+            return image(plane_.at(node) - centre, {std::cos(angle), std::sin(angle)});
+        }
+        /// The mirror that maps the first of those alike onto another of them.
+        std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
+            const glm::dvec2 from = plane_.at(alike_.front()) - centre;
+            const glm::dvec2 to = plane_.at(alike_[which]) - centre;
+            const glm::dvec2 factor = glm::dvec2(to.x * from.x - to.y * from.y, to.x * from.y + to.y * from.x) /
+                                      (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
+            const glm::dvec2 place = plane_.at(node) - centre;
+            return image({place.x, -place.y}, factor);
+        }
+        glm::dvec2 centre{0.0};
+
+    private:
+        std::uint32_t image(glm::dvec2 a, glm::dvec2 b) const {
+            return plane_.find(centre + glm::dvec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x));
+        }
+        const RoughPlane& plane_;
+        std::vector<std::uint32_t> alike_;
+    };
+
+private:
+    glm::dvec2 unit(const Segment& line) const { return {std::cos(line.direction), std::sin(line.direction)}; }
+    static std::uint64_t cell(glm::dvec2 place, int right, int up) {
+        const auto x = static_cast<std::int64_t>(std::floor(place.x / (2 * steps_are_one))) + right;
+        const auto y = static_cast<std::int64_t>(std::floor(place.y / (2 * steps_are_one))) + up;
+        return mixed(mixed(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
+    }
+    std::uint32_t find(glm::dvec2 place) const {
+        for (int right = -1; right <= 1; ++right) {
+            for (int up = -1; up <= 1; ++up) {
+                const auto found = cells_.find(cell(place, right, up));
+                if (found == cells_.end()) continue;
+                for (std::uint32_t node = found->second; node != none; node = next_[node]) {
+                    const glm::dvec2 gap = at(node) - place;
+                    if (std::hypot(gap.x, gap.y) <= steps_are_one) return node;
+                }
+            }
+        }
+        return none;
+    }
+
+    std::vector<glm::dvec2> places_;
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // the last node in each
+    std::vector<std::uint32_t> next_;                         // of the same cell
+};
+
+}  // namespace sikku::kolam_plane

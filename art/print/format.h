@@ -1,0 +1,49 @@
+// art/print/format.h: the file formats of prints.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, obj, glb };
+
+/// What a format is made of, which decides how it is drawn.
+enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
+
+/// One file format. Everything that depends on the format asks this row.
+struct FormatInfo {
+    PrintFormat format = PrintFormat::svg;
+    FormatKind kind = FormatKind::vectors;
+    std::string_view label{};      ///< as texts name it: `HP-GL`
+    std::string_view extension{};  ///< without the dot
+    std::string_view alias{};      ///< another extension of the same format, or empty
+    bool is_animated = false;      ///< can draw itself, stroke by stroke
+    bool has_plates = false;       ///< spot colours and crop marks
+    bool has_inks = false;         ///< CMYK and one bit per pixel
+};
+
+/// All formats of prints, in the order in which texts list them.
+std::span<const FormatInfo> print_formats();
+const FormatInfo& info(PrintFormat format);
+
+/// The format of a file by its extension (any case), or nullopt.
+std::optional<PrintFormat> print_format(const std::filesystem::path& file);
+/// The format of that name or extension (`svg`, `plt`; any case), or nullopt.
+std::optional<PrintFormat> named_format(std::string_view name);
+
+/// SVG, PDF, HP-GL and G-code: lines rather than pixels.
+inline bool is_vector(PrintFormat format) {
+    const FormatKind kind = info(format).kind;
+    return kind == FormatKind::vectors || kind == FormatKind::plot;
+}
+/// HP-GL and G-code, which move a pen.
+inline bool is_for_plotters(PrintFormat format) {
+    return info(format).kind == FormatKind::plot;
+}
+
+}  // namespace sikku

@@ -1,0 +1,133 @@
+// art/print/ornaments.h: what is drawn around and beside a pattern's own lines: the dots of a kolam, a border.
+#pragma once
+
+#include "art/print/print.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Rice flour.
+constexpr std::string_view rice = "#fffaf0";
+/// The colours of a kolam's lines, rice flour first.
+constexpr std::string_view kolam_colours = "#fffaf0 #f2b632 #7fc8a9 #e77f67 #8fb8de #d6a2e8 #c5d86d #f7b2ad";
+
+/// Hands a drawing on in colours of a palette that has grown: indices are brought below its old size first.
+class OldColours : public PathSink {
+public:
+    OldColours(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, old(pen)); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(old(pen)); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
+
+private:
+    Pen old(Pen pen) const {
+        pen.colour = style_.index(pen);
+        return pen;
+    }
+    PathSink& sink_;
+    Style style_;
+};
+
+/// Records the positions of the discs of a drawing.
+class NotedDiscs : public PathSink {
+public:
+    NotedDiscs(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha > 0) places.push_back(centre);
+        sink_.disc(centre, radius, pen);
+    }
+
+    std::vector<glm::dvec2> places;  ///< of the visible ones
+
+private:
+    PathSink& sink_;
+    const Style& style_;
+};
+
+/// Draws the strokes of each line in the next of some colours, which are indices of the palette.
+class StrokeColours : public PathSink {
+public:
+    StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
+                  const std::vector<std::uint32_t>& line_of_stroke)
+        : sink_(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        is_seen_ = false;
+        look(pen);
+        sink_.begin_stroke(start, coloured(pen));
+    }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override {
+        look(pen);
+        sink_.change_pen(coloured(pen));
+    }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
+
+private:
+    /// A visible stroke begins with the pen, or where an invisible one ends.
+    void look(const Pen& pen) {
+        const bool is_seen = style_.draws(pen);
+        if (is_seen && !is_seen_) ++stroke_;
+        is_seen_ = is_seen;
+    }
+    Pen old(Pen pen) const {
+        pen.colour = style_.index(pen);
+        return pen;
+    }
+    Pen coloured(Pen pen) const {
+        pen.colour = style_.draws(pen) ? colours_[line() % colours_.size()] : style_.index(pen);
+        return pen;
+    }
+    PathSink& sink_;
+    std::size_t line() const { return stroke_ < lines_.size() ? lines_[stroke_] : 0; }
+
+    const Style& style_;
+    std::vector<int> colours_;
+    const std::vector<std::uint32_t>& lines_;
+    std::size_t stroke_ = SIZE_MAX;  ///< of those that are seen
+    bool is_seen_ = false;
+};
+
+/// The shortest way between two of them; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
+double least_distance(std::span<const glm::dvec2> dots);
+
+/// How far the border reaches inwards from the margin, in millimetres: a 24th of the page's shorter side.
+double border_width(const Page& page);
+/// With the room that a drawing leaves to it.
+double border_room(double width);
+/// Colours of draw_border(): rice flour and red earth (*kaavi*), in a lighter tone where the usual one would not
+/// stand out from the ground; without a ground, the paper is white.
+std::vector<Colour> border_colours(const std::optional<Colour>& ground);
+/// Colours that distinguish the lines of a kolam on dark ground, rice flour first; the same as those of grids.
+std::vector<Colour> kolam_palette();
+/// A frame within the page's margins, of that width: a line of red earth between thin ones of rice flour,
+/// closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
+/// the palette of `print`, which is placed.
+void draw_border(const Print& print, double width, int colour, PathSink& sink);
+
+}  // namespace sikku

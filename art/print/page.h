@@ -1,0 +1,56 @@
+// art/print/page.h: lengths, paper sizes, and how a drawing is placed on a page.
+#pragma once
+
+#include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string_view>
+
+namespace sikku {
+
+/// A sheet in millimetres.
+struct Page {
+    double width = 210.0;
+    double height = 297.0;
+    double margin = 10.0;  ///< on all four sides
+};
+
+/// `A0` … `A6`, `letter`, `legal`, `tabloid` (any case, upright), or `WIDTHxHEIGHT` with units (`300x300mm`,
+/// `20cmx30cm`, `12x18in`; a unit at the end serves both). Width and height of the page in millimetres; lengths
+/// are not checked for range here.
+std::optional<glm::dvec2> parse_size(std::string_view text, double dpi);
+
+/// An axis-parallel box of a drawing; empty until something is added.
+struct Box {
+    glm::dvec2 low{1e300, 1e300};
+    glm::dvec2 high{-1e300, -1e300};
+    bool empty() const { return low.x > high.x; }
+    void add(glm::dvec2 point) {
+        low = {point.x < low.x ? point.x : low.x, point.y < low.y ? point.y : low.y};
+        high = {point.x > high.x ? point.x : high.x, point.y > high.y ? point.y : high.y};
+    }
+};
+
+/// How pattern units become millimetres on the page, y down from the top left corner.
+struct Placement {
+    glm::dmat3x2 to_page{1.0};  ///< page = to_page * (x, y, 1)
+    double step = 1.0;          ///< millimetres of one turtle step
+};
+
+/// What the user may ask of the placement.
+struct PlacementOptions {
+    double rotate = 0.0;         ///< degrees anticlockwise, applied to the drawing
+    bool mirror = false;         ///< left and right exchanged, before the rotation
+    std::optional<double> step;  ///< millimetres of a step; absent: fit into the margins
+    double scale = 1.0;          ///< fraction of the page that a fitted drawing fills (`scale factor:`)
+};
+
+/// The rotation and mirroring alone, to measure the box of the drawing as it will lie on the page (y up).
+glm::dmat3x2 orientation(const PlacementOptions& options);
+
+/// Centres `box` (measured after orientation(), in turtle steps, y up) on the page. `ink_steps` and `ink_mm` widen
+/// the box on every side for the half width of the pen, in steps or in millimetres. Fitting solves for the step
+/// so that box and pen together touch the margins. A box without extent is drawn at 10 mm a step.
+Placement place(const Box& box, const Page& page, const PlacementOptions& options, double ink_steps, double ink_mm);
+
+}  // namespace sikku

@@ -1,0 +1,177 @@
+#include "art/print/press.h"
+
+#include "art/print/print.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+constexpr double most_bleed = 100.0;
+constexpr double mark_length = 5.0;
+constexpr double least_mark_offset = 2.0;  // so that a knife that errs does not leave them on the sheet
+constexpr std::size_t longest_name = 127;  // ISO 32000-1, annex C
+constexpr std::size_t most_listed = 12;
+
+bool is_printable(std::string_view name) {
+    for (std::size_t i = 0; i < name.size();) {
+        const std::size_t length = utf8_length(name.substr(i));
+        const auto byte = static_cast<unsigned char>(name[i]);
+        if (length == 0 || byte < 0x20 || byte == 0x7F) return false;
+        i += length;
+    }
+    return true;
+}
+
+bool same_ink(Colour a, Colour b) {
+    return a.red == b.red && a.green == b.green && a.blue == b.blue;
+}
+
+double mark_offset(const Press& press) {
+    return std::max(press.bleed, least_mark_offset);
+}
+
+/// Rec. 709 weights on the values as they are, in which colours are mixed.
+Colour black_or_white(Colour colour) {
+    if (colour.alpha < 128) return {255, 255, 255, 0};
+    const int luminance = 2126 * colour.red + 7152 * colour.green + 722 * colour.blue;
+    const std::uint8_t value = luminance * 2 > 255 * 10000 ? 255 : 0;
+    return {value, value, value, 255};
+}
+
+}  // namespace
+
+Spot parse_spot(std::string_view text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string_view::npos) {
+        throw std::runtime_error(
+            fmt::format("spot colour '{}': expected a name and a colour, such as Kaavi=#b3452c", printable(text)));
+    }
+    const std::string_view name = trimmed(text.substr(0, equals));
+    const std::string_view colour_text = trimmed(text.substr(equals + 1));
+    const auto refuse = [&](std::string_view why) {
+        throw std::runtime_error(fmt::format("spot colour '{}': {}", printable(text), why));
+    };
+    if (name.empty()) refuse("its name is missing");
+    if (name.size() > longest_name) refuse(fmt::format("its name is longer than {} bytes", longest_name));
+    for (const char* reserved : {"All", "None", "Cyan", "Magenta", "Yellow", "Black"}) {
+        if (lower_case(name) == lower_case(reserved)) refuse(fmt::format("the name {} is taken", reserved));
+    }
+    if (!is_printable(name)) refuse("its name holds control characters or is no UTF-8");
+    if (colour_text.empty()) refuse("its colour is missing");
+    const auto colour = parse_colour(colour_text);
+    if (!colour) refuse(fmt::format("'{}' is no colour: write #rrggbb or a CSS name", printable(colour_text)));
+    if (colour->alpha != 255) refuse("the colour of an ink is not transparent");
+    return {std::string(name), *colour};
+}
+
+std::vector<Spot> parse_spots(std::span<const std::string> texts) {
+    std::vector<Spot> spots;
+    for (const std::string& text : texts) {
+        Spot spot = parse_spot(text);
+        for (const Spot& other : spots) {
+            if (other.name == spot.name) {
+                throw std::runtime_error(fmt::format("spot colour '{}': there are two of that name", spot.name));
+            }
+            if (other.colour == spot.colour) {
+                throw std::runtime_error(fmt::format("spot colours '{}' and '{}' are both {}", other.name, spot.name,
+                                                     colour_name(spot.colour)));
+            }
+        }
+        spots.push_back(std::move(spot));
+    }
+    return spots;
+}
+
+void check_press(const Press& press, PrintFormat format) {
+    // Also false for what is no number.
+    if (!(press.bleed >= 0.0 && press.bleed <= most_bleed)) {
+        throw std::runtime_error(
+            fmt::format("a bleed of {:.6g} mm: it is 0 to {:.6g} mm wide", press.bleed, most_bleed));
+    }
+    if (press.bleed > 0.0 && is_for_plotters(format)) throw std::runtime_error("what a plotter draws has no bleed");
+    if (press.bits != 1 && press.bits != 8) {
+        throw std::runtime_error(fmt::format("{} bits a channel: pictures have 8, or 1 as line art", press.bits));
+    }
+    if (format != PrintFormat::pdf && press.marks) throw std::runtime_error("only a PDF has crop marks");
+    if (format != PrintFormat::pdf && !press.spots.empty()) throw std::runtime_error("only a PDF has spot colours");
+    if (format != PrintFormat::tiff && !press.cmyk.empty()) throw std::runtime_error("only a TIFF is made in CMYK");
+    if (format != PrintFormat::tiff && press.bits == 1) throw std::runtime_error("only a TIFF is made in one bit");
+    if (press.bits != 1 && press.screen != Screen{}) {
+        throw std::runtime_error("a screen applies only to pictures of one bit");
+    }
+    if (press.bits == 1 && !press.cmyk.empty()) throw std::runtime_error("a picture in CMYK has 8 bits a channel");
+}
+
+void check_spots(const Press& press, const Style& style) {
+    if (press.spots.empty()) return;
+    std::vector<Colour> used;
+    const auto use = [&](const std::optional<Colour>& colour) {
+        if (!colour || colour->alpha == 0) return;
+        const auto same = [&](Colour other) { return same_ink(other, *colour); };
+        if (std::none_of(used.begin(), used.end(), same)) used.push_back(*colour);
+    };
+    use(style.ground);
+    for (int index = 0; index < std::max(static_cast<int>(style.palette.size()), 1); ++index) {
+        if (style.stroked) use(style.line_colour(Pen{.colour = index}));
+        use(style.fill_colour(Pen{.colour = index}));
+    }
+    for (const Spot& spot : press.spots) {
+        const auto matches = [&](Colour colour) { return same_ink(colour, spot.colour); };
+        if (std::any_of(used.begin(), used.end(), matches)) continue;
+        std::string names;
+        for (std::size_t i = 0; i < std::min(used.size(), most_listed); ++i) {
+            names += (i == 0 ? "" : ", ") + colour_name(used[i]);
+        }
+        throw std::runtime_error(fmt::format("spot colour '{}': nothing is {}; there is {}{}", spot.name,
+                                             colour_name(spot.colour), names,
+                                             used.size() > most_listed ? " and more" : ""));
+    }
+}
+
+double press_edge(const Press& press) {
+    return press.marks ? mark_offset(press) + mark_length : press.bleed;
+}
+
+std::array<CropMark, 8> crop_marks(const Page& page, const Press& press) {
+    const double near = mark_offset(press);
+    const double far = near + mark_length;
+    std::array<CropMark, 8> marks;
+    std::size_t next = 0;
+    for (const double x : {0.0, page.width}) {
+        for (const double y : {0.0, page.height}) {
+            const double out_x = x > 0.0 ? 1.0 : -1.0;
+            const double out_y = y > 0.0 ? 1.0 : -1.0;
+            marks[next++] = {{x + out_x * near, y}, {x + out_x * far, y}};
+            marks[next++] = {{x, y + out_y * near}, {x, y + out_y * far}};
+        }
+    }
+    return marks;
+}
+
+Print as_picture(Print print) {
+    const double bleed = print.press.bleed;
+    print.page.width += 2 * bleed;
+    print.page.height += 2 * bleed;
+    print.page.margin += bleed;
+    print.placement.to_page[2] += glm::dvec2(bleed);
+    print.press.bleed = 0.0;
+    if (print.press.bits == 1 && print.press.screen.kind == Screen::Kind::threshold) {
+        Style& style = print.style;
+        for (std::optional<Colour>* colour : {&style.ground, &style.stroke_colour, &style.fill}) {
+            if (*colour) **colour = black_or_white(**colour);
+        }
+        for (Colour& colour : style.palette) colour = black_or_white(colour);
+        // Paper, and not transparent: there is no alpha in one bit.
+        if (!style.ground || style.ground->alpha == 0) style.ground = Colour{255, 255, 255, 255};
+    }
+    return print;
+}
+
+}  // namespace sikku

@@ -1,0 +1,68 @@
+// art/print/print.h: everything a writer of prints needs to know beside the drawing itself.
+#pragma once
+
+#include "art/print/page.h"
+#include "art/print/press.h"
+#include "art/style/style.h"
+#include "engine/geometry/path.h"
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+namespace sikku {
+
+/// A print about to be made. Writers keep it by reference and must not outlive it.
+struct Print {
+    Page page;
+    Style style;
+    Placement placement;
+    double dpi = 300.0;
+    std::string title;                 ///< of the pattern, UTF-8
+    std::string pattern;               ///< the text of the pattern file, so that the print can be made again
+    std::string made;                  ///< what made it: `sikku 0.1.0, -n 4`
+    std::optional<int> travel_colour;  ///< index of the colour in which ways of the lifted pen are shown
+    bool is_plot = false;              ///< layers that no pen draws are marked as such
+    std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
+    Press press;                       ///< how it goes to press
+};
+
+/// A part of a sheet, in millimetres from its top left corner.
+struct Window {
+    double left = 0.0, top = 0.0;
+    double width = 0.0, height = 0.0;
+    bool clips = false;  ///< what of a drawing lies outside is cut off
+};
+
+/// The ink of parts too small to be seen: so much line, spread like that. In turtle steps.
+struct Blot {
+    glm::dvec3 spread{0.0};  ///< covariance: xx, xy, yy
+    glm::dvec2 size{0.0};    ///< of the part's box: it covers no more than that and the pen around it
+    double length = 0.0;
+};
+
+/// Receives a drawing of which some parts are blots.
+class BlotSink : public PathSink {
+public:
+    /// A line of the turtle begins at a place; what is seen of it follows in strokes, until it ends at another.
+    virtual void begin_line(glm::dvec2) {}
+    virtual void end_line(glm::dvec2) {}
+    /// A number for what blot() is to leave; the same may be asked for again and again.
+    virtual std::size_t prepare(const Blot& blot, const Pen& pen) = 0;
+    /// What was prepared, around its centre of mass.
+    virtual void blot(std::size_t prepared, glm::dvec2 centre) = 0;
+};
+
+/// Takes the drawing of a print and writes it into a file.
+class PrintWriter : public PathSink {
+public:
+    /// Ends the drawing so far and begins another on the same sheet, over the first: with the style, the placement
+    /// and the title of `part`, which is kept by reference until the next one or finish(). Its page is the sheet, but
+    /// its ground is laid in `window` alone.
+    virtual void begin_part(const Print& part, const Window& window) = 0;
+    /// Completes the document; to be called once, after the last stroke.
+    virtual void finish() = 0;
+};
+
+}  // namespace sikku

@@ -1,0 +1,84 @@
+#include "art/provenance/provenance.h"
+
+#include "art/provenance/provenance_readers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::optional<Provenance> read_nothing(const InputFile&) {
+    return std::nullopt;
+}
+
+bool begins_as_xml(std::string_view head) {
+    if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+    const std::size_t first = head.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && head[first] == '<';
+}
+
+template <char... signature>
+bool begins_with(std::string_view head) {
+    constexpr char bytes[] = {signature...};
+    return head.starts_with(std::string_view(bytes, sizeof bytes));
+}
+
+bool begins_as_tiff(std::string_view head) {
+    return head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv) ||
+           head.starts_with("MM\0+"sv);
+}
+
+struct Format {
+    std::string_view name;
+    bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
+    std::optional<Provenance> (*read)(const InputFile& file);
+};
+constexpr std::size_t head_bytes = 1024;
+constexpr std::array<Format, 8> formats = {{
+    {"PNG", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
+    {"TIFF", begins_as_tiff, read_tiff_provenance},
+    {"JPEG", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
+    {"EXR", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
+    {"PDF", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
+    {"GIF", begins_with<'G', 'I', 'F', '8'>, read_nothing},
+    {"GLB", begins_with<'g', 'l', 'T', 'F'>, read_nothing},
+    {"SVG", begins_as_xml, read_svg_provenance},
+}};
+
+}  // namespace
+
+std::optional<Provenance> read_provenance(const std::filesystem::path& file) {
+    std::optional<InputFile> input;
+    try {
+        input.emplace(file);
+    } catch (const std::system_error&) {
+        return std::nullopt;
+    }
+    try {
+        const std::string head = input->read(0, head_bytes);
+        const auto format =
+            std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
+        if (format == formats.end()) return std::nullopt;
+        std::string refusal = "contains no pattern";
+        try {
+            auto found = format->read(*input);
+            if (found && !found->pattern.empty()) {
+                limit_made(found->made);
+                return found;
+            }
+        } catch (const UnreadableFile& error) {
+            refusal = error.what();
+        }
+        throw std::runtime_error(fmt::format("{}: this {} file {}", file.string(), format->name, refusal));
+    } catch (const std::system_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", file.string(), error.code().message()));
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,25 @@
+// art/provenance/provenance.h: reads back what a print was made from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace sikku {
+
+struct Provenance {
+    std::string pattern;  ///< the text of the pattern, byte for byte
+    /// Program, version and options that made the print; empty if over 2 MB. Untrusted, like the pattern.
+    std::string made;
+};
+
+/// Reads the pattern that the writers of this folder put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF. Recognises the
+/// format by the first bytes, not by the name; never decodes pixels. Returns nullopt if the format is unknown or the
+/// file is not a regular file that can be opened.
+///
+/// Safe for untrusted files: reading any file takes at most about a second and 200 MB.
+/// @throws std::runtime_error, naming the file, if it has one of the formats but contains no pattern, is damaged, or
+/// contains a text of more than 64 MB
+std::optional<Provenance> read_provenance(const std::filesystem::path& file);
+
+}  // namespace sikku

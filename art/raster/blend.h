@@ -1,0 +1,45 @@
+// art/raster/blend.h: paint onto a band of pixels.
+#pragma once
+
+#include "art/raster/stroke.h"
+#include "art/style/colour.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// A band of pixels, 8-bit sRGB, that is painted in it and not in linear light, as print and web expect.
+/// Channels: 1 (grey: of every colour its red is taken), 3, or 4 (straight alpha).
+class Canvas {
+public:
+    Canvas(int width, int rows, int channels, Simd simd = best_simd());
+
+    /// Starts a band of at most the rows of the constructor: all ground, nothing painted.
+    void clear(Colour ground, int rows);
+
+    /// A run of pixels of a polygon, of which it covers `coverage` / 255. Polygons that share an edge leave no
+    /// seam, whatever their colours: until a pixel is full, parts are taken to lie beside each other and not
+    /// above each other.
+    void polygon_span(int row, int first, int end, int coverage, Colour colour);
+
+    /// Paints `colour` through the mask, over what is there, and clears the mask.
+    void blend(Mask& mask, Colour colour);
+
+    std::span<const std::uint8_t> pixels() const {
+        return {pixels_.data(), static_cast<std::size_t>(width_) * channels_ * rows_};
+    }
+
+private:
+    void polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage, Colour colour);
+
+    int width_, rows_, channels_;
+    Simd simd_;
+    Colour ground_;
+    std::vector<std::uint8_t> pixels_;
+    std::vector<std::uint8_t> bare_;  ///< the share of each pixel that polygons have not reached; made when needed
+    bool bare_ready_ = false;
+};
+
+}  // namespace sikku

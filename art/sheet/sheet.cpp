@@ -1,0 +1,720 @@
+#include "art/sheet/sheet.h"
+
+#include "art/drawing/draw_view.h"
+#include "art/drawing/picture.h"
+#include "art/image/image_file.h"
+#include "art/print/lettering.h"
+#include "art/raster/raster.h"
+#include "art/vector/pdf.h"
+#include "art/vector/svg.h"
+#include "engine/base/output_file.h"
+#include "engine/base/threads.h"
+#include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+#include <typeinfo>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr double fitted_side = 190.0;   // millimetres of an A4 page within its margins, which pens are meant for
+constexpr double finest_line = 0.1;     // millimetres that every printer can print
+constexpr double widest_line = 0.035;   // as part of a cell: of early generations, whose steps are long
+constexpr double line_pitch = 1.75;     // of lines of text, as part of the height of their capitals
+constexpr double small_letters = 0.78;  // of a caption's later lines, as part of those of its first
+constexpr double stem = 0.085;          // of letters, as part of their height
+constexpr double title_stem = 0.055;
+
+Pen text_pen(double width, bool pale) {
+    return {.width = width, .width_set = true, .colour = pale ? 1 : 0};
+}
+
+/// A line of text on the sheet; `at` in millimetres, y down.
+struct TextLine {
+    std::string text;
+    glm::dvec2 at;
+    double height;
+    Pen pen;
+};
+
+/// What of each cell is known before it has a place.
+struct Subject {
+    std::shared_ptr<const Grammar> grammar;
+    std::unique_ptr<SeenDrawing> seen;  ///< or
+    std::unique_ptr<Drawing> drawing;
+    DrawingCost cost;  ///< of a picture
+    const DrawnExtent& extent() const { return seen ? seen->extent() : drawing->extent(); }
+    glm::dvec2 size{0.0};  ///< in steps, without the pen
+    std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
+};
+
+/// Rows of cells: how many there are in each.
+struct Grid {
+    int columns = 0;
+    std::vector<int> rows;
+    std::vector<bool> headed;  ///< does a heading stand above that row?
+};
+
+/// A cell with its place on the sheet.
+struct PlacedCell {
+    Window window;
+    Print print;  ///< page and placement are those of the sheet
+    int row = 0;
+};
+
+struct Plan {
+    SheetLayout layout;
+    std::vector<TextLine> texts;
+    std::vector<PlacedCell> cells;
+};
+
+/// A cell as pixels of the sheet.
+struct CellPicture {
+    std::size_t cell = 0;
+    Print print;
+    int left = 0, right = 0;
+    int top = 0, bottom = 0;
+};
+
+/// Rows of the sheet with whole cells.
+struct Strip {
+    int top = 0, bottom = 0;
+    std::vector<CellPicture> cells;
+};
+
+/// Rows of the sheet that are made at a time.
+struct SheetBand {
+    int top = 0, bottom = 0;
+    std::vector<std::uint8_t> pixels;
+};
+
+/// How much of a picture is made at a time.
+struct Room {
+    int readers = 1;  ///< drawings
+    int rows = 0;     ///< of a strip; 0: all
+};
+
+/// Rethrows what a drawing throws with the name of its cell; exceptions of the caller pass as they are.
+template <class Work>
+auto named(const SheetCell& cell, Work&& work) {
+    const auto told = [&](const std::exception& error) { return fmt::format("'{}': {}", cell.title, error.what()); };
+    try {
+        return work();
+    } catch (const BudgetError& error) {
+        throw BudgetError(told(error));
+    } catch (const WordError& error) {
+        throw WordError(told(error));
+    } catch (const std::runtime_error& error) {
+        if (typeid(error) != typeid(std::runtime_error)) throw;
+        throw std::runtime_error(told(error));
+    }
+}
+
+DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
+    DrawOptions drawing;
+    drawing.format = options.format;
+    drawing.placement = cell.placement;
+    drawing.placement.scale = 1.0;
+    drawing.window = cell.window;
+    drawing.budget = cell.budget;
+    return drawing;
+}
+
+/// A print about as large as a cell among `count` will be.
+Print cell_print(const SheetCell& cell, const SheetOptions& options, std::size_t count) {
+    Print print;
+    print.style = cell.style;
+    print.dpi = options.dpi;
+    const double side = std::sqrt(static_cast<double>(count));
+    print.page = {std::max(options.page.width / side, 1.0), std::max(options.page.height / side, 1.0), 0.0};
+    return print;
+}
+
+class Sheet {
+public:
+    Sheet(const std::vector<SheetCell>& cells, const SheetOptions& options) : cells_(cells), options_(options) {
+        if (cells.empty()) throw std::runtime_error("a sheet without prints");
+        print_.page = options.page;
+        print_.dpi = options.dpi;
+        print_.title = options.title;
+        print_.pattern = options.pattern;
+        print_.made = options.made;
+        print_.animation = options.animation;
+        print_.style.ground = options.ground;
+        print_.style.stroke = {1.0, false, 1.0};
+        print_.style.palette = {options.ink, options.pale_ink};
+        // Text is laid out in millimetres.
+        print_.placement.to_page[1].y = -1.0;
+        print_.placement.step = 1.0;
+        measure();
+    }
+
+    const Print& print() const { return print_; }
+    const Plan& arrange();
+    void write_vectors(PrintWriter& writer) const;
+    void write_pixels(OutputFile& output, const std::filesystem::path& file) const;
+
+private:
+    void watch(std::uint64_t symbols) const {
+        if (!options_.watch) return;
+        const std::lock_guard lock(watching_);
+        options_.watch(symbols);
+    }
+    void measure();
+    std::vector<Grid> grids() const;
+    double caption_height(double width, double letters) const;
+    double letters_of(double width) const;
+    double score(const Grid& grid) const;
+    struct Measures {
+        double width = 0, height = 0;     ///< of a cell's window
+        double across = 0, down = 0;      ///< from one cell to the next
+        glm::dvec2 first{0.0};            ///< the first cell's corner
+        double caption = 0, letters = 0;  ///< heights
+        double title = 0, heading = 0;    ///< heights that are kept free
+        bool fits() const { return width > 1.0 && height > 1.0; }
+    };
+    Measures measures(const Grid& grid) const;
+    double drawn_step(const Subject& subject, double width, double height, double factor) const;
+    double pen_factor(const SheetCell& cell, double width, double height) const;
+    void write_caption(const SheetCell& cell, const Window& window, double letters);
+    void write_texts(double top, double bottom, PathSink& sink) const;
+    std::vector<Strip> strips(PixelSize size, Colour ground) const;
+    std::unique_ptr<Rendering> raster(const CellPicture& cell) const;
+    Room room(const std::vector<Strip>& strips, double stride) const;
+
+    const std::vector<SheetCell>& cells_;
+    const SheetOptions& options_;
+    Print print_;
+    std::vector<Subject> subjects_;
+    double usual_shape_ = 1.0;  ///< height by width of the drawings
+    Plan plan_;
+    mutable std::mutex watching_;
+};
+
+/// Works out, in parallel, how large the drawings are.
+void Sheet::measure() {
+    subjects_.resize(cells_.size());
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        if (i > 0 && !cells_[i].heading.empty()) ++row;
+        subjects_[i].row = row;
+    }
+    oneapi::tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+        const SheetCell& cell = cells_[i];
+        named(cell, [&] {
+            DrawOptions drawing = cell_options(cell, options_);
+            if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
+            Subject& subject = subjects_[i];
+            subject.grammar = std::make_shared<const Grammar>(shorten(*cell.grammar));
+            auto parts = seen_parts(*subject.grammar, cell.style, drawing);
+            const Print print = cell_print(cell, options_, cells_.size());
+            subject.cost = drawing_cost(*subject.grammar, parts ? &*parts : nullptr, print, drawing);
+            if (parts) {
+                subject.seen =
+                    std::make_unique<SeenDrawing>(*subject.grammar, std::move(*parts), cell.style, drawing);
+            } else {
+                subject.drawing = std::make_unique<Drawing>(*subject.grammar, cell.style, drawing);
+            }
+            const Box& box = subject.extent().box;
+            subjects_[i].size = box.high - box.low;
+        });
+    });
+    std::vector<double> shapes;
+    for (const Subject& subject : subjects_) {
+        const double least = std::max(1e-9, 0.05 * std::max(subject.size.x, subject.size.y));
+        shapes.push_back(std::max(subject.size.y, least) / std::max(subject.size.x, least));
+    }
+    // Rather too high than too low: what is wide leaves room above and below and looks well.
+    const auto at = shapes.begin() + static_cast<std::ptrdiff_t>((shapes.size() - 1) * 6 / 10);
+    std::nth_element(shapes.begin(), at, shapes.end());
+    usual_shape_ = *at;
+}
+
+/// All that come into question.
+std::vector<Grid> Sheet::grids() const {
+    std::vector<int> groups;
+    for (const Subject& subject : subjects_) {
+        if (groups.size() <= subject.row) groups.push_back(0);
+        ++groups[subject.row];
+    }
+    const bool headed =
+        std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return !cell.heading.empty(); });
+    const int longest = *std::max_element(groups.begin(), groups.end());
+    int from = 1, to = std::min(longest, 1000);
+    if (options_.columns > 0) {
+        from = to = std::min(options_.columns, longest);
+    }
+    std::vector<Grid> result;
+    for (int columns = from; columns <= to; ++columns) {
+        Grid grid{columns, {}, {}};
+        for (const int group : groups) {
+            // Equal rows, or one more cell in the first ones: no cell stands alone below full rows.
+            const int rows = (group + columns - 1) / columns;
+            for (int row = 0; row < rows; ++row) {
+                grid.headed.push_back(headed && row == 0);
+                grid.rows.push_back(group / rows + (row < group % rows ? 1 : 0));
+            }
+        }
+        // As few columns as that number of rows allows: the last row is then as full as can be.
+        if (result.empty() || result.back().rows.size() != grid.rows.size()) result.push_back(std::move(grid));
+    }
+    return result;
+}
+
+double Sheet::letters_of(double width) const {
+    return options_.letters ? *options_.letters : std::clamp(width * 0.036, 0.9, 7.0);
+}
+
+/// Of the longest caption, with the distance from its cell.
+double Sheet::caption_height(double width, double letters) const {
+    double most = 0;
+    for (const SheetCell& cell : cells_) {
+        double height = 0;
+        std::size_t lines = 0;
+        for (std::size_t i = 0; i < cell.caption.size() && lines < options_.caption_lines; ++i) {
+            const double size = i == 0 ? letters : small_letters * letters;
+            const auto parts = wrapped(cell.caption[i], size, width, i == 0 ? 2 : options_.caption_lines - lines);
+            lines += parts.size();
+            height += static_cast<double>(parts.size()) * size * line_pitch;
+        }
+        if (lines > 0) height += letters * 0.4;
+        most = std::max(most, height);
+    }
+    return most;
+}
+
+Sheet::Measures Sheet::measures(const Grid& grid) const {
+    constexpr double gap_share = 0.1;
+    constexpr double shape_slack = 1.12;
+    const Page& page = options_.page;
+    const double width = page.width - 2 * page.margin, height = page.height - 2 * page.margin;
+    const double shorter = std::min(page.width, page.height);
+    Measures m;
+    const double columns = grid.columns, rows = static_cast<double>(grid.rows.size());
+    m.width = options_.gap ? (width - (columns - 1) * *options_.gap) / columns
+                           : width / (columns + (columns - 1) * gap_share);
+    if (columns == 1 && !options_.gap) m.width = width;
+    if (!(m.width > 0)) return {};
+    const double gap = options_.gap ? *options_.gap : std::min(gap_share * m.width, 0.04 * shorter);
+    const double title = std::clamp(shorter * 0.032, 2.0, 40.0);
+    if (!options_.title.empty()) m.title = title * (options_.subtitle.empty() ? 2.2 : 3.1);
+    const auto headings = static_cast<double>(std::count(grid.headed.begin(), grid.headed.end(), true));
+    // Cells are about as high as their drawings are; what is left widens the gaps, or stays free on both sides.
+    const double shape = std::clamp(usual_shape_, 0.6, 1.7);
+    const double full = m.width;
+    // A narrower cell has more lines below it, which leave less height: until its caption has its room.
+    for (bool has_room = false; !has_room;) {
+        m.letters = letters_of(m.width);
+        if (headings > 0) m.heading = m.letters * 1.35 * 2.1;
+        m.caption = std::max(m.caption, caption_height(m.width, m.letters));
+        // Under the last captions nothing is kept free but the margin.
+        const double room = height - m.title - headings * m.heading - rows * m.caption - (rows - 1) * gap;
+        m.height = std::min(room / rows, full * shape * shape_slack);
+        m.width = std::min(m.width, m.height / shape * shape_slack);
+        if (!m.fits()) return m;
+        m.letters = letters_of(m.width);
+        has_room = caption_height(m.width, m.letters) <= m.caption;
+    }
+    m.across = m.width + (columns > 1 ? (columns * full + (columns - 1) * (width - columns * full) / (columns - 1) -
+                                         columns * m.width) /
+                                            (columns - 1)
+                                      : 0.0);
+    // Wider than a third of a cell a gap tears the sheet apart.
+    m.across = std::min(m.across, m.width + std::max(gap, 0.35 * m.width));
+    const double spare = height - m.title - headings * m.heading - rows * (m.caption + m.height);
+    const double pitch_gap = rows > 1 ? std::min(spare / (rows - 1), std::max(1.6 * gap, gap + 0.2 * m.height)) : 0;
+    m.down = m.height + m.caption + pitch_gap;
+    m.first.x = page.margin + (width - (columns - 1) * m.across - m.width) / 2;
+    m.first.y = page.margin + m.title + std::max(0.0, spare - (rows - 1) * pitch_gap) * (m.title > 0 ? 0.3 : 0.5);
+    return m;
+}
+
+/// Millimetres of a step of what is fitted into a cell.
+double Sheet::drawn_step(const Subject& subject, double width, double height, double factor) const {
+    const Style& style = cells_[static_cast<std::size_t>(&subject - subjects_.data())].style;
+    const double widest = subject.extent().widest;
+    Page page{width, height, options_.inset * std::min(width, height)};
+    const double ink_steps = style.stroke.in_steps ? widest / 2 : 0;
+    const double ink_millimetres = style.stroke.in_steps ? 0 : widest / 2 * factor;
+    PlacementOptions fitted;
+    fitted.scale = std::min(1.0, subject.grammar->scale_percent() / 100);
+    return place(subject.extent().box, page, fitted, ink_steps, ink_millimetres).step;
+}
+
+/// By how much pens are thinner, or thicker, than on a page of their own.
+double Sheet::pen_factor(const SheetCell& cell, double width, double height) const {
+    const double side = (1 - 2 * options_.inset) * std::min(width, height);
+    const double factor = side / fitted_side;
+    const double pen = cell.style.stroke.value;
+    if (cell.style.stroke.in_steps || !(pen > 0)) return factor;
+    return std::max(factor, std::min(1.0, finest_line / pen));
+}
+
+/// The area of all drawings, or less than nothing if they have no room.
+double Sheet::score(const Grid& grid) const {
+    const Measures m = measures(grid);
+    if (!m.fits()) return -1;
+    double area = 0;
+    for (const Subject& subject : subjects_) {
+        const double step =
+            std::min(m.width / std::max(subject.size.x, 1e-9), m.height / std::max(subject.size.y, 1e-9));
+        area += step * step * std::max(subject.size.x, 0.05 * subject.size.y) *
+                std::max(subject.size.y, 0.05 * subject.size.x);
+    }
+    return area;
+}
+
+void Sheet::write_caption(const SheetCell& cell, const Window& window, double letters) {
+    double y = window.top + window.height + letters * 0.4;
+    std::size_t lines = 0;
+    for (std::size_t i = 0; i < cell.caption.size() && lines < options_.caption_lines; ++i) {
+        const double height = i == 0 ? letters : small_letters * letters;
+        for (std::string& line :
+             wrapped(cell.caption[i], height, window.width, i == 0 ? 2 : options_.caption_lines - lines)) {
+            y += height * line_pitch;
+            plan_.texts.push_back({std::move(line), {window.left, y}, height, text_pen(stem * height, i > 0)});
+            ++lines;
+        }
+    }
+}
+
+const Plan& Sheet::arrange() {
+    const std::vector<Grid> all = grids();
+    const Grid* best = nullptr;
+    double most = 0;
+    for (const Grid& grid : all) {
+        const double area = score(grid);
+        if (area > most * (1 + 1e-9)) {
+            most = area;
+            best = &grid;
+        }
+    }
+    if (!best) {
+        throw std::runtime_error(
+            fmt::format("{} prints with their captions have no room on a sheet of {:g} x {:g} mm", cells_.size(),
+                        options_.page.width, options_.page.height));
+    }
+    const Measures m = measures(*best);
+    const Page& page = options_.page;
+    const double shorter = std::min(page.width, page.height);
+    if (!options_.title.empty()) {
+        const double room = page.width - 2 * page.margin;
+        double height = std::clamp(shorter * 0.032, 2.0, 40.0);
+        height = std::min(height, height * room / text_width(options_.title, height));
+        plan_.texts.push_back(
+            {options_.title, {m.first.x, page.margin + height}, height, text_pen(title_stem * height, false)});
+        const double small = height * 0.36;
+        plan_.texts.push_back({shortened(options_.subtitle, small, room),
+                               {m.first.x, page.margin + height + small * 2.4},
+                               small,
+                               text_pen(stem * small, true)});
+    }
+    plan_.layout.columns = best->columns;
+    plan_.layout.rows = static_cast<int>(best->rows.size());
+    plan_.layout.letters = m.letters;
+    double top = m.first.y;
+    std::size_t next = 0;
+    for (std::size_t row = 0; row < best->rows.size(); ++row) {
+        if (best->headed[row]) {
+            const double height = m.letters * 1.35;
+            plan_.texts.push_back({shortened(cells_[next].heading, height, page.width - page.margin - m.first.x),
+                                   {m.first.x, top + height},
+                                   height,
+                                   text_pen(title_stem * 1.3 * height, false)});
+            top += m.heading;
+        }
+        // Rows under a heading begin below it, others stand in the middle.
+        const bool is_headed = std::find(best->headed.begin(), best->headed.end(), true) != best->headed.end();
+        const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
+        for (int column = 0; column < best->rows[row]; ++column, ++next) {
+            PlacedCell cell;
+            cell.window = {m.first.x + indent + column * m.across, top, m.width, m.height, false};
+            cell.row = static_cast<int>(row);
+            write_caption(cells_[next], cell.window, m.letters);
+            plan_.layout.windows.push_back(cell.window);
+            plan_.cells.push_back(std::move(cell));
+        }
+        top += m.down;
+    }
+
+    std::vector<double> steps(cells_.size()), least;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        named(cells_[i], [&] {
+            steps[i] = cells_[i].placement.step
+                           ? *cells_[i].placement.step
+                           : drawn_step(subjects_[i], m.width, m.height, pen_factor(cells_[i], m.width, m.height));
+        });
+        if (least.size() <= subjects_[i].row) least.push_back(steps[i]);
+        least.back() = std::min(least.back(), steps[i]);
+    }
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        PlacedCell& cell = plan_.cells[i];
+        Print& print = cell.print;
+        const double factor = pen_factor(cells_[i], m.width, m.height);
+        print.style = subjects_[i].drawing ? subjects_[i].drawing->style() : cells_[i].style;
+        print.title = cells_[i].title;
+        print.dpi = options_.dpi;
+        print.page = {m.width, m.height, 0.0};
+        PlacementOptions placement = cells_[i].placement;
+        placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
+        print.placement = place(subjects_[i].extent().box, print.page, placement, 0.0, 0.0);
+        print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
+        print.page = options_.page;
+        const double widest = subjects_[i].extent().widest;
+        double pen = widest * (print.style.stroke.in_steps ? *placement.step : factor);
+        double thinner = print.style.stroke.in_steps ? 1.0 : factor;
+        const double widest_pen = widest_line * std::min(m.width, m.height);
+        if (print.style.stroke.in_steps && pen > widest_pen) {
+            thinner = widest_pen / pen;
+            pen = widest_pen;
+        }
+        print.style.stroke.value *= thinner;
+        print.style.stroke.unit *= thinner;
+        const glm::dvec2 size = subjects_[i].size * *placement.step + pen;
+        cell.window.clips = cells_[i].window || size.x > m.width || size.y > m.height;
+    }
+    return plan_;
+}
+
+/// Those that are seen between two heights, in millimetres.
+void Sheet::write_texts(double top, double bottom, PathSink& sink) const {
+    for (const TextLine& line : plan_.texts) {
+        if (line.at.y + line.height < top || line.at.y - 2 * line.height > bottom) continue;
+        write_text(line.text, {line.at.x, -line.at.y}, line.height, line.pen, sink);
+    }
+}
+
+void Sheet::write_vectors(PrintWriter& writer) const {
+    write_texts(0.0, options_.page.height, writer);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
+        named(cells_[i], [&] {
+            if (!subjects_[i].seen) return subjects_[i].drawing->read(plan_.cells[i].print, writer);
+            // Of the sheet, its cell is seen.
+            const Window& window = plan_.cells[i].window;
+            Print print = plan_.cells[i].print;
+            print.page = {window.width, window.height, 0.0};
+            print.placement.to_page[2] -= glm::dvec2(window.left, window.top);
+            subjects_[i].seen->draw_lines(print, writer);
+        });
+    }
+    writer.finish();
+}
+
+/// The colour that shows where `upper` lies over `lower`.
+Colour over(Colour upper, Colour lower) {
+    const double a = upper.alpha / 255.0, b = lower.alpha / 255.0 * (1 - a);
+    if (!(a + b > 0)) return lower;
+    const auto mixed = [&](std::uint8_t u, std::uint8_t l) {
+        return static_cast<std::uint8_t>(std::lround((u * a + l * b) / (a + b)));
+    };
+    return {mixed(upper.red, lower.red), mixed(upper.green, lower.green), mixed(upper.blue, lower.blue),
+            static_cast<std::uint8_t>(std::lround((a + b) * 255))};
+}
+
+/// The rows of the sheet, cut between the rows of its cells.
+std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
+    const double millimetre = options_.dpi / 25.4;
+    const auto pixels = [&](double millimetres, int most) {
+        return static_cast<int>(std::clamp(std::round(millimetres * millimetre), 0.0, static_cast<double>(most)));
+    };
+    std::vector<Strip> strips(static_cast<std::size_t>(plan_.layout.rows));
+    for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
+        const PlacedCell& placed = plan_.cells[i];
+        const Window& window = placed.window;
+        CellPicture cell;
+        cell.cell = i;
+        cell.print = placed.print;
+        cell.print.style.ground = over(placed.print.style.ground.value_or(Colour{0, 0, 0, 0}), ground);
+        cell.left = pixels(window.left, size.width - 1);
+        cell.right = std::max(cell.left + 1, pixels(window.left + window.width, size.width));
+        cell.top = pixels(window.top, size.height - 1);
+        cell.bottom = std::max(cell.top + 1, pixels(window.top + window.height, size.height));
+        strips[static_cast<std::size_t>(placed.row)].cells.push_back(std::move(cell));
+    }
+    for (std::size_t row = 1; row < strips.size(); ++row) {
+        const int above = strips[row - 1].cells.front().bottom, below = strips[row].cells.front().top;
+        // Multiples of 32 if it can be, which TIFF likes.
+        const int even = below / 32 * 32;
+        strips[row - 1].bottom = strips[row].top = even >= above ? even : std::max(above, below);
+    }
+    strips.back().bottom = size.height;
+    return strips;
+}
+
+/// A drawing, read, with its place on the sheet in pixels.
+std::unique_ptr<Rendering> Sheet::raster(const CellPicture& cell) const {
+    const double millimetre = options_.dpi / 25.4;
+    const Subject& subject = subjects_[cell.cell];
+    Print part = cell.print;
+    part.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre, 0.0};
+    part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+    if (auto solid = subject.seen ? nullptr : subject.drawing->rendering(part)) return solid;
+    auto raster = make_raster(part);
+    named(cells_[cell.cell], [&] {
+        if (!subject.seen) return subject.drawing->read(part, *raster);
+        raster->expect({});
+        subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
+                           [this](std::uint64_t symbols) { watch(symbols); });
+    });
+    return raster;
+}
+
+/// Copies the rows of a raster that lie in the band to their place.
+/// @param left, top, height  where on the sheet the raster lies, in pixels
+void render(const Rendering& raster, int left, int top, int height, int channels, std::size_t stride,
+            SheetBand& band) {
+    constexpr int step = 128;  // as render_rows() wants it
+    const int first = std::max(0, band.top - top) / step * step;
+    const int end = std::min(height, (band.bottom - top + step - 1) / step * step);
+    if (first >= end) return;
+    raster.render_rows(first, end, channels, [&](int from, int rows, std::span<const std::uint8_t> part) {
+        const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
+        for (int row = 0; row < rows; ++row) {
+            const int at = top + from + row - band.top;
+            if (at < 0 || at >= band.bottom - band.top) continue;
+            std::memcpy(band.pixels.data() + static_cast<std::size_t>(at) * stride +
+                            static_cast<std::size_t>(left) * static_cast<std::size_t>(channels),
+                        part.data() + static_cast<std::size_t>(row) * bytes, bytes);
+        }
+    });
+}
+
+void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) const {
+    const PixelSize size = pixel_size(options_.page, options_.dpi);
+    const double millimetre = options_.dpi / 25.4;
+    const Colour ground = options_.ground.value_or(Colour{255, 255, 255, 0});
+    const std::vector<Strip> all = strips(size, ground);
+    DrawOptions drawing;
+    drawing.format = options_.format;
+    drawing.threads = options_.threads;
+    drawing.compression = options_.compression;
+    const int channels = ground.alpha < 255 ? 4 : 3;
+    const std::size_t stride = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
+    const Room room = this->room(all, static_cast<double>(stride));
+    Picture picture(print_, drawing, channels, output, file);
+    oneapi::tbb::task_arena readers(room.readers);
+    for (const Strip& strip : all) {
+        if (strip.bottom == strip.top) continue;
+        Print print = print_;
+        print.style.ground = ground;
+        print.page = {size.width / millimetre, (strip.bottom - strip.top) / millimetre, 0.0};
+        print.placement.to_page[2].y -= strip.top / millimetre;
+        const auto texts = make_raster(print);
+        write_texts(strip.top / millimetre, strip.bottom / millimetre, *texts);
+        texts->watch([&] { watch(0); });
+        std::vector<std::unique_ptr<Rendering>> rasters(strip.cells.size());
+        const int rows = room.rows > 0 ? room.rows : strip.bottom - strip.top;
+        for (int top = strip.top; top < strip.bottom; top += rows) {
+            SheetBand band{top, std::min(top + rows, strip.bottom), {}};
+            band.pixels.resize(stride * static_cast<std::size_t>(band.bottom - band.top));
+            render(*texts, 0, strip.top, strip.bottom - strip.top, channels, stride, band);
+            readers.execute([&] {
+                oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
+                    const CellPicture& cell = strip.cells[i];
+                    if (cell.bottom <= band.top || cell.top >= band.bottom) return;
+                    if (!rasters[i]) {
+                        rasters[i] = raster(cell);
+                        rasters[i]->watch([&] { watch(0); });
+                    }
+                    render(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
+                    if (cell.bottom <= band.bottom) rasters[i].reset();
+                });
+            });
+            picture.rows(band.top, band.bottom - band.top, band.pixels);
+        }
+    }
+    picture.close();
+}
+
+[[noreturn]] void refuse_memory(double needed, double memory) {
+    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory; only {:.0f} MB are available",
+                                         std::ceil(needed / 1e6), memory / 1e6));
+}
+
+/// Computes how many drawings and rows fit in memory: whole strips, whose drawings come one after the other;
+/// otherwise bands of them, for which all drawings of the strip are kept. @throws std::runtime_error if there is too
+/// little memory
+Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
+    const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+    if (!(options_.memory > 0)) return {threads, 0};
+    double most = 1, thread = 1;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        named(cells_[i], [&] {
+            if (subjects_[i].cost.memory > options_.memory) refuse_memory(subjects_[i].cost.memory, options_.memory);
+        });
+        most = std::max(most, subjects_[i].cost.memory);
+        thread = std::max(thread, subjects_[i].cost.thread_memory);
+    }
+    double pixels = 0, kept = 0;
+    for (const Strip& strip : strips) {
+        double lines = 0;
+        for (const CellPicture& cell : strip.cells) lines += subjects_[cell.cell].cost.lines_memory;
+        kept = std::max(kept, lines);
+        pixels = std::max(pixels, (strip.bottom - strip.top) * stride);
+    }
+    const auto readers = [&](double memory, double each) {
+        return static_cast<int>(std::clamp(memory / each, 1.0, static_cast<double>(threads)));
+    };
+    if (pixels + most <= options_.memory) return {readers(options_.memory - pixels, most), 0};
+    const double left = options_.memory - kept - most;
+    const double rows = std::floor(left / 2 / stride / 128) * 128;
+    if (rows < 128) refuse_memory(kept + most + 256 * stride, options_.memory);
+    return {readers(left / 2, thread), static_cast<int>(std::min(rows, 4096.0))};
+}
+
+}  // namespace
+
+SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
+                       const std::filesystem::path& file) {
+    if (!is_vector(options.format)) prepare_images(options.threads);
+    return on_threads(options.threads, [&] {
+        Sheet sheet(cells, options);
+        const Plan& plan = sheet.arrange();
+        OutputFile output(file);
+        if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
+            const auto writer = options.format == PrintFormat::svg ? write_svg(sheet.print(), output)
+                                                                   : write_pdf(sheet.print(), output);
+            sheet.write_vectors(*writer);
+        } else {
+            sheet.write_pixels(output, file);
+        }
+        output.commit();
+        return plan.layout;
+    });
+}
+
+double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return 0;
+    double most = 0, lines = 0;
+    for (const SheetCell& cell : cells) {
+        named(cell, [&] {
+            const DrawOptions drawing = cell_options(cell, options);
+            const Grammar grammar = shorten(*cell.grammar);
+            const auto parts = seen_parts(grammar, cell.style, drawing);
+            const Print print = cell_print(cell, options, cells.size());
+            const DrawingCost cost = drawing_cost(grammar, parts ? &*parts : nullptr, print, drawing);
+            most = std::max(most, cost.memory);
+            lines += cost.lines_memory;
+        });
+    }
+    const PixelSize size = pixel_size(options.page, options.dpi);
+    const double stride = 3.0 * size.width;
+    const double shape = options.page.height / options.page.width;
+    const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
+    const double whole = stride * size.height / rows + most;
+    if (!(options.memory > 0) || whole <= options.memory) return whole;
+    return lines / rows + most + 256 * stride;
+}
+
+}  // namespace sikku

@@ -1,0 +1,86 @@
+// art/sheet/sheet.h: many prints on one sheet: a poster, rows of generations, a contact sheet.
+#pragma once
+
+#include "art/drawing/draw.h"
+#include "art/print/print.h"
+#include "engine/language/grammar.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// One drawing of a sheet. It fills its cell, on its own ground, in its own style. Widths in millimetres are meant
+/// for an A4 page, and grow or shrink as the drawing does; but a line that was wider stays at least 0.1 mm wide.
+struct SheetCell {
+    std::shared_ptr<const Grammar> grammar;
+    Style style;
+    PlacementOptions placement;        ///< turning and mirroring; a step in millimetres counts, scale does not
+    std::string title;                 ///< of its layers
+    std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
+    std::string heading;               ///< if there is one, a row begins here, under it
+    std::optional<ViewWindow> window;  ///< what of the drawing fills the cell; see DrawOptions
+    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
+};
+
+struct SheetOptions {
+    PrintFormat format = PrintFormat::svg;
+    Page page{420.0, 594.0, 20.0};
+    double dpi = 300.0;
+    std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< of the sheet, between the cells
+    Colour ink{0x2a, 0x26, 0x22, 255};                             ///< of title and captions
+    Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< of what is less important in them
+    std::string title;                                             ///< above all cells, if there is one
+    std::string subtitle;                                          ///< under it
+    int columns = 0;                  ///< 0: as many as let the drawings be largest; rows under a heading may break
+    std::optional<double> gap;        ///< millimetres between cells; absent: a tenth of their width
+    double inset = 0.08;              ///< between a cell's border and its drawing, as part of the cell
+    std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
+    std::size_t caption_lines = 5;    ///< most lines of a caption; what goes on ends in `…`
+    bool same_scale = false;          ///< steps are equally long: in each row, if rows have headings, else everywhere
+    std::string pattern;              ///< text that is kept with the file, so that it can be made again
+    std::string made;                 ///< what made it
+    std::optional<double> animation;  ///< seconds in which an SVG draws itself
+    int threads = 0;                  ///< 0: all cores
+    int compression = 6;              ///< of PNG: 1, quick and large, to 9
+    double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
+    std::function<void(std::uint64_t symbols)> watch;
+};
+
+/// Where a sheet's parts lie, in millimetres from its top left corner.
+struct SheetLayout {
+    int columns = 0;
+    int rows = 0;
+    std::vector<Window> windows;  ///< of the cells, in their order
+    double letters = 0.0;         ///< height of a caption's capitals
+};
+
+/// Draws the sheet into `file`, which appears whole or not at all; the same cells give the same bytes. Windows and,
+/// in pictures, words of any order are handled as in draw(). Pictures are made row by row: memory holds the pixels of
+/// one row and, for each thread, one drawing, as Raster keeps it. If that exceeds the memory of the options, a row is
+/// made in bands, with all its drawings in memory; the bytes are the same.
+/// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; std::runtime_error if
+/// there are no cells, the cells do not fit, memory is insufficient, or the file cannot be written
+SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
+                       const std::filesystem::path& file);
+
+/// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
+/// the options allow that, otherwise the minimum. 0 for other formats.
+/// @throws what draw_sheet() throws for cells that cannot be drawn
+double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
+
+/// What a caption tells of a pattern: its title, the derivation length and angle, and its productions; as the file
+/// states them where they have parameters, conditions or weights.
+std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern);
+
+/// The cells of rows that show derivation lengths from `first` to `last`, captions `n = 2`, the first one with the
+/// heading. `cell` is one of them. @throws std::runtime_error if the schedule is too short
+std::vector<SheetCell> generations(const SheetCell& cell, std::int64_t first, std::int64_t last);
+
+}  // namespace sikku

@@ -1,0 +1,268 @@
+#include "art/space/solids.h"
+
+#include "art/space/stage.h"
+#include "art/space/triangles.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr int shades = 24;
+constexpr double wide_stem = 0.8;    // millimetres; wider ones are lit in strips,
+constexpr int strips = 6;            // so many
+constexpr double round_stem = 0.35;  // wider ones have round ends
+
+/// The colours of a palette that with_shades() made.
+class Shades {
+public:
+    explicit Shades(const Style& style) : colours_(static_cast<int>(style.palette.size()) / (1 + 2 * shades)) {}
+    Pen pen(int colour, bool fills, double brightness) const {
+        const int shade = std::clamp(static_cast<int>(std::lround(brightness * shades)) - 1, 0, shades - 1);
+        return Pen{.colour = colours_ * (1 + 2 * shade + (fills ? 1 : 0)) + colour};
+    }
+
+private:
+    int colours_;
+};
+
+struct Item {
+    float depth;
+    std::uint32_t index;  ///< segments, then polygons, then spheres
+};
+
+class Painter {
+public:
+    Painter(const Scene& scene, const Print& print, PathSink& sink)
+        : scene_(scene),
+          stage_(scene, print, glm::dmat3x2(1.0), 1.0),
+          shades_(print.style),
+          sink_(sink),
+          step_(print.placement.step),
+          flat_light_(stage_.flat_light()) {}
+
+    void draw(const Monitor& monitor) {
+        Pulse pulse(monitor);
+        const std::size_t segments = scene_.segments().size(), polygons = scene_.polygons().size();
+        std::vector<Item> items;
+        const auto add = [&](double depth) {
+            items.push_back({static_cast<float>(depth), static_cast<std::uint32_t>(items.size())});
+        };
+        items.reserve(segments + polygons + scene_.spheres().size());
+        for (const SceneSegment& segment : scene_.segments()) {
+            pulse();
+            add((stage_.place(segment.from).z + stage_.place(segment.to).z +
+                 stage_.radius(segment.before, segment.from) + stage_.radius(segment.after, segment.to)) /
+                2);
+        }
+        for (const ScenePolygon& polygon : scene_.polygons()) {
+            pulse();
+            double sum = 0;
+            for (const glm::vec3& vertex : scene_.vertices(polygon)) sum += stage_.place(vertex).z;
+            add(sum / static_cast<double>(polygon.count));
+        }
+        for (const SceneSphere& sphere : scene_.spheres()) {
+            add(stage_.place(sphere.centre).z + stage_.radius(sphere));
+        }
+        // What is round is as near as its nearest point. Of what is equally near, the later one lies over the
+        // earlier.
+        std::stable_sort(items.begin(), items.end(),
+                         stoppable(monitor, [](const Item& a, const Item& b) { return a.depth < b.depth; }));
+        for (const Item& item : items) {
+            pulse();
+            if (item.index < segments) {
+                draw_stem(scene_.segments()[item.index]);
+            } else if (item.index < segments + polygons) {
+                draw_polygon(scene_.polygons()[item.index - segments]);
+            } else {
+                draw_sphere(scene_.spheres()[item.index - segments - polygons]);
+            }
+        }
+    }
+
+private:
+    void fill(int colour, bool fills, double brightness) {
+        sink_.polygon(outline_, shades_.pen(colour, fills, brightness));
+        outline_.clear();
+    }
+
+    /// Part of a circle, from one angle to another, both left out.
+    void add_arc(glm::dvec2 centre, double radius, double from, double to, int pieces) {
+        for (int i = 1; i < pieces; ++i) {
+            const double angle = from + (to - from) * i / pieces;
+            outline_.push_back(centre + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+        }
+    }
+
+    /// Circles, one over the other, from its outline to where the light falls.
+    void draw_ball(const glm::dvec3& centre, double radius, int colour, bool fills) {
+        const double width = 2 * radius * step_;
+        const int pieces = width > 8 ? 64 : width > wide_stem ? 32 : 10;
+        const int circles = width > 8 ? 12 : width > wide_stem ? 6 : 1;
+        for (int circle = 0; circle < circles; ++circle) {
+            const double part = static_cast<double>(circle) / circles;
+            add_arc(glm::dvec2(centre) + part * radius * flat_light_, radius * (1 - part),
+                    -2 * std::numbers::pi / pieces, 2 * std::numbers::pi, pieces + 1);
+            // At the outline, that of a ball seen from any side, in the mean.
+            const double cosine = circles == 1 ? 0.65 : 0.2 + 0.8 * std::sqrt(part + 0.5 / circles);
+            fill(colour, fills, stage_.brightness_towards(cosine));
+        }
+    }
+
+    void draw_stem(const SceneSegment& segment) {
+        const glm::dvec3 from = stage_.place(segment.from), to = stage_.place(segment.to);
+        const double before = stage_.radius(segment.before, segment.from);
+        const double after = stage_.radius(segment.after, segment.to);
+        const glm::dvec3 along = to - from;
+        const double flat = std::hypot(along.x, along.y), length = glm::length(along);
+        const double thickest = std::max(before, after);
+        if (!(thickest > 0)) return;
+        if (!(flat > 1e-6 * thickest))
+            return draw_ball(along.z > 0 ? to : from, along.z > 0 ? after : before, segment.colour, false);
+        const glm::dvec3 across(-along.y / flat, along.x / flat, 0);
+        glm::dvec3 front = glm::cross(across, along / length);
+        if (front.z < 0) front = -front;
+        const glm::dvec2 a(from), b(to), side(across);
+        const double left = std::atan2(side.y, side.x);
+        const double width = 2 * thickest * step_;
+        const int pieces = width > wide_stem ? 8 : width > round_stem ? 4 : 2;
+        outline_.push_back(a + side * before);
+        if (!segment.goes_on) add_arc(a, before, left, left + std::numbers::pi, pieces);
+        outline_.push_back(a - side * before);
+        outline_.push_back(b - side * after);
+        add_arc(b, after, left - std::numbers::pi, left, pieces);
+        outline_.push_back(b + side * after);
+        std::reverse(outline_.begin(), outline_.end());
+        fill(segment.colour, false, stage_.brightness(front));
+        if (!(width > wide_stem)) return;
+        for (int i = 0; i < strips; ++i) {
+            const double first = std::numbers::pi * i / strips, last = std::numbers::pi * (i + 1) / strips;
+            const double middle = (first + last) / 2;
+            for (const auto& [angle, at, radius] : {std::tuple(first, a, before), std::tuple(last, a, before),
+                                                    std::tuple(last, b, after), std::tuple(first, b, after)}) {
+                outline_.push_back(at + side * (radius * std::cos(angle)));
+            }
+            fill(segment.colour, false, stage_.brightness(across * std::cos(middle) + front * std::sin(middle)));
+        }
+    }
+
+    void draw_polygon(const ScenePolygon& polygon) {
+        std::vector<glm::vec3> placed;
+        for (const glm::vec3& vertex : scene_.vertices(polygon)) {
+            const glm::dvec3 at = stage_.place(vertex);
+            placed.emplace_back(at);
+            outline_.emplace_back(at.x, at.y);
+        }
+        glm::dvec3 normal = area_normal(placed);
+        if (normal.z < 0) normal = -normal;
+        if (!(glm::length(normal) > 0)) return outline_.clear();
+        fill(polygon.colour, true, stage_.brightness(normal));
+    }
+
+    void draw_sphere(const SceneSphere& sphere) {
+        draw_ball(stage_.place(sphere.centre), stage_.radius(sphere), sphere.colour, true);
+    }
+
+    const Scene& scene_;
+    Stage stage_;
+    Shades shades_;
+    PathSink& sink_;
+    double step_;
+    glm::dvec2 flat_light_;
+    std::vector<glm::dvec2> outline_;
+};
+
+}  // namespace
+
+Style with_shades(const Style& style) {
+    Style result = style;
+    const std::size_t colours = style.palette.size();
+    for (int shade = 1; shade <= shades; ++shade) {
+        for (const bool fills : {false, true}) {
+            for (std::size_t i = 0; i < colours; ++i) {
+                const Pen pen{.colour = static_cast<int>(i)};
+                result.palette.push_back(lit(fills ? style.fill_colour(pen) : style.line_colour(pen),
+                                             static_cast<double>(shade) / shades));
+            }
+        }
+    }
+    return result;
+}
+
+void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
+    Painter(scene, print, sink).draw(monitor);
+}
+
+void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
+    Pulse pulse(monitor);
+    const Projection projection(print.style.camera, scene.bounds());
+    const auto place = [&](const glm::vec3& point) { return glm::dvec2(projection(scene.at(point))); };
+    for (const ScenePolygon& polygon : scene.polygons()) {
+        pulse();
+        std::vector<glm::dvec2> flat;
+        for (const glm::vec3& vertex : scene.vertices(polygon)) flat.push_back(place(vertex));
+        sink.polygon(flat, Pen{.colour = polygon.colour});
+    }
+    bool is_down = false;
+    Pen pen;
+    for (const SceneSegment& segment : scene.segments()) {
+        pulse();
+        const Pen own = segment.after.pen(segment.colour);
+        if (!segment.goes_on || !is_down) {
+            if (is_down) sink.end_stroke(false);
+            sink.begin_stroke(place(segment.from), own);
+            is_down = true;
+        } else if (pen != own) {
+            sink.change_pen(own);
+        }
+        pen = own;
+        const glm::dvec2 to = place(segment.to);
+        sink.lines(std::span(&to, 1));
+    }
+    if (is_down) sink.end_stroke(false);
+    for (const SceneSphere& sphere : scene.spheres()) {
+        sink.disc(place(sphere.centre), sphere.radius * projection.scale(scene.at(sphere.centre)),
+                  sphere.width.pen(sphere.colour));
+    }
+}
+
+SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
+                      const Monitor& monitor) {
+    Pulse pulse(monitor);
+    SceneExtent extent;
+    const Projection projection(style.camera, scene.bounds());
+    const auto place = [&](const glm::vec3& point) {
+        const glm::dvec3 seen = projection(scene.at(point));
+        return orientation * glm::dvec3(seen.x, seen.y, 1.0);
+    };
+    for (const SceneSegment& segment : scene.segments()) {
+        pulse();
+        extent.box.add(place(segment.from));
+        extent.box.add(place(segment.to));
+        extent.widest = std::max({extent.widest,
+                                  style.pen_width(segment.before.pen(0)) * projection.scale(scene.at(segment.from)),
+                                  style.pen_width(segment.after.pen(0)) * projection.scale(scene.at(segment.to))});
+    }
+    for (const ScenePolygon& polygon : scene.polygons()) {
+        for (const glm::vec3& vertex : scene.vertices(polygon)) extent.box.add(place(vertex));
+    }
+    for (const SceneSphere& sphere : scene.spheres()) {
+        const double scale = projection.scale(scene.at(sphere.centre));
+        const glm::dvec2 at = place(sphere.centre);
+        extent.box.add(at - sphere.radius * scale);
+        extent.box.add(at + sphere.radius * scale);
+        if (sphere.radius > 0) continue;
+        extent.widest = std::max(extent.widest, 2 * style.pen_width(sphere.width.pen(0)) * scale);
+    }
+    return extent;
+}
+
+}  // namespace sikku

@@ -1,0 +1,97 @@
+#include "art/space/triangles.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <cmath>
+#include <cstddef>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_ears = 1000;
+
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// On its edges, too.
+bool contains(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point) {
+    return cross(b - a, point - a) >= 0 && cross(c - b, point - b) >= 0 && cross(a - c, point - c) >= 0;
+}
+
+bool crosses_itself(const std::vector<glm::dvec2>& corners) {
+    const std::size_t count = corners.size();
+    const auto side = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) { return cross(b - a, point - a); };
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
+        for (std::size_t j = i + 2; j < count; ++j) {
+            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
+            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+glm::dvec3 area_normal(std::span<const glm::vec3> vertices) {
+    glm::dvec3 sum(0.0);
+    const glm::dvec3 origin = vertices.front();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        sum += glm::cross(glm::dvec3(vertices[i]) - origin,
+                          glm::dvec3(vertices[i + 1 < vertices.size() ? i + 1 : 0]) - origin);
+    }
+    return sum;
+}
+
+Triangulation triangulate(std::span<const glm::vec3> vertices) {
+    Triangulation result;
+    auto& triangles = result.triangles;
+    if (vertices.size() < 3) return result;
+    std::vector<std::uint32_t> left(vertices.size());
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] = static_cast<std::uint32_t>(i);
+    const glm::dvec3 normal = area_normal(vertices);
+    // Seen along the axis nearest to the normal, anticlockwise.
+    const glm::dvec3 size = glm::abs(normal);
+    const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+    std::vector<glm::dvec2> flat;
+    if (vertices.size() <= most_ears) {
+        for (const glm::vec3& vertex : vertices) {
+            glm::dvec2 point(vertex[(axis + 1) % 3], vertex[(axis + 2) % 3]);
+            if (normal[axis] < 0) point.x = -point.x;
+            flat.push_back(point);
+        }
+    }
+    const auto is_ear = [&](std::size_t before, std::size_t at, std::size_t after) {
+        const glm::dvec2 a = flat[left[before]], b = flat[left[at]], c = flat[left[after]];
+        if (!(cross(b - a, c - b) > 0)) return false;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (i == before || i == at || i == after) continue;
+            const glm::dvec2 point = flat[left[i]];
+            if (point != a && point != b && point != c && contains(a, b, c, point)) return false;
+        }
+        return true;
+    };
+    std::size_t at = 1;
+    std::size_t tried = 0;
+    while (left.size() > 3 && !flat.empty() && tried < left.size()) {
+        at %= left.size();
+        const std::size_t before = (at + left.size() - 1) % left.size();
+        const std::size_t after = (at + 1) % left.size();
+        if (is_ear(before, at, after)) {
+            triangles.push_back({left[before], left[at], left[after]});
+            left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
+            tried = 0;
+        } else {
+            ++at;
+            ++tried;
+        }
+    }
+    result.is_whole = left.size() == 3 && !crosses_itself(flat);
+    for (std::size_t i = 1; i + 1 < left.size(); ++i) triangles.push_back({left[0], left[i], left[i + 1]});
+    return result;
+}
+
+}  // namespace sikku

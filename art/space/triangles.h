@@ -1,0 +1,27 @@
+// art/space/triangles.h: polygons in space as triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// The normal of a polygon, which need not be flat, as long as twice its area: anticlockwise seen from its tip.
+/// Source: Newell's method (Sutherland, Sproull and Schumacker 1974).
+glm::dvec3 area_normal(std::span<const glm::vec3> vertices);
+
+/// Triangles of a polygon's vertices, by their indices, wound as it is.
+struct Triangulation {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    /// False for a polygon that crosses itself in the plane of its normal, or has more than 1000 vertices: part of it
+    /// is a fan from one of its vertices, which covers something else than the polygon does.
+    bool is_whole = true;
+};
+/// By cutting off ears in the plane of its normal. Cost: between linear and cubic in the vertices, up to 1000 of
+/// them.
+Triangulation triangulate(std::span<const glm::vec3> vertices);
+
+}  // namespace sikku

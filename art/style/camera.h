@@ -1,0 +1,49 @@
+// art/style/camera.h: from where a drawing in space is seen, and how it falls onto the paper.
+#pragma once
+
+#include "engine/geometry/space_turtle.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
+
+namespace sikku {
+
+/// The eye. At 0 0 it stands in front of the drawing, on the side of z: x lies to the right, y upwards.
+struct Camera {
+    double azimuth = 0.0;    ///< degrees to the right around the drawing
+    double elevation = 0.0;  ///< degrees upwards, -90 to 90
+    std::optional<double>
+        distance;  ///< of a perspective, in radii of the drawing, 1.01 to 10^6; absent: orthographic
+    std::optional<SpaceBounds> aim{};  ///< what a perspective is arranged for; absent: the drawing itself
+    bool operator==(const Camera&) const = default;
+};
+
+/// `AZIMUTH ELEVATION [perspective [DISTANCE]]`, separated by blanks or commas, or in place of the angles `front`,
+/// `side` or `top`. Nullopt for anything else. A perspective is seen from 4 radii if it does not say so.
+std::optional<Camera> parse_camera(std::string_view text);
+
+/// A camera that looks at a drawing: from points in space to points of the picture, in turtle steps, and how near
+/// they are.
+class Projection {
+public:
+    Projection(const Camera& camera, const SpaceBounds& drawing);
+
+    /// x to the right, y up, z towards the eye; straight lines stay straight, planes stay planes. Without perspective
+    /// lengths are kept; with it, lengths at the middle of the drawing.
+    glm::dvec3 operator()(const glm::dvec3& point) const;
+    /// How large a step at that point is in the picture, in steps.
+    double scale(const glm::dvec3& point) const;
+    /// A direction as the eye sees it.
+    glm::dvec3 turned(const glm::dvec3& direction) const { return axes_ * direction; }
+    /// From there to the eye, as the eye sees it; of length 1.
+    glm::dvec3 to_eye(const glm::dvec3& point) const;
+
+private:
+    glm::dmat3 axes_;         ///< rows: right, up, towards the eye
+    glm::dvec3 middle_{0.0};  ///< of the drawing
+    double distance_ = 0.0;   ///< of the eye from it, in steps; 0: orthographic
+};
+
+}  // namespace sikku

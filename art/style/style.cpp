@@ -1,0 +1,371 @@
+#include "art/style/style.h"
+
+#include "art/style/length.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr double widest = 1000.0;      // of a stroke: millimetres or steps
+constexpr double widest_pen_mm = 1e5;  // after the turtle's factors, so that every writer can print the number
+constexpr std::size_t most_colours = 4096;
+constexpr std::size_t most_quoted = 40;  // bytes of the file in a message
+
+constexpr Colour black{0, 0, 0, 255};
+constexpr Colour white{255, 255, 255, 255};
+
+std::string quoted(std::string_view text) {
+    if (text.size() <= most_quoted) return fmt::format("'{}'", text);
+    std::size_t end = most_quoted;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    return fmt::format("'{}…'", text.substr(0, end));
+}
+
+bool is_separator(char byte, bool commas) {
+    return byte == ' ' || byte == '\t' || (commas && byte == ',');
+}
+
+/// The next word at or after `at`, which moves behind it; empty at the end. What stands in parentheses stays
+/// together, so that `rgb(1, 2, 3)` is reported once.
+Span next_word(const Span& value, std::size_t& at, bool commas) {
+    const std::string_view text = value.view();
+    while (at < text.size() && is_separator(text[at], commas)) ++at;
+    const std::size_t begin = at;
+    int depth = 0;
+    while (at < text.size() && (depth > 0 || !is_separator(text[at], commas))) {
+        if (text[at] == '(') ++depth;
+        if (text[at] == ')' && depth > 0) --depth;
+        ++at;
+    }
+    return value.part(begin, at - begin);
+}
+
+std::string colour_complaint(std::string_view text, std::string_view expected) {
+    if (text.starts_with('#')) {
+        return fmt::format("{} is no colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
+    }
+    if (text.find('(') != std::string_view::npos) {
+        return fmt::format("{} is no colour here: write #rrggbb or a CSS name", quoted(text));
+    }
+    const std::string_view near = nearest(lower_case(text), colour_names());
+    if (!near.empty()) return fmt::format("{} is no colour; did you mean '{}'?", quoted(text), near);
+    return fmt::format("{} is no colour: expected {}", quoted(text), expected);
+}
+
+std::optional<Colour> read_colour(const Span& word, std::string_view expected, Diagnostics& diagnostics) {
+    const auto colour = parse_colour(word.view());
+    if (!colour) diagnostics.error(word, colour_complaint(word.view(), expected));
+    return colour;
+}
+
+/// The only word of a value; reports an absent or a second one.
+std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnostics& diagnostics) {
+    std::size_t at = 0;
+    const Span word = next_word(key.value, at, false);
+    if (word.empty()) {
+        diagnostics.error(key.name_at, fmt::format("'{}:' is empty: expected {}", key.name, expected));
+        return std::nullopt;
+    }
+    if (const Span second = next_word(key.value, at, false); !second.empty()) {
+        diagnostics.error(second,
+                          fmt::format("{} is too much: '{}:' is {}", quoted(second.view()), key.name, expected));
+        return std::nullopt;
+    }
+    return word;
+}
+
+void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "'straight', 'spline' or 'spline with lifts'";
+    std::size_t at = 0;
+    const Span first = next_word(key.value, at, false);
+    const Span second = next_word(key.value, at, false);
+    const Span third = next_word(key.value, at, false);
+    if (lower_case(first.view()) == "spline" && lower_case(second.view()) == "with" &&
+        lower_case(third.view()) == "lifts" && next_word(key.value, at, false).empty()) {
+        style.line = Line::spline;
+        style.moves_lift = true;
+        return;
+    }
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    const std::string text = lower_case(word->view());
+    if (text == "straight") {
+        style.line = Line::straight;
+    } else if (text == "spline") {
+        style.line = Line::spline;
+    } else {
+        const std::string_view near = nearest(text, {"straight", "spline"});
+        diagnostics.error(*word, near.empty()
+                                     ? fmt::format("{} is no line: expected {}", quoted(word->view()), expected)
+                                     : fmt::format("{} is no line; did you mean '{}'?", quoted(word->view()), near));
+    }
+}
+
+bool begins_number(std::string_view text) {
+    if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+    if (text.starts_with('.')) text.remove_prefix(1);
+    return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
+
+/// A width and a colour, in either order and each optional, or `none`.
+class StrokeReader {
+public:
+    StrokeReader(const Key& key, double dpi, Diagnostics& diagnostics)
+        : key_(key), dpi_(dpi), diagnostics_(diagnostics) {}
+
+    std::optional<StrokeWidth> width;
+    std::optional<Colour> colour;
+    bool is_none = false;
+
+    void read() {
+        std::size_t at = 0;
+        Span word = next_word(key_.value, at, false);
+        if (word.empty()) {
+            diagnostics_.error(key_.name_at, fmt::format("'{}:' is empty: expected {}", key_.name, expected));
+            return;
+        }
+        if (lower_case(word.view()) == "none") {
+            if (const Span second = next_word(key_.value, at, false); !second.empty()) {
+                diagnostics_.error(second, fmt::format("'{}: none' stands alone", key_.name));
+            }
+            is_none = true;
+            return;
+        }
+        for (; !word.empty(); word = next_word(key_.value, at, false)) {
+            const std::string_view text = word.view();
+            if (begins_number(text)) {
+                read_width(word, at);
+            } else if (lower_case(text) == "none") {
+                diagnostics_.error(word, fmt::format("'none' stands alone in '{}:'", key_.name));
+            } else if (has_colour_) {
+                diagnostics_.error(word,
+                                   fmt::format("{} is too much: '{}:' is {}", quoted(text), key_.name, expected));
+                return;
+            } else {
+                has_colour_ = true;
+                colour = read_colour(word, expected, diagnostics_);
+            }
+        }
+    }
+
+private:
+    static constexpr std::string_view expected =
+        "a width such as 0.4mm or 0.2 step and a colour, either or both, or none";
+
+    void read_width(const Span& word, std::size_t& at) {
+        if (has_width_) {
+            diagnostics_.error(word, fmt::format("{} is a second width: one is enough", quoted(word.view())));
+        }
+        has_width_ = true;
+        std::string_view text = word.view();
+        const std::size_t sign = text.starts_with('+') ? 1 : 0;
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), number);
+        const auto digits = static_cast<std::size_t>(end - text.data());
+        Span unit_at = word.part(digits);
+        if (unit_at.empty()) {
+            std::size_t after = at;
+            const Span next = next_word(key_.value, after, false);
+            if (is_unit(lower_case(next.view()))) {
+                unit_at = next;
+                at = after;
+            }
+        }
+        const std::string unit = lower_case(unit_at.view());
+        if (!unit.empty() && !is_unit(unit)) {
+            diagnostics_.error(unit_at, fmt::format("{} is no unit of a width: expected mm, cm, in, pt, px or step",
+                                                    quoted(unit_at.view())));
+            return;
+        }
+        StrokeWidth stroke;
+        stroke.in_steps = unit.starts_with("step");
+        if (!stroke.in_steps) stroke.unit = parse_length("1" + unit, dpi_).value_or(0.0);
+        stroke.value = number * stroke.unit;
+        if (error != std::errc() || !std::isfinite(stroke.value) || stroke.value >= widest) {
+            diagnostics_.error(
+                word, fmt::format("a {} is narrower than 1000 {}", what(), stroke.in_steps ? "steps" : "mm"));
+            return;
+        }
+        if (stroke.value == 0.0) {
+            diagnostics_.error(
+                word, fmt::format("a {} of width 0 cannot be seen: expected a width above 0, or '{}: none'", what(),
+                                  key_.name));
+            return;
+        }
+        if (stroke.value < 0.0) {
+            diagnostics_.error(word, fmt::format("a {}'s width is above 0", what()));
+            return;
+        }
+        width = stroke;
+    }
+
+    std::string_view what() const { return key_.name == "dots" ? "dot" : "stroke"; }
+
+    static bool is_unit(std::string_view unit) {
+        return unit == "mm" || unit == "cm" || unit == "in" || unit == "pt" || unit == "px" || unit == "step" ||
+               unit == "steps";
+    }
+
+    const Key& key_;
+    double dpi_;
+    Diagnostics& diagnostics_;
+    bool has_width_ = false;
+    bool has_colour_ = false;
+};
+
+void read_stroke(const Key& key, double dpi, Style& style, Diagnostics& diagnostics) {
+    StrokeReader reader(key, dpi, diagnostics);
+    reader.read();
+    style.stroked = !reader.is_none;
+    if (reader.width) style.stroke = *reader.width;
+    style.stroke_colour = reader.colour;
+}
+
+void read_dots(const Key& key, double dpi, Style& style, Diagnostics& diagnostics) {
+    StrokeReader reader(key, dpi, diagnostics);
+    reader.read();
+    if (!reader.is_none) style.dots = DotStyle{reader.width, reader.colour};
+}
+
+void read_ground(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "a colour or none";
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    style.ground.reset();
+    if (lower_case(word->view()) == "none") return;
+    style.ground = read_colour(*word, expected, diagnostics);
+    if (style.ground && style.ground->alpha == 0) style.ground.reset();
+}
+
+void read_fill(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "a colour or none";
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    style.fill = lower_case(word->view()) == "none" ? Colour{0, 0, 0, 0} : read_colour(*word, expected, diagnostics);
+}
+
+void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "colours, separated by blanks or commas";
+    std::vector<Colour> palette;
+    std::size_t at = 0;
+    // A palette of nonsense is not worth more messages than anyone reads.
+    int errors = 0;
+    for (Span word = next_word(key.value, at, true); !word.empty() && errors < 20;
+         word = next_word(key.value, at, true)) {
+        const auto colour = read_colour(word, expected, diagnostics);
+        if (colour) palette.push_back(*colour);
+        if (!colour) ++errors;
+        if (palette.size() > most_colours) {
+            diagnostics.error(word, fmt::format("a palette has at most {} colours", most_colours));
+            break;
+        }
+    }
+    if (palette.empty() && errors == 0) {
+        diagnostics.error(key.value.empty() ? key.name_at : key.value,
+                          fmt::format("'palette:' is empty: expected {}", expected));
+    }
+    if (!palette.empty()) style.palette = std::move(palette);
+}
+
+std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&) const) {
+    std::vector<int> result;
+    std::map<std::array<std::uint8_t, 4>, int> first;
+    const int colours = std::max(1, static_cast<int>(style.palette.size()));
+    for (int index = 0; index < colours; ++index) {
+        const Colour colour = (style.*colour_of)(Pen{.colour = index});
+        const auto [found, is_new] = first.try_emplace({colour.red, colour.green, colour.blue, colour.alpha}, index);
+        result.push_back(found->second);
+    }
+    return result;
+}
+
+}  // namespace
+
+/// Okabe and Ito 2008, Color Universal Design: told apart by the colour-blind as well.
+std::vector<Colour> default_palette() {
+    return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
+            {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
+}
+
+int Style::index(const Pen& pen) const {
+    const auto size = static_cast<long long>(palette.size());
+    if (size == 0) return 0;
+    return static_cast<int>((pen.colour % size + size) % size);
+}
+
+Colour Style::line_colour(const Pen& pen) const {
+    const int at = index(pen);
+    if (at == 0 && stroke_colour) return *stroke_colour;
+    return palette.empty() ? black : palette[static_cast<std::size_t>(at)];
+}
+
+Colour Style::fill_colour(const Pen& pen) const {
+    const int at = index(pen);
+    if (at == 0 && fill) return *fill;
+    return palette.empty() ? black : palette[static_cast<std::size_t>(at)];
+}
+
+std::vector<int> Style::line_slots() const {
+    return slots(*this, &Style::line_colour);
+}
+
+std::vector<int> Style::fill_slots() const {
+    return slots(*this, &Style::fill_colour);
+}
+
+bool Style::draws(const Pen& pen) const {
+    return stroked && line_colour(pen).alpha > 0 && pen_width(pen) > 0.0;
+}
+
+double Style::pen_width(const Pen& pen) const {
+    const double width = pen.width * (pen.width_set ? stroke.unit : stroke.value);
+    // The comparison is false for NaN.
+    return width > 0.0 ? width : 0.0;
+}
+
+double Style::line_width(const Pen& pen, double step) const {
+    return std::min(pen_width(pen) * (stroke.in_steps ? step : 1.0), widest_pen_mm);
+}
+
+double Style::disc_radius(double radius, const Pen& pen, double step) const {
+    return radius > 0.0 ? radius * step : line_width(pen, step);
+}
+
+Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
+    Style style;
+    style.ground = white;
+    style.palette = default_palette();
+    if (const Key* key = pattern.find("line")) read_line(*key, style, diagnostics);
+    if (const Key* key = pattern.find("stroke")) read_stroke(*key, dpi, style, diagnostics);
+    if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
+    if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
+    if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
+    if (const Key* key = pattern.find("view")) {
+        if (const auto camera = parse_camera(key->value.view())) {
+            style.camera = *camera;
+        } else {
+            diagnostics.error(key->value,
+                              "expected 'view: AZIMUTH ELEVATION', degrees to the right and up to 90 upwards, or "
+                              "front, side or top; and after it, if you like, 'perspective' and from how many radii "
+                              "of the drawing, 1.01 to 1000000");
+        }
+    }
+    if (const Key* key = pattern.find("palette")) {
+        read_palette(*key, style, diagnostics);
+    } else if (style.stroke_colour) {
+        // Without a palette of its own a drawing in white has white dots as well.
+        style.palette.front() = *style.stroke_colour;
+    }
+    return style;
+}
+
+}  // namespace sikku

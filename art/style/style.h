@@ -1,0 +1,68 @@
+// art/style/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette, dots, view.
+#pragma once
+
+#include "art/style/camera.h"
+#include "art/style/colour.h"
+#include "engine/geometry/path.h"
+#include "engine/language/pattern.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+enum class Line { straight, spline };
+
+/// A pen's width, in millimetres or as a fraction of the turtle's step.
+struct StrokeWidth {
+    double value = 0.4;
+    bool in_steps = false;
+    double unit = 1.0;  ///< what a width of 1 is that the turtle sets: millimetres of the pattern's unit, or 1 step
+};
+
+/// How the dots of a kolam are drawn.
+struct DotStyle {
+    std::optional<StrokeWidth> size;  ///< diameter; absent: a sixth of the way to the nearest dot
+    std::optional<Colour> colour;     ///< absent: of the lines
+};
+
+struct Style {
+    Line line = Line::straight;
+    bool moves_lift = false;  ///< of splines: moves lift the pen (`spline with lifts`) and are not control points
+    StrokeWidth stroke;
+    std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
+    bool stroked = true;                  ///< false for `stroke: none`
+    std::optional<Colour> ground;         ///< absent: transparent
+    std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
+    std::vector<Colour> palette;          ///< never empty after read_style
+    std::optional<DotStyle> dots;         ///< absent: none are drawn
+    Camera camera;                        ///< of drawings in space
+
+    /// Are undrawn steps control points of the line?
+    bool moves_draw() const { return line == Line::spline && !moves_lift; }
+    /// The colour index as a number in [0, palette.size()).
+    int index(const Pen& pen) const;
+    Colour line_colour(const Pen& pen) const;
+    Colour fill_colour(const Pen& pen) const;
+    /// For every colour index the first one of the same colour: they share a layer.
+    std::vector<int> line_slots() const;
+    std::vector<int> fill_slots() const;
+    /// Does a line of that pen leave anything on paper?
+    bool draws(const Pen& pen) const;
+    /// Width of a pen's line in the measure of `stroke`: millimetres or steps.
+    double pen_width(const Pen& pen) const;
+    /// Width of a pen's line in millimetres when a step is `step` millimetres long.
+    double line_width(const Pen& pen, double step) const;
+    /// Radius of a disc in millimetres. A `radius` of 0 steps is a dot, twice as wide as the line.
+    double disc_radius(double radius, const Pen& pen, double step) const;
+};
+
+/// Eight colours that are told apart by everyone, black first.
+std::vector<Colour> default_palette();
+
+/// Reads and checks the keys that KeyOwner::art owns; an absent key keeps its default: straight, 0.4 mm, black on
+/// white, a palette of eight colours that everyone can tell apart. @param dpi  pixels per inch, for px in lengths
+Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics);
+
+}  // namespace sikku

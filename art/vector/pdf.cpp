@@ -1,0 +1,622 @@
+#include "art/vector/pdf.h"
+
+#include "art/vector/vector_writer.h"
+#include "engine/base/diagnostic.h"
+
+#include <zlib.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr double points_of_micrometre = 72.0 / 25400.0;
+constexpr double mark_width = 0.25;     // points
+constexpr double most_units = 14400.0;  // of a page's side, in its units: ISO 32000-1, annex C
+
+constexpr std::size_t pack_bytes = std::size_t{1} << 18;
+/// Painted at once; readers keep a whole path in memory, and it is cut without a trace, as caps are round and a
+/// translucent layer is painted as a group.
+constexpr int most_path_points = 8192;
+
+/// Distance of the control points of a quarter circle's Bézier, of its radius.
+constexpr double quarter_circle = 0.5522847498307936;
+
+/// Compresses pieces of streams, each for itself, so that one compressor serves any number of them at a time.
+class Deflater {
+public:
+    Deflater() {
+        if (deflateInit2(&stream_, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+            throw std::runtime_error("zlib: no memory");
+        }
+    }
+    ~Deflater() { deflateEnd(&stream_); }
+    Deflater(const Deflater&) = delete;
+    Deflater& operator=(const Deflater&) = delete;
+
+    /// Appends a whole number of bytes of blocks, none of them the last.
+    void append(std::string_view text, std::string& packed) {
+        deflateReset(&stream_);
+        stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(text.data()));
+        stream_.avail_in = static_cast<uInt>(text.size());
+        do {
+            const std::size_t size = packed.size();
+            packed.resize(size + pack_bytes / 4);
+            stream_.next_out = reinterpret_cast<Bytef*>(packed.data() + size);
+            stream_.avail_out = static_cast<uInt>(pack_bytes / 4);
+            deflate(&stream_, Z_FULL_FLUSH);
+            packed.resize(packed.size() - stream_.avail_out);
+        } while (stream_.avail_out == 0);
+    }
+
+private:
+    z_stream stream_{};
+};
+
+/// A text string: as it is if it is printable ASCII, else in UTF-16 with a byte order mark.
+std::string text_string(std::string_view text) {
+    const bool plain = std::all_of(text.begin(), text.end(), [](char byte) {
+        return (byte >= 0x20 && byte < 0x7F) || byte == '\n' || byte == '\t';
+    });
+    if (plain) {
+        std::string result = "(";
+        for (const char byte : text) {
+            if (byte == '(' || byte == ')' || byte == '\\') result += '\\';
+            result += byte;
+        }
+        return result + ')';
+    }
+    std::string result = "<FEFF";
+    const auto put = [&result](std::uint32_t unit) { fmt::format_to(std::back_inserter(result), "{:04X}", unit); };
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = utf8_length(text.substr(i));
+        const auto byte = [&](std::size_t k) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
+        };
+        std::uint32_t code = 0xFFFD;
+        if (length > 0) {
+            // The first byte begins with as many ones as there are bytes, if there are several.
+            code = length == 1 ? byte(i) : byte(i) & (0x7Fu >> length);
+            for (std::size_t k = 1; k < length; ++k) code = code << 6 | (byte(i + k) & 0x3F);
+        }
+        i += std::max<std::size_t>(length, 1);
+        if (code >= 0x10000) {
+            put(0xD800 + ((code - 0x10000) >> 10));
+            put(0xDC00 + ((code - 0x10000) & 0x3FF));
+        } else {
+            put(code);
+        }
+    }
+    return result + '>';
+}
+
+std::string channels(Colour colour) {
+    return fmt::format("{} {} {}", decimal(colour.red / 255.0, 4), decimal(colour.green / 255.0, 4),
+                       decimal(colour.blue / 255.0, 4));
+}
+
+/// Bytes that end or escape a name are written as #xx.
+std::string name_object(std::string_view name) {
+    std::string result = "/";
+    for (const char byte : name) {
+        const auto code = static_cast<unsigned char>(byte);
+        if (code > 0x20 && code < 0x7F && std::string_view("()<>[]{}/%#").find(byte) == std::string_view::npos) {
+            result += byte;
+        } else {
+            fmt::format_to(std::back_inserter(result), "#{:02X}", code);
+        }
+    }
+    return result;
+}
+
+inline char* put_point(char* out, Micrometres point) {
+    out = put_number(out, point.x);
+    *out++ = ' ';
+    out = put_number(out, point.y);
+    *out++ = ' ';
+    return out;
+}
+
+inline char* put_operator(char* out, char name) {
+    *out++ = name;
+    *out++ = '\n';
+    return out;
+}
+
+constexpr std::size_t point_room = 2 * number_room + 2;
+constexpr std::size_t line_room = point_room + 2;
+constexpr std::size_t curve_room = 3 * point_room + 2;
+
+struct Layer : VectorLayer {
+    std::string label;
+    int stream = 0;            ///< number of the object with the drawing
+    int length = 0;            ///< and of its length, if it goes to the file before that is known
+    int group = 0;             ///< and of the optional content group
+    Colour colour;             ///< of strokes or discs
+    bool translucent = false;  ///< the whole layer is painted as one
+    std::string packed;
+    std::uint64_t packed_bytes = 0;  ///< including what is in the file
+    uLong checksum = 1;              ///< Adler-32
+    int points = 0;                  ///< of the open path
+};
+
+class Writer final : public VectorWriter<Layer> {
+public:
+    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file), edge_(press_edge(print.press)) {
+        const double longest =
+            (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
+        unit_ = std::max(1.0, std::ceil(longest / most_units));
+        write("%PDF-1.6\n%\xE2\xE3\xCF\xD3\n");
+        catalog_ = new_object();
+        pages_ = new_object();
+        page_ = new_object();
+        resources_ = new_object();
+    }
+
+    void begin_part(const Print& part, const Window& window) override {
+        end_part();
+        take_part(part, window);
+    }
+
+    void finish() override {
+        end_part();
+        write_marks();
+        write_structure();
+    }
+
+private:
+    /// Completes the objects of the layers, and notes where they are painted.
+    void end_part() {
+        for (auto& [order, layer] : layers_) {
+            end_path(layer);
+            layer.text.append(layer.translucent ? "Q\n" : "Q\nEMC\n");
+        }
+        // An object that is under way in the file ends before the next begins.
+        for (auto& [order, layer] : layers_) {
+            if (!layer.to_file) continue;
+            pack(layer, 0);
+            end_packed(layer);
+            write(layer.packed);
+            write("\nendstream\nendobj\n");
+            begin_object(layer.length);
+            write(fmt::format("{}\nendobj\n", layer.packed_bytes));
+        }
+        std::string groups;
+        if (part_ == &print_) begin_art();
+        const std::string area = rectangle(window_, part_ == &print_ ? print_.press.bleed : 0.0);
+        if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", area)));
+        if (const auto& ground = part_->style.ground; ground && ground->alpha > 0) {
+            const int group = new_object();
+            write_group(group, "ground");
+            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
+            fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
+            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group, ink(*ground, false),
+                                                 set_alpha(ground->alpha), area)));
+        }
+        for (auto& [order, layer] : layers_) {
+            if (!layer.to_file) {
+                pack(layer, 0);
+                end_packed(layer);
+                begin_object(layer.stream);
+                write(stream_head(layer, fmt::format("{}", layer.packed_bytes)));
+                write(layer.packed);
+                write("\nendstream\nendobj\n");
+            }
+            write_group(layer.group, layer.label);
+            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", layer.group, layer.group);
+            fmt::format_to(std::back_inserter(groups), " {} 0 R", layer.group);
+            int content = layer.stream;
+            if (layer.translucent) {
+                fmt::format_to(std::back_inserter(forms_), "/X{} {} 0 R\n", layer.stream, layer.stream);
+                content = write_plain_stream(fmt::format("/OC /G{} BDC q {} /X{} Do Q EMC\n", layer.group,
+                                                         set_alpha(layer.colour.alpha), layer.stream));
+            }
+            paint(content);
+            layer.packed = {};
+        }
+        if (window_.clips) paint(write_plain_stream("Q\n"));
+        groups_ += groups;
+        if (part_ == &print_) {
+            order_ += groups;
+        } else if (!groups.empty()) {
+            order_ += fmt::format(" [ {}{} ]", text_string(part_->title), groups);
+        }
+        layers_.clear();
+    }
+
+    /// What leaves the bleed would run into the marks.
+    void begin_art() {
+        if (!print_.press.marks) return;
+        const Window sheet{0.0, 0.0, print_.page.width, print_.page.height, true};
+        paint(write_plain_stream(fmt::format("q {} W n\n", rectangle(sheet, print_.press.bleed))));
+    }
+
+    /// In all inks, so that every plate shows them.
+    void write_marks() {
+        if (!print_.press.marks) return;
+        std::string text = fmt::format("{} w", decimal(mark_width / unit_, 4));
+        for (const CropMark& mark : crop_marks(print_.page, print_.press)) {
+            fmt::format_to(std::back_inserter(text), " {} {} m {} {} l", user_x(mark.from.x), user_y(mark.from.y),
+                           user_x(mark.to.x), user_y(mark.to.y));
+        }
+        const int group = new_object();
+        write_group(group, "marks");
+        fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
+        fmt::format_to(std::back_inserter(groups_), " {} 0 R", group);
+        fmt::format_to(std::back_inserter(order_), " {} 0 R", group);
+        paint(write_plain_stream(fmt::format("Q /OC /G{} BDC q /Registration CS 1 SCN {} S Q EMC\n", group, text)));
+    }
+
+    void paint(int stream) { fmt::format_to(std::back_inserter(contents_), " {} 0 R", stream); }
+    void write(std::string_view text) { file_.write(text); }
+
+    int new_object() {
+        offsets_.push_back(0);
+        return static_cast<int>(offsets_.size());
+    }
+    void begin_object(int number) {
+        offsets_[static_cast<std::size_t>(number) - 1] = file_.size();
+        write(fmt::format("{} 0 obj\n", number));
+    }
+
+    /// Millimetres in units of the page.
+    std::string user(double millimetres) const {
+        return decimal(millimetres * 1000.0 * points_of_micrometre / unit_, 4);
+    }
+    /// Of a point in millimetres from the top left corner of the trimmed sheet, y down.
+    std::string user_x(double x) const { return user(edge_ + x); }
+    std::string user_y(double y) const { return user(edge_ + print_.page.height - y); }
+
+    std::string rectangle(const Window& window, double around) const {
+        return fmt::format("{} {} {} {} re", user_x(window.left - around),
+                           user_y(window.top + window.height + around), user(window.width + 2 * around),
+                           user(window.height + 2 * around));
+    }
+    /// The lower left and the upper right corner.
+    std::string box(double around) const {
+        return fmt::format("[{} {} {} {}]", user_x(-around), user_y(print_.page.height + around),
+                           user_x(print_.page.width + around), user_y(-around));
+    }
+
+    /// The operators that set the colour of lines or of areas; a spot colour that is named is remembered.
+    std::string ink(Colour colour, bool of_lines) {
+        const std::vector<Spot>& spots = print_.press.spots;
+        for (std::size_t i = 0; i < spots.size(); ++i) {
+            const Colour& spot = spots[i].colour;
+            if (spot.red != colour.red || spot.green != colour.green || spot.blue != colour.blue) continue;
+            spots_.insert(i);
+            return fmt::format("/S{} {}", i, of_lines ? "CS 1 SCN" : "cs 1 scn");
+        }
+        return channels(colour) + (of_lines ? " RG" : " rg");
+    }
+
+    /// A tint of none is white; who has no such ink mixes it from red, green and blue.
+    void write_colour_spaces() {
+        if (spots_.empty() && !print_.press.marks) return;
+        const auto separation = [](const std::string& name, std::string_view space, const std::string& none,
+                                   const std::string& full) {
+            return fmt::format("[/Separation {} /{} << /FunctionType 2 /Domain [0 1] /C0 [{}] /C1 [{}] /N 1 >>]\n",
+                               name, space, none, full);
+        };
+        write("/ColorSpace <<\n");
+        for (const std::size_t i : spots_) {
+            const Spot& spot = print_.press.spots[i];
+            write(fmt::format("/S{} {}", i,
+                              separation(name_object(spot.name), "DeviceRGB", "1 1 1", channels(spot.colour))));
+        }
+        if (print_.press.marks) write("/Registration " + separation("/All", "DeviceGray", "1", "0"));
+        write(">>\n");
+    }
+
+    /// The operator that sets the opacity of fills and groups; the state it names is remembered.
+    std::string set_alpha(std::uint8_t alpha) {
+        if (alpha == 255 && alphas_.empty()) return "";
+        alphas_.insert(alpha);
+        return fmt::format("/A{} gs", alpha);
+    }
+
+    /// Micrometres with y down become units of the page with y up.
+    std::string matrix() const {
+        const std::string scale = decimal(points_of_micrometre / unit_, 14);
+        return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + print_.page.height));
+    }
+
+    std::string stream_head(const Layer& layer, const std::string& length) const {
+        const std::string form = layer.translucent
+                                     ? fmt::format(
+                                           "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
+                                           "/Group << /S /Transparency /CS /DeviceRGB >> ",
+                                           user(2 * edge_ + print_.page.width), user(2 * edge_ + print_.page.height))
+                                     : "";
+        return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
+    }
+
+    /// The first layer of all goes to the file at once, the others wait in memory. One whose `colour` is
+    /// translucent is painted as a whole, so that nothing darkens where it overlaps or where paths are cut.
+    template <typename Label>
+    Layer& open_layer(LayerOrder order, Colour colour, Label&& label) {
+        const auto [found, is_new] = layers_.try_emplace(order);
+        Layer& layer = found->second;
+        if (!is_new) return layer;
+        layer.label = label();
+        layer.colour = colour;
+        layer.translucent = colour.alpha != 255;
+        layer.stream = new_object();
+        layer.group = new_object();
+        layer.packed = "\x78\x9C";
+        layer.packed_bytes = layer.packed.size();
+        if (layers_.size() == 1) {
+            layer.to_file = true;
+            layer.length = new_object();
+            begin_object(layer.stream);
+            write(stream_head(layer, fmt::format("{} 0 R", layer.length)));
+        }
+        if (!layer.translucent) layer.text.append(fmt::format("/OC /G{} BDC\n", layer.group));
+        layer.text.append(fmt::format("q {} 1 J 1 j\n", matrix()));
+        return layer;
+    }
+
+    /// Polygons keep their order whatever their colours, as they may cover each other.
+    Layer& polygon_layer(Colour colour) {
+        Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
+        if (layer.run != colour) {
+            layer.text.append(fmt::format("{} {}\n", ink(colour, false), set_alpha(colour.alpha)));
+            layer.run = colour;
+        }
+        return layer;
+    }
+
+    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
+        Layer& layer = polygon_layer(colour);
+        const MicrometrePlacement place = place_;
+        bool first = true;
+        while (!vertices.empty()) {
+            const auto block = vertices.first(std::min(vertices.size(), block_points));
+            vertices = vertices.subspan(block.size());
+            char* out = layer.text.room(block.size() * line_room);
+            for (const glm::dvec2 vertex : block) {
+                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
+                first = false;
+            }
+            layer.text.filled_to(out);
+            pack(layer, pack_bytes);
+        }
+        layer.text.append("f\n");
+    }
+
+    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
+        Layer& layer = polygon_layer(colour);
+        const MicrometrePlacement place = place_;
+        layer.text.filled_to(put_operator(put_point(layer.text.room(line_room), place(outline.front())), 'm'));
+        outline = outline.subspan(1);
+        while (outline.size() >= 3) {
+            const auto block = outline.first(std::min(outline.size() / 3, block_points) * 3);
+            outline = outline.subspan(block.size());
+            char* out = layer.text.room(block.size() / 3 * curve_room);
+            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
+                for (std::size_t k = i; k < i + 3; ++k) out = put_point(out, place(block[k]));
+                out = put_operator(out, 'c');
+            }
+            layer.text.filled_to(out);
+            pack(layer, pack_bytes);
+        }
+        layer.text.append("f\n");
+    }
+
+    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
+        Layer& layer = open_layer({LayerKind::discs, slot}, colour,
+                                  [&] { return fmt::format("discs {}", colour_name(colour)); });
+        if (!layer.run) layer.text.append(ink(colour, false) + "\n");
+        layer.run = colour;
+        const auto at = [&](double x, double y) {
+            return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
+        };
+        constexpr double k = quarter_circle;
+        char* out = layer.text.room(6 * curve_room);
+        out = put_operator(put_point(out, at(1, 0)), 'm');
+        const auto curve = [&](Micrometres first, Micrometres second, Micrometres end) {
+            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+        };
+        curve(at(1, k), at(k, 1), at(0, 1));
+        curve(at(-k, 1), at(-1, k), at(-1, 0));
+        curve(at(-1, -k), at(-k, -1), at(0, -1));
+        curve(at(k, -1), at(1, -k), at(1, 0));
+        out = put_operator(out, 'f');
+        layer.text.filled_to(out);
+        pack(layer, pack_bytes);
+    }
+
+    Layer& stroke_layer() override {
+        return open_layer({LayerKind::strokes, slot_}, colour_,
+                          [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
+    }
+
+    void write_start() override {
+        if (layer_->width != width_) {
+            end_path(*layer_);
+            if (layer_->width.empty()) layer_->text.append(ink(colour_, true) + "\n");
+            layer_->text.append(fmt::format("{} w\n", width_));
+            layer_->width = width_;
+        }
+        layer_->path_open = true;
+        put(here_, 'm');
+    }
+
+    void put(Micrometres point, char name) {
+        char* out = layer_->text.room(line_room);
+        layer_->text.filled_to(put_operator(put_point(out, point), name));
+    }
+
+    void write_lines(std::span<const glm::dvec2> ends) override {
+        char* out = layer_->text.room(ends.size() * line_room);
+        Micrometres here = here_;
+        const MicrometrePlacement place = place_;
+        for (const glm::dvec2 point : ends) {
+            const Micrometres next = place(point);
+            if (next == here) continue;
+            here = next;
+            out = put_operator(put_point(out, next), 'l');
+        }
+        here_ = here;
+        layer_->text.filled_to(out);
+    }
+
+    void write_curves(std::span<const glm::dvec2> controls) override {
+        char* out = layer_->text.room(controls.size() / 3 * curve_room);
+        Micrometres here = here_;
+        const MicrometrePlacement place = place_;
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const Micrometres first = place(controls[i]);
+            const Micrometres second = place(controls[i + 1]);
+            const Micrometres end = place(controls[i + 2]);
+            if (first == here && second == here && end == here) continue;
+            here = end;
+            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
+        }
+        here_ = here;
+        layer_->text.filled_to(out);
+    }
+
+    void end_block(std::size_t points, std::size_t) override {
+        layer_->points += static_cast<int>(points);
+        if (layer_->points > most_path_points) {
+            end_piece(false);
+            end_path(*layer_);
+        }
+        pack(*layer_, pack_bytes);
+    }
+
+    void write_end(bool closed) override {
+        // A line without length: the round caps make it a dot.
+        if (!drawn_) put(here_, 'l');
+        if (closed) layer_->text.append("h\n");
+        layer_->points += 1;
+        if (layer_->points > most_path_points) end_path(*layer_);
+    }
+
+    static void end_path(Layer& layer) {
+        if (layer.path_open) layer.text.append("S\n");
+        layer.path_open = false;
+        layer.points = 0;
+    }
+
+    /// Compresses what the layer holds if it is at least `least` bytes.
+    void pack(Layer& layer, std::size_t least) {
+        if (layer.text.size() < least) return;
+        const std::string_view text = layer.text.view();
+        const std::size_t before = layer.packed.size();
+        layer.checksum = adler32_z(layer.checksum, reinterpret_cast<const Bytef*>(text.data()), text.size());
+        // A polygon's text may be longer than zlib counts.
+        for (std::size_t at = 0; at < text.size(); at += std::size_t{1} << 30) {
+            deflater_.append(text.substr(at, std::size_t{1} << 30), layer.packed);
+        }
+        layer.packed_bytes += layer.packed.size() - before;
+        layer.text.clear();
+        if (layer.to_file) {
+            write(layer.packed);
+            layer.packed.clear();
+        }
+    }
+
+    /// An empty last block, and the checksum.
+    static void end_packed(Layer& layer) {
+        layer.packed += std::string_view("\x03\x00", 2);
+        for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
+        layer.packed_bytes += 6;
+    }
+
+    int write_plain_stream(const std::string& text) {
+        const int number = new_object();
+        begin_object(number);
+        write(fmt::format("<< /Length {} >>\nstream\n{}endstream\nendobj\n", text.size(), text));
+        return number;
+    }
+
+    void write_group(int number, std::string_view label) {
+        begin_object(number);
+        write(fmt::format("<< /Type /OCG /Name {} >>\nendobj\n", text_string(label)));
+    }
+
+    void write_structure() {
+        begin_object(resources_);
+        write("<<\n");
+        if (!properties_.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties_));
+        write_colour_spaces();
+        if (!forms_.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms_));
+        if (!alphas_.empty()) {
+            write("/ExtGState <<\n");
+            for (const int alpha : alphas_) {
+                const std::string value = decimal(alpha / 255.0, 4);
+                write(fmt::format("/A{} << /Type /ExtGState /CA {} /ca {} >>\n", alpha, value, value));
+            }
+            write(">>\n");
+        }
+        write(">>\nendobj\n");
+
+        // Plates are mixed as inks, each for itself, which a page mixed in RGB would not have.
+        const bool has_group = !alphas_.empty() && spots_.empty() && !print_.press.marks;
+        begin_object(page_);
+        write(
+            fmt::format("<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
+                        "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
+                        pages_, box(edge_), box(edge_), box(print_.press.bleed), box(0.0),
+                        unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+                        has_group ? "/Group << /S /Transparency /CS /DeviceRGB >>\n" : "", resources_, contents_));
+        begin_object(pages_);
+        write(fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>\nendobj\n", page_));
+        begin_object(catalog_);
+        write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n", pages_));
+        if (!groups_.empty()) {
+            write(fmt::format("/OCProperties << /OCGs [{} ] /D << /Order [{} ] >> >>\n", groups_, order_));
+        }
+        write(">>\nendobj\n");
+        const int info = new_object();
+        begin_object(info);
+        write("<< ");
+        if (!print_.title.empty()) write(fmt::format("/Title {}\n", text_string(print_.title)));
+        if (!print_.made.empty()) write(fmt::format("/Subject {}\n", text_string(print_.made)));
+        // A key of our own beside those of the standard, which allows it: the print can be made again from it.
+        if (!print_.pattern.empty()) write(fmt::format("/SikkuPattern {}\n", text_string(print_.pattern)));
+        write("/Creator (Sikku) >>\nendobj\n");
+
+        const std::uint64_t table = file_.size();
+        write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", offsets_.size() + 1));
+        for (const std::uint64_t offset : offsets_) write(fmt::format("{:010} 00000 n \n", offset));
+        write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n",
+                          offsets_.size() + 1, catalog_, info, table));
+    }
+
+    Deflater deflater_;
+    std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
+    std::set<int> alphas_;
+    std::set<std::size_t> spots_;  ///< that were used
+    std::string contents_;         ///< streams in the order in which they are painted
+    std::string groups_;           ///< optional content groups
+    std::string order_;            ///< the same as a reader lists them: those of a part together
+    std::string properties_;       ///< and as resources
+    std::string forms_;
+    const double edge_;  ///< millimetres from the edge of the medium to the trimmed sheet
+    double unit_ = 1.0;  ///< points of one unit of the page
+    int catalog_ = 0;
+    int pages_ = 0;
+    int page_ = 0;
+    int resources_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<PrintWriter> write_pdf(const Print& print, OutputFile& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+}  // namespace sikku

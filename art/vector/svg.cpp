@@ -1,0 +1,436 @@
+#include "art/vector/svg.h"
+
+#include "art/vector/vector_writer.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// libxml2, and with it xmllint and rsvg, refuses attributes of 10 MB, and also 10 MB in which it did not come by the
+/// end of what it has buffered when an element began, about one chance in eight. So a file begins with long paths and
+/// goes on with short ones.
+constexpr std::uint64_t most_path_bytes = 3'900'000;
+constexpr std::uint64_t long_path_region = 3'000'000;
+constexpr std::uint64_t late_path_bytes = 32'000;
+constexpr std::size_t flush_bytes = std::size_t{1} << 18;
+/// The first strokes of a layer are paths of their own, so that they can be picked up one by one; among very many
+/// the short ones share paths of about this size.
+constexpr int single_strokes = 256;
+constexpr std::uint64_t shared_path_bytes = 4096;
+
+/// ` name="0.5"`, or nothing for an opaque colour.
+std::string opacity(std::string_view name, Colour colour) {
+    return colour.alpha == 255 ? "" : fmt::format(" {}=\"{}\"", name, decimal(colour.alpha / 255.0, 4));
+}
+
+/// A command letter where it differs from the last one; else the separator that the number after it needs.
+inline char* put_command(char* out, char letter, char& last, std::int32_t value) {
+    if (letter != last) {
+        *out++ = last = letter;
+    } else if (value >= 0) {
+        *out++ = ' ';
+    }
+    return put_number(out, value);
+}
+
+inline char* put_next(char* out, std::int32_t value) {
+    if (value >= 0) *out++ = ' ';
+    return put_number(out, value);
+}
+
+constexpr std::size_t line_room = 1 + 2 * number_room;
+constexpr std::size_t curve_room = 1 + 6 * number_room;
+
+/// Path data from point to point. The letters are those of relative commands; differences of rounded positions
+/// do not drift.
+class PathData {
+public:
+    explicit PathData(Micrometres start) : here_(start) {}
+
+    void line(char*& out, Micrometres next) {
+        const std::int32_t right = next.x - here_.x;
+        const std::int32_t down = next.y - here_.y;
+        here_ = next;
+        if (down == 0) {
+            if (right != 0) out = put_command(out, 'h', command_, right);
+        } else if (right == 0) {
+            out = put_command(out, 'v', command_, down);
+        } else {
+            out = put_command(out, 'l', command_, right);
+            out = put_next(out, down);
+        }
+    }
+
+    void curve(char*& out, Micrometres first, Micrometres second, Micrometres end) {
+        if (first == here_ && second == here_ && end == here_) return;
+        out = put_command(out, 'c', command_, first.x - here_.x);
+        out = put_next(out, first.y - here_.y);
+        for (const Micrometres point : {second, end}) {
+            out = put_next(out, point.x - here_.x);
+            out = put_next(out, point.y - here_.y);
+        }
+        here_ = end;
+    }
+
+    Micrometres here() const { return here_; }
+
+private:
+    Micrometres here_;
+    char command_ = 0;
+};
+
+/// Length of a curve, by eight chords.
+double curve_length(const std::array<glm::dvec2, 4>& b) {
+    double length = 0;
+    glm::dvec2 at = b[0];
+    for (int k = 1; k <= 8; ++k) {
+        const double t = k / 8.0;
+        const double u = 1 - t;
+        const glm::dvec2 next = u * u * u * b[0] + 3 * u * u * t * b[1] + 3 * u * t * t * b[2] + t * t * t * b[3];
+        length += glm::length(next - at);
+        at = next;
+    }
+    return length;
+}
+
+struct Layer : VectorLayer {
+    std::uint64_t flushed = 0;     ///< bytes of its text that are in the file already
+    std::uint64_t path_begin = 0;  ///< where the open path's attribute d began, as position()
+    std::string path_width;        ///< stroke-width of the open path
+    Micrometres at;                ///< where the open path ends
+    int strokes = 0;
+
+    std::uint64_t position() const { return flushed + text.size(); }
+};
+
+class Writer final : public VectorWriter<Layer> {
+public:
+    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file) {
+        write_head();
+        body_begin_ = written_ = file_.size();
+    }
+
+    void begin_part(const Print& part, const Window& window) override {
+        end_part();
+        ++parts_;
+        const std::string box =
+            fmt::format("x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", decimal(window.left, 4),
+                        decimal(window.top, 4), decimal(window.width, 4), decimal(window.height, 4));
+        if (window.clips) file_.write(fmt::format("<clipPath id=\"window{}\"><rect {}/></clipPath>\n", parts_, box));
+        file_.write(fmt::format(
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}>\n<title>{}</title>\n", xml_escaped(part.title),
+            window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "", xml_escaped(part.title)));
+        write_ground(part.style.ground, box);
+        take_part(part, window);
+        body_begin_ = file_.size();
+        streaming_ = false;
+    }
+
+    void finish() override {
+        end_part();
+        if (print_.animation) write_animation();
+        file_.write("</svg>\n");
+    }
+
+private:
+    /// Writes the layers in their order.
+    void end_part() {
+        std::string before;
+        const Layer* streamed = nullptr;
+        for (auto& [order, layer] : layers_) {
+            end_path(layer);
+            if (layer.run) layer.text.append("</g>\n");
+            layer.text.append("</g>\n");
+            if (layer.to_file) {
+                streamed = &layer;
+                file_.write(layer.text.view());
+            } else if (!streamed && streaming_) {
+                before.append(layer.text.view());
+            } else {
+                file_.write(layer.text.view());
+            }
+        }
+        if (parts_ > 0) file_.write("</g>\n");
+        if (!before.empty()) file_.insert(body_begin_, before);
+        layers_.clear();
+    }
+
+    static char* put_text(char* out, std::string_view text) {
+        std::memcpy(out, text.data(), text.size());
+        return out + text.size();
+    }
+
+    void write_head() {
+        const std::string width = decimal(print_.page.width, 4);
+        const std::string height = decimal(print_.page.height, 4);
+        file_.write(
+            fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                        "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" xmlns:sikku=\"{}\"\n"
+                        "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\">\n",
+                        svg_name_space, width, height, width, height));
+        file_.write(fmt::format("<title>{}</title>\n<desc>", xml_escaped(print_.title)));
+        file_.write(xml_escaped(print_.pattern));
+        file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(print_.made)));
+        if (!fits_xml(print_.pattern)) {
+            file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
+        }
+        file_.write("</metadata>\n");
+        write_ground(print_.style.ground, fmt::format("width=\"{}\" height=\"{}\"", width, height));
+    }
+
+    void write_ground(const std::optional<Colour>& ground, std::string_view box) {
+        if (!ground || ground->alpha == 0) return;
+        // AxiDraw's software passes over layers that begin with a percent sign.
+        file_.write(
+            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}ground\">\n"
+                        "<rect {} fill=\"{}\"{}/>\n</g>\n",
+                        print_.is_plot ? "% " : "", box, hex(*ground), opacity("fill-opacity", *ground)));
+    }
+
+    /// Paths know when they begin and how long they are, in millimetres; the pace is told here, when all are known.
+    /// Readers that know no animation show the whole drawing.
+    void write_animation() {
+        file_.write(
+            fmt::format("<style>\n:root {{ --pace: {}s }}\n"
+                        "path[pathLength] {{ animation: draw calc(var(--l) * var(--pace)) linear "
+                        "calc(var(--b) * var(--pace)) backwards }}\n"
+                        "@keyframes draw {{ from {{ stroke-dasharray: 1 2; stroke-dashoffset: 1.001 }} "
+                        "to {{ stroke-dasharray: 1 2; stroke-dashoffset: 0 }} }}\n"
+                        "@media (prefers-reduced-motion: reduce) {{ path[pathLength] {{ animation: none }} }}\n"
+                        "</style>\n",
+                        decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9)));
+    }
+
+    struct LayerText {
+        std::string label;
+        std::string attributes;
+    };
+
+    /// The layer of that order, begun with its group on first use. The first layer of all goes to the file at
+    /// once; the others wait in memory, as they may have to stand before it.
+    template <typename Text>
+    Layer& open_layer(LayerOrder order, Text&& text) {
+        const auto [found, is_new] = layers_.try_emplace(order);
+        Layer& layer = found->second;
+        if (is_new) {
+            layer.to_file = layers_.size() == 1 && file_.can_insert();
+            streaming_ = streaming_ || layer.to_file;
+            const LayerText is = text();
+            layer.text.append(
+                fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
+                            "transform=\"scale(0.001)\"{}>\n",
+                            is.label, is.attributes));
+        }
+        return layer;
+    }
+
+    /// Polygons keep their order whatever their colours, as they may cover each other.
+    Layer& polygon_run(Colour colour) {
+        Layer& layer = open_layer({LayerKind::polygons, 0}, [] { return LayerText{"fills", ""}; });
+        if (layer.run != colour) {
+            if (layer.run) layer.text.append("</g>\n");
+            layer.text.append(fmt::format("<g fill=\"{}\"{}>\n", hex(colour), opacity("fill-opacity", colour)));
+            layer.run = colour;
+        }
+        return layer;
+    }
+
+    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
+        Layer& layer = polygon_run(colour);
+        char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
+        char* out = begin;
+        const MicrometrePlacement place = place_;
+        const Micrometres start = place(vertices.front());
+        out = put_text(out, "<path d=\"M");
+        out = put_number(out, start.x);
+        out = put_next(out, start.y);
+        PathData path(start);
+        for (const glm::dvec2 vertex : vertices.subspan(1)) path.line(out, place(vertex));
+        out = put_text(out, "z\"/>\n");
+        layer.text.filled_to(out);
+        flush(layer);
+    }
+
+    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
+        Layer& layer = polygon_run(colour);
+        char* out = layer.text.room(outline.size() / 3 * curve_room + line_room + 32);
+        const MicrometrePlacement place = place_;
+        const Micrometres start = place(outline.front());
+        out = put_text(out, "<path d=\"M");
+        out = put_number(out, start.x);
+        out = put_next(out, start.y);
+        PathData path(start);
+        for (std::size_t i = 1; i + 2 < outline.size(); i += 3) {
+            path.curve(out, place(outline[i]), place(outline[i + 1]), place(outline[i + 2]));
+        }
+        out = put_text(out, "z\"/>\n");
+        layer.text.filled_to(out);
+        flush(layer);
+    }
+
+    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
+        Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
+            return LayerText{fmt::format("discs {}", colour_name(colour)),
+                             fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour))};
+        });
+        layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", centre.x, centre.y,
+                                      decimal(std::min(radius, 1e9), 1)));
+        flush(layer);
+    }
+
+    Layer& stroke_layer() override {
+        // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
+        Layer& layer = open_layer({LayerKind::strokes, slot_}, [&] {
+            return LayerText{slot_ == print_.travel_colour ? std::string("% travel")
+                                                           : fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
+                             fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
+                                         "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                                         hex(colour_), opacity("opacity", colour_), width_)};
+        });
+        if (layer.width.empty()) layer.width = width_;
+        return layer;
+    }
+
+    void write_start() override {
+        if (layer_->path_open &&
+            (print_.animation || layer_->strokes < single_strokes || layer_->path_width != width_ ||
+             layer_->position() - layer_->path_begin > shared_path_bytes)) {
+            end_path(*layer_);
+        }
+        if (layer_->path_open) {
+            char* out = layer_->text.room(line_room);
+            *out++ = 'm';
+            out = put_number(out, here_.x - layer_->at.x);
+            out = put_next(out, here_.y - layer_->at.y);
+            layer_->text.filled_to(out);
+        } else {
+            layer_->text.append(width_ == layer_->width ? "<path d=\""
+                                                        : fmt::format("<path stroke-width=\"{}\" d=\"", width_));
+            layer_->path_open = true;
+            layer_->path_begin = layer_->position();
+            layer_->path_width = width_;
+            char* out = layer_->text.room(line_room);
+            *out++ = 'M';
+            out = put_number(out, here_.x);
+            out = put_next(out, here_.y);
+            layer_->text.filled_to(out);
+        }
+        piece_start_ = here_;
+        piece_length_ = 0;
+        data_ = PathData(here_);
+    }
+
+    void write_lines(std::span<const glm::dvec2> ends) override {
+        char* out = layer_->text.room(ends.size() * line_room);
+        // Locals, so that the compiler need not fear that writing text changes them.
+        PathData path = data_;
+        const MicrometrePlacement place = place_;
+        for (const glm::dvec2 point : ends) path.line(out, place(point));
+        if (print_.animation) add_lines(ends);
+        data_ = path;
+        here_ = path.here();
+        layer_->text.filled_to(out);
+    }
+
+    void write_curves(std::span<const glm::dvec2> controls) override {
+        char* out = layer_->text.room(controls.size() / 3 * curve_room);
+        PathData path = data_;
+        const MicrometrePlacement place = place_;
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            path.curve(out, place(controls[i]), place(controls[i + 1]), place(controls[i + 2]));
+        }
+        if (print_.animation) add_curves(controls);
+        data_ = path;
+        here_ = path.here();
+        layer_->text.filled_to(out);
+    }
+
+    void end_block(std::size_t, std::size_t bytes) override {
+        written_ += bytes;
+        flush(*layer_);
+        const std::uint64_t path_bytes = layer_->position() - layer_->path_begin;
+        if (path_bytes > most_path_bytes ||
+            (path_bytes > late_path_bytes && written_ - path_bytes > long_path_region)) {
+            end_piece(false);
+            end_path(*layer_);
+        }
+    }
+
+    void write_end(bool closed) override {
+        // A line without length: the round caps make it a dot.
+        if (!drawn_) layer_->text.append("h0");
+        if (closed) layer_->text.append("z");
+        layer_->at = closed ? piece_start_ : here_;
+        ++layer_->strokes;
+        if (print_.animation && layer_->path_open) {
+            if (closed) piece_length_ += glm::length(millimetres(piece_start_) - millimetres(here_));
+            layer_->text.append(fmt::format("\" pathLength=\"1\" style=\"--b:{};--l:{}\"/>\n",
+                                            decimal(drawn_length_, 3), decimal(piece_length_, 3)));
+            layer_->path_open = false;
+            drawn_length_ += piece_length_;
+        }
+    }
+
+    static void end_path(Layer& layer) {
+        if (layer.path_open) layer.text.append("\"/>\n");
+        layer.path_open = false;
+    }
+
+    static glm::dvec2 millimetres(Micrometres point) { return glm::dvec2(point.x, point.y) / 1000.0; }
+
+    void add_lines(std::span<const glm::dvec2> ends) {
+        glm::dvec2 at = millimetres(here_);
+        for (const glm::dvec2 end : ends) {
+            const glm::dvec2 next = millimetres(place_(end));
+            piece_length_ += glm::length(next - at);
+            at = next;
+        }
+    }
+    void add_curves(std::span<const glm::dvec2> controls) {
+        glm::dvec2 at = millimetres(here_);
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const std::array<glm::dvec2, 4> bezier = {at, millimetres(place_(controls[i])),
+                                                      millimetres(place_(controls[i + 1])),
+                                                      millimetres(place_(controls[i + 2]))};
+            piece_length_ += curve_length(bezier);
+            at = bezier[3];
+        }
+    }
+
+    void flush(Layer& layer) {
+        if (!layer.to_file || layer.text.size() < flush_bytes) return;
+        file_.write(layer.text.view());
+        layer.flushed += layer.text.size();
+        layer.text.clear();
+    }
+
+    std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
+    std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
+    bool streaming_ = false;
+    int parts_ = 0;
+    double piece_length_ = 0.0;  ///< of an animated print, in millimetres
+    double drawn_length_ = 0.0;  ///< of all its pieces so far
+    Micrometres piece_start_;
+    PathData data_{Micrometres{}};
+};
+
+}  // namespace
+
+std::unique_ptr<PrintWriter> write_svg(const Print& print, OutputFile& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+}  // namespace sikku

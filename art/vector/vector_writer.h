@@ -1,0 +1,189 @@
+// art/vector/vector_writer.h: what the writers of SVG and PDF have in common: layers, and strokes in pieces of one
+// pen each.
+#pragma once
+
+#include "art/print/micrometres.h"
+#include "art/print/print.h"
+#include "engine/base/output_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Layers in drawing order: polygons, then the strokes of each colour, then the discs of each colour.
+enum class LayerKind { polygons, strokes, discs };
+using LayerOrder = std::pair<LayerKind, int>;
+
+/// What the layers of every format have.
+struct VectorLayer {
+    TextBuffer text;
+    bool to_file = false;       ///< its text goes to the file at once, that of others waits in memory
+    bool path_open = false;     ///< strokes are being added to a path
+    std::string width;          ///< of lines, as set last
+    std::optional<Colour> run;  ///< colour of polygons or discs, as set last
+};
+
+/// Takes strokes apart: into pieces with one pen each, those into blocks of points. The format writes them.
+template <class Layer>
+class VectorWriter : public PrintWriter {
+public:
+    void begin_stroke(glm::dvec2 start, const Pen& pen) final {
+        here_ = place_(start);
+        started_ = false;
+        whole_ = true;
+        take(pen);
+    }
+    void change_pen(const Pen& pen) final {
+        if (pen_ == pen || (slot_of(pen) == slot_ && width_text(pen) == width_)) return;
+        end_piece(false);
+        take(pen);
+    }
+    void lines(std::span<const glm::dvec2> ends) final {
+        in_blocks(ends, block_points, [this](std::span<const glm::dvec2> block) { write_lines(block); });
+    }
+    void curves(std::span<const glm::dvec2> controls) final {
+        in_blocks(controls, 3 * (block_points / 4),
+                  [this](std::span<const glm::dvec2> block) { write_curves(block); });
+    }
+    void end_stroke(bool closed) final { end_piece(closed && whole_); }
+
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) final {
+        const Colour colour = part_->style.fill_colour(pen);
+        if (colour.alpha > 0 && vertices.size() >= 3) write_polygon(vertices, colour);
+    }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) final {
+        const Colour colour = part_->style.fill_colour(pen);
+        if (colour.alpha > 0 && outline.size() >= 4) write_area(outline, colour);
+    }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) final {
+        const Colour colour = part_->style.fill_colour(pen);
+        const double millimetres = part_->style.disc_radius(radius, pen, part_->placement.step);
+        if (colour.alpha == 0 || !(millimetres > 0.0)) return;
+        write_disc(place_(centre), millimetres * 1000.0, colour,
+                   fill_slots_[static_cast<std::size_t>(part_->style.index(pen))]);
+    }
+
+protected:
+    static constexpr std::size_t block_points = 1024;
+
+    VectorWriter(const Print& print, OutputFile& file)
+        : print_(print),
+          file_(file),
+          part_(&print),
+          window_{0.0, 0.0, print.page.width, print.page.height, false},
+          place_(print.placement),
+          line_slots_(print.style.line_slots()),
+          fill_slots_(print.style.fill_slots()) {}
+
+    /// From here on drawings are those of `part`; the layers of the last one have been written.
+    void take_part(const Print& part, const Window& window) {
+        part_ = &part;
+        window_ = window;
+        place_ = MicrometrePlacement(part.placement);
+        line_slots_ = part.style.line_slots();
+        fill_slots_ = part.style.fill_slots();
+        layers_.clear();
+        layer_ = nullptr;
+        pen_.reset();
+    }
+
+    /// Ends what was drawn with the present pen, if anything was.
+    void end_piece(bool closed) {
+        if (!started_) return;
+        write_end(closed && drawn_);
+        started_ = false;
+        whole_ = false;
+    }
+
+    const Print& print_;  ///< the whole sheet
+    OutputFile& file_;
+    const Print* part_;  ///< what is being drawn: the sheet itself, or what begin_part() told
+    Window window_;      ///< of the part
+    MicrometrePlacement place_;
+    std::map<LayerOrder, Layer> layers_;
+
+    // The stroke that is being drawn, and its piece with the present pen.
+    Layer* layer_ = nullptr;  ///< null until something is drawn with this pen
+    int slot_ = 0;
+    Colour colour_;
+    std::string width_;   ///< micrometres
+    bool drawn_ = false;  ///< the piece has something that has length
+    Micrometres here_;
+
+private:
+    /// The layer of slot_, begun if need be.
+    virtual Layer& stroke_layer() = 0;
+    /// Puts the pen down at here_.
+    virtual void write_start() = 0;
+    /// Append a block to the layer and leave here_ at its end. Points that round to the same are one.
+    virtual void write_lines(std::span<const glm::dvec2> ends) = 0;
+    virtual void write_curves(std::span<const glm::dvec2> controls) = 0;
+    /// After each block, of so many points and bytes; may end the piece, which then goes on as another.
+    virtual void end_block(std::size_t points, std::size_t bytes) = 0;
+    /// Ends the piece; one in which nothing was drawn is a dot.
+    virtual void write_end(bool closed) = 0;
+    virtual void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) = 0;
+    virtual void write_area(std::span<const glm::dvec2> outline, Colour colour) = 0;
+    virtual void write_disc(Micrometres centre, double radius, Colour colour, int slot) = 0;
+
+    int slot_of(const Pen& pen) const { return line_slots_[static_cast<std::size_t>(part_->style.index(pen))]; }
+
+    std::string width_text(const Pen& pen) const {
+        return decimal(part_->style.line_width(pen, part_->placement.step) * 1000.0, 3);
+    }
+
+    void take(const Pen& pen) {
+        if (pen_ == pen) return;
+        pen_ = pen;
+        slot_ = slot_of(pen);
+        width_ = width_text(pen);
+        colour_ = part_->style.line_colour(pen);
+        // In PDF a width of 0 is the thinnest line there is, and not none.
+        visible_ = part_->style.draws(pen) && width_ != "0";
+        layer_ = nullptr;
+    }
+
+    template <class Write>
+    void in_blocks(std::span<const glm::dvec2> points, std::size_t most, Write&& write) {
+        if (!visible_) {
+            whole_ = false;
+            here_ = place_(points.back());
+            return;
+        }
+        while (!points.empty()) {
+            start_piece();
+            const auto block = points.first(std::min(points.size(), most));
+            points = points.subspan(block.size());
+            const std::size_t before = layer_->text.size();
+            write(block);
+            const std::size_t bytes = layer_->text.size() - before;
+            drawn_ = drawn_ || bytes > 0;
+            end_block(block.size(), bytes);
+        }
+    }
+
+    /// Only when something is drawn: a pen that is changed twice at one place leaves no dot.
+    void start_piece() {
+        if (started_) return;
+        started_ = true;
+        drawn_ = false;
+        if (!layer_) layer_ = &stroke_layer();
+        write_start();
+    }
+
+    std::vector<int> line_slots_;
+    std::vector<int> fill_slots_;
+    std::optional<Pen> pen_;
+    bool visible_ = false;
+    bool started_ = false;  ///< the pen is down
+    bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
+};
+
+}  // namespace sikku

@@ -1,0 +1,122 @@
+// engine/base/diagnostic.h: the text of a pattern file, places in it, and what is wrong at them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A place as editors count: lines and columns (code points) from 1.
+struct Place {
+    int line = 1;
+    int column = 1;
+    bool operator==(const Place&) const = default;
+};
+
+/// A named text that diagnostics point into: a file, standard input, or an option of the command line.
+/// Immutable; has to outlive every Span cut from it.
+class Source {
+public:
+    Source(std::string name, std::string text);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
+    const std::string& name() const { return name_; }  ///< as the user gave it: a path, "-", "--set"
+    const std::string& text() const { return text_; }  ///< the bytes as they were read
+    /// The same length: comments, continuations and carriage returns blanked.
+    std::string_view cleaned() const { return cleaned_.empty() ? text_ : cleaned_; }
+    /// Where a comment begins that has no end; npos if there is none.
+    std::size_t open_comment() const { return open_comment_; }
+    /// Cost: linear in the offset.
+    Place place(std::size_t at) const;
+
+private:
+    std::string name_;
+    std::string text_;
+    std::size_t open_comment_ = std::string::npos;  // before cleaned_, which is made together with it
+    std::string cleaned_;                           // empty if nothing had to be blanked
+};
+using SourcePointer = std::shared_ptr<const Source>;
+
+/// A piece of a source, which must live at least as long.
+struct Span {
+    const Source* source = nullptr;
+    std::uint32_t at = 0;      ///< byte offset into the source
+    std::uint32_t length = 0;  ///< bytes
+
+    Span() = default;
+    Span(const Source* in, std::size_t begin, std::size_t bytes)
+        : source(in), at(static_cast<std::uint32_t>(begin)), length(static_cast<std::uint32_t>(bytes)) {}
+    Span(const SourcePointer& in, std::size_t begin, std::size_t bytes) : Span(in.get(), begin, bytes) {}
+
+    std::string_view view() const;                                                   ///< the cleaned text
+    Span part(std::size_t begin, std::size_t count = std::string_view::npos) const;  ///< relative, clipped
+    Span trimmed() const;                                                            ///< without blanks at both ends
+    bool empty() const { return length == 0; }
+};
+
+/// One thing wrong (or, as a warning, doubtful) at one place.
+struct Diagnostic {
+    std::string file;
+    Place where;
+    std::string message;
+    std::string excerpt;  ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
+    bool warning = false;
+
+    /// `file:line:column: message`, the excerpt and the caret below it.
+    std::string text() const;
+};
+
+/// Collects the mistakes of a file; all are reported at once. Past 50 errors only the number is kept.
+class Diagnostics {
+public:
+    void error(const Span& where, const std::string& message) { add(where, message, false); }
+    void warning(const Span& where, const std::string& message) { add(where, message, true); }
+    const std::vector<Diagnostic>& list() const { return list_; }
+    bool has_errors() const { return errors_ > 0; }
+    /// The text is no pattern at all; looking further at it would tell nothing.
+    bool is_unreadable() const { return unreadable_; }
+    void unreadable(const Span& where, const std::string& message) {
+        unreadable_ = true;
+        error(where, message);
+    }
+    std::vector<Diagnostic> sorted() const;
+    /// Throws PatternError with everything collected, sorted by place, if there is an error.
+    void throw_if_errors() const;
+
+private:
+    void add(const Span& where, const std::string& message, bool warning);
+    std::vector<Diagnostic> list_;
+    std::size_t errors_ = 0;
+    bool unreadable_ = false;
+};
+
+/// A pattern that cannot be used: every diagnostic of it. what() is their text.
+class PatternError : public std::runtime_error {
+public:
+    explicit PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors);
+    const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+private:
+    std::vector<Diagnostic> diagnostics_;
+};
+
+/// The one of `known` nearest to `word` by edit distance, or empty if none is near enough to be meant.
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known);
+
+/// Bytes of the code point at the front of `text` (not empty), or 0 if it is no valid UTF-8.
+std::size_t utf8_length(std::string_view text);
+
+/// Returns `text` for a message: control characters, direction overrides and invalid UTF-8 become '?', and at most
+/// `most` bytes are kept, omitting the middle.
+std::string printable(std::string_view text, std::size_t most = 240);
+
+/// The whole of `text` as a finite decimal number in any locale, or false.
+bool read_number(std::string_view text, double& value);
+
+}  // namespace sikku

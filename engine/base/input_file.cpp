@@ -1,0 +1,95 @@
+#include "engine/base/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t{1} << 16;
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& path) {
+    const auto fail = [](int error) { throw std::system_error(error, std::generic_category()); };
+    struct stat state = {};
+    // Merely opening a pipe would take the reader away from its writer.
+    if (::stat(path.c_str(), &state) != 0) fail(errno);
+    if (!S_ISREG(state.st_mode)) fail(EINVAL);
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (descriptor_ < 0) fail(errno);
+    if (const int error = ::fstat(descriptor_, &state) != 0 ? errno
+                          : S_ISREG(state.st_mode)          ? 0
+                                                            : EINVAL;
+        error != 0) {
+        ::close(descriptor_);
+        fail(error);
+    }
+    size_ = static_cast<std::uint64_t>(state.st_size);
+}
+
+InputFile::~InputFile() {
+    ::close(descriptor_);
+}
+
+std::string InputFile::read(std::uint64_t at, std::uint64_t count) const {
+    std::string bytes(static_cast<std::size_t>(std::min(count, size_ - std::min(at, size_))), '\0');
+    bytes.resize(read(at, bytes.data(), bytes.size()));
+    return bytes;
+}
+
+std::size_t InputFile::read(std::uint64_t at, char* bytes, std::size_t count) const {
+    std::size_t done = 0;
+    while (done < count && at + done < size_) {
+        const ::ssize_t got = ::pread(descriptor_, bytes + done, count - done, static_cast<::off_t>(at + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw std::system_error(errno, std::generic_category());
+        if (got == 0) break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
+InputStream::InputStream(const InputFile& file, std::uint64_t begin, std::uint64_t end)
+    : file_(file), at_(begin), end_(std::min(end, file.size())) {}
+
+std::string_view InputStream::ahead(std::size_t least) {
+    if (block_.size() - next_ < least && at_ < end_) {
+        block_.erase(0, next_);
+        next_ = 0;
+        const std::size_t kept = block_.size();
+        const std::size_t wanted = static_cast<std::size_t>(std::min<std::uint64_t>(block_bytes, end_ - at_));
+        block_.resize(kept + wanted);
+        const std::size_t got = file_.read(at_, block_.data() + kept, wanted);
+        block_.resize(kept + got);
+        at_ = got == wanted ? at_ + got : end_;  // a truncated file ends here
+    }
+    return std::string_view(block_).substr(next_);
+}
+
+bool InputStream::skip_past(std::string_view mark) {
+    for (;;) {
+        const std::string_view bytes = ahead(mark.size());
+        if (bytes.size() < mark.size()) return false;
+        const std::size_t at = bytes.find(mark);
+        if (at != std::string_view::npos) {
+            skip(at + mark.size());
+            return true;
+        }
+        // The mark may begin in this block and end in the next.
+        skip(bytes.size() - (mark.size() - 1));
+    }
+}
+
+bool InputStream::skip_text(std::string_view text) {
+    if (!ahead(text.size()).starts_with(text)) return false;
+    skip(text.size());
+    return true;
+}
+
+}  // namespace sikku

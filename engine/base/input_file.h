@@ -1,0 +1,66 @@
+// engine/base/input_file.h: reads untrusted files piece by piece.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// A regular file, open for reading. A read never takes more memory than the bytes present, whatever sizes the file
+/// states.
+class InputFile {
+public:
+    /// Does not open pipes and devices, which might block.
+    /// @throws std::system_error if the file cannot be opened or is not a regular file
+    explicit InputFile(const std::filesystem::path& path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    /// Size in bytes when it was opened.
+    std::uint64_t size() const { return size_; }
+    /// Reads at most `count` bytes from `at` on; fewer at the end of the file.
+    /// @throws std::system_error if they cannot be read
+    std::string read(std::uint64_t at, std::uint64_t count) const;
+    /// Reads into `bytes`; returns the number of bytes read.
+    std::size_t read(std::uint64_t at, char* bytes, std::size_t count) const;
+
+private:
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+/// Reads the bytes of a file from `begin` to `end` sequentially, through a block of 64 kB.
+class InputStream {
+public:
+    InputStream(const InputFile& file, std::uint64_t begin, std::uint64_t end);
+
+    /// Returns the next bytes without consuming them: at least `least` (up to 64) unless the end comes first, and as
+    /// many as are in memory. Valid until the next call.
+    std::string_view ahead(std::size_t least = 1);
+    /// Skips `count` bytes, but not beyond what ahead() returned.
+    void skip(std::size_t count) { next_ += std::min(count, block_.size() - next_); }
+    /// Takes the next byte; -1 at the end.
+    int take() {
+        const std::string_view bytes = ahead();
+        if (bytes.empty()) return -1;
+        skip(1);
+        return static_cast<unsigned char>(bytes.front());
+    }
+    /// Skips past the next `mark` (1 to 64 bytes); false if there is none before the end. Cost: a search.
+    bool skip_past(std::string_view mark);
+    /// Skips `text` if it comes next.
+    bool skip_text(std::string_view text);
+
+private:
+    const InputFile& file_;
+    std::uint64_t at_, end_;  // of the unread part
+    std::string block_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace sikku

@@ -1,0 +1,334 @@
+#include "engine/base/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace sikku {
+
+/// An entry of the list that remove_unfinished_files() reads. Entries are only ever added, so that a signal handler
+/// can walk the list at any time; those of completed files are reused. There are as many as the maximum number of
+/// files open at once.
+struct UnfinishedFile {
+    std::atomic<const char*> path{nullptr};
+    UnfinishedFile* next = nullptr;  // never changes once the entry is in the list
+};
+
+namespace {
+
+std::atomic<UnfinishedFile*> unfinished{nullptr};
+/// A signal handler reads the paths: they must not be freed while it does.
+std::atomic<bool> is_removing{false};
+static_assert(std::atomic<UnfinishedFile*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "a signal handler must not wait for a lock");
+
+UnfinishedFile* remember(const std::filesystem::path& path) {
+    const char* copy = ::strdup(path.c_str());
+    if (!copy) throw std::bad_alloc();
+    for (UnfinishedFile* entry = unfinished.load(); entry; entry = entry->next) {
+        const char* free_path = nullptr;
+        if (entry->path.compare_exchange_strong(free_path, copy)) return entry;
+    }
+    auto* entry = new (std::nothrow) UnfinishedFile;
+    if (!entry) {
+        std::free(const_cast<char*>(copy));
+        throw std::bad_alloc();
+    }
+    entry->path = copy;
+    entry->next = unfinished.load();
+    while (!unfinished.compare_exchange_weak(entry->next, entry)) {
+    }
+    return entry;
+}
+
+void forget(UnfinishedFile* entry) {
+    if (!entry) return;
+    const char* path = entry->path.exchange(nullptr);
+    // A handler that has read it set is_removing before.
+    if (!is_removing) std::free(const_cast<char*>(path));
+}
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
+constexpr int most_links = 40;             // as the kernel follows
+
+/// Accepts a failed call if the file system or kind of file has nothing to synchronise.
+bool is_not_for_sync(int error) {
+    return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
+}
+
+/// fsync() with the error number instead of a result; 0 if all is well.
+int synchronise(int descriptor) {
+    while (::fsync(descriptor) != 0) {
+        if (errno != EINTR) return is_not_for_sync(errno) ? 0 : errno;
+    }
+    return 0;
+}
+
+/// Synchronises the names in a folder. An unreadable folder is left to the system.
+int synchronise_folder(const std::filesystem::path& folder) {
+    const int descriptor =
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return 0;
+    const int error = synchronise(descriptor);
+    ::close(descriptor);
+    return error;
+}
+
+/// The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for. Opening it by name would begin at the
+/// first byte of a redirected file instead of where the shell is.
+std::optional<int> named_descriptor(const std::string& name) {
+    if (name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!name.starts_with(folder)) continue;
+        const char* begin = name.data() + folder.size();
+        const char* end = name.data() + name.size();
+        int descriptor = 0;
+        const auto [stop, error] = std::from_chars(begin, end, descriptor);
+        if (error == std::errc() && stop == end && descriptor >= 0) return descriptor;
+    }
+    return std::nullopt;
+}
+
+/// `/proc/PID/fd/N/NAME`: a name in a folder that is held open.
+bool is_in_held_folder(const std::string& name) {
+    std::string_view rest = name;
+    const auto take = [&](std::string_view piece) {
+        if (!rest.starts_with(piece)) return false;
+        rest.remove_prefix(piece.size());
+        return true;
+    };
+    const auto take_number = [&] {
+        const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+        rest.remove_prefix(digits);
+        return digits > 0;
+    };
+    return take("/proc/") && take_number() && take("/fd/") && take_number() && take("/") && !rest.empty() &&
+           rest.find('/') == std::string_view::npos;
+}
+
+std::string random_letters() {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
+    std::array<unsigned char, 6> bytes{};
+    if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) bytes.fill(0);
+    std::string result;
+    for (const unsigned char byte : bytes) result += letters[byte % letters.size()];
+    return result;
+}
+
+/// The name cut to what a temporary name can hold, not inside of a character.
+std::string stem_of(const std::filesystem::path& target) {
+    std::string stem = target.filename().string();
+    if (stem.size() > longest_stem) {
+        std::size_t end = longest_stem;
+        while (end > 0 && (static_cast<unsigned char>(stem[end]) & 0xC0) == 0x80) --end;
+        stem.resize(end);
+    }
+    return stem;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)), target_(name_) {
+    buffer_.reserve(buffer_bytes);
+    if (const auto named = named_descriptor(name_.string())) {
+        direct_ = true;
+        temporary_ = target_;
+        descriptor_ = ::fcntl(*named, F_DUPFD_CLOEXEC, 3);
+        if (descriptor_ < 0) fail(errno);
+        return;
+    }
+    const bool is_held = is_in_held_folder(name_.string());
+    for (int links = 0;; ++links) {
+        struct stat status {};
+        if (::lstat(target_.c_str(), &status) != 0) {
+            if (errno != ENOENT) fail(errno);
+            if (target_.filename().empty()) fail(target_.empty() ? ENOENT : EISDIR);
+            break;
+        }
+        // A caller that holds a folder open does not trust its contents: the name itself is used, not its target.
+        if (is_held && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) break;
+        if (S_ISLNK(status.st_mode)) {
+            if (links == most_links) fail(ELOOP);
+            std::error_code error;
+            const std::filesystem::path pointee = std::filesystem::read_symlink(target_, error);
+            if (error) fail(error.value());
+            target_ = target_.parent_path() / pointee;
+            continue;
+        }
+        if (S_ISDIR(status.st_mode)) fail(EISDIR);
+        direct_ = !S_ISREG(status.st_mode);
+        mode_ = static_cast<int>(status.st_mode & 0777);
+        // A rename would get past the protection of a read-only file.
+        if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
+        break;
+    }
+    create();
+}
+
+void OutputFile::create() {
+    if (direct_) {
+        temporary_ = target_;
+        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+        if (descriptor_ < 0) fail(errno);
+        return;
+    }
+    const std::string stem = stem_of(target_);
+    // Never more open than the file it replaces, and open enough for whoever opens temporary().
+    const mode_t mode = mode_ < 0 ? 0666 : static_cast<mode_t>(mode_) | 0600;
+    for (int attempt = 0;; ++attempt) {
+        temporary_ = target_.parent_path() / fmt::format(".{}.{}.tmp", stem, random_letters());
+        // Before it is there: a signal may come at any time.
+        entry_ = remember(temporary_);
+        descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (descriptor_ >= 0) return;
+        const int error = errno;
+        forget(std::exchange(entry_, nullptr));
+        if (error != EEXIST || attempt == 100) fail(error);
+    }
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!direct_ && !temporary_.empty()) ::unlink(temporary_.c_str());
+    forget(entry_);
+}
+
+void OutputFile::write(std::string_view bytes) {
+    written_ += bytes.size();
+    if (buffer_.size() + bytes.size() <= buffer_bytes) {
+        buffer_.append(bytes);
+        return;
+    }
+    flush();
+    if (bytes.size() >= buffer_bytes) {
+        write_all(bytes.data(), bytes.size());
+    } else {
+        buffer_.append(bytes);
+    }
+}
+
+void OutputFile::flush() {
+    write_all(buffer_.data(), buffer_.size());
+    buffer_.clear();
+}
+
+void OutputFile::write_all(const char* bytes, std::size_t count) {
+    while (count > 0) {
+        const ssize_t done = ::write(descriptor_, bytes, count);
+        if (done < 0) {
+            if (errno == EINTR) continue;
+            fail(errno);
+        }
+        bytes += done;
+        count -= static_cast<std::size_t>(done);
+    }
+}
+
+void OutputFile::write_at(const char* bytes, std::size_t count, std::uint64_t offset) {
+    while (count > 0) {
+        const ssize_t done = ::pwrite(descriptor_, bytes, count, static_cast<off_t>(offset));
+        if (done < 0) {
+            if (errno == EINTR) continue;
+            fail(errno);
+        }
+        bytes += done;
+        count -= static_cast<std::size_t>(done);
+        offset += static_cast<std::uint64_t>(done);
+    }
+}
+
+void OutputFile::overwrite(std::uint64_t position, std::string_view bytes) {
+    if (direct_ || position + bytes.size() > written_) throw std::logic_error("OutputFile::overwrite: no such place");
+    flush();
+    write_at(bytes.data(), bytes.size(), position);
+}
+
+void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
+    if (direct_ || position > written_) throw std::logic_error("OutputFile::insert: no such place");
+    if (bytes.empty()) return;
+    flush();
+    // From the end, so that nothing is overwritten before it is read.
+    std::string block;
+    for (std::uint64_t end = written_; end > position;) {
+        const std::uint64_t begin = end - std::min<std::uint64_t>(end - position, buffer_bytes);
+        block.resize(static_cast<std::size_t>(end - begin));
+        std::size_t read = 0;
+        while (read < block.size()) {
+            const ssize_t done =
+                ::pread(descriptor_, block.data() + read, block.size() - read, static_cast<off_t>(begin + read));
+            if (done < 0 && errno == EINTR) continue;
+            if (done <= 0) fail(done < 0 ? errno : EIO);
+            read += static_cast<std::size_t>(done);
+        }
+        write_at(block.data(), block.size(), begin + bytes.size());
+        end = begin;
+    }
+    write_at(bytes.data(), bytes.size(), position);
+    written_ += bytes.size();
+    if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
+}
+
+const std::filesystem::path& OutputFile::temporary() {
+    flush();
+    return temporary_;
+}
+
+void OutputFile::commit() {
+    flush();
+    if (!direct_) {
+        // By name where a library has made the file anew.
+        struct stat own {};
+        struct stat named {};
+        const bool is_own = ::fstat(descriptor_, &own) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
+                            own.st_ino == named.st_ino && own.st_dev == named.st_dev;
+        const int whole = is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (whole < 0) fail(errno);
+        int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
+        if (error == 0) error = synchronise(whole);
+        if (!is_own) ::close(whole);
+        if (error != 0) fail(error);
+    }
+    const int descriptor = std::exchange(descriptor_, -1);
+    // Some file systems report a full disk only here.
+    if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
+    if (direct_) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+    temporary_.clear();
+    forget(std::exchange(entry_, nullptr));
+    if (const int error = synchronise_folder(target_.parent_path()); error != 0) fail(error);
+}
+
+void OutputFile::fail(int error) const {
+    throw std::runtime_error(
+        fmt::format("cannot write '{}': {}", name_.string(), std::generic_category().message(error)));
+}
+
+void remove_unfinished_files() noexcept {
+    is_removing = true;
+    // Twice, for what another thread was opening meanwhile.
+    for (int pass = 0; pass < 2; ++pass) {
+        for (UnfinishedFile* entry = unfinished.load(); entry; entry = entry->next) {
+            if (const char* path = entry->path.load()) ::unlink(path);
+        }
+    }
+    is_removing = false;
+}
+
+}  // namespace sikku

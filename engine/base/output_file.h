@@ -1,0 +1,66 @@
+// engine/base/output_file.h: a file that appears whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+struct UnfinishedFile;
+
+/// Writes beside the target (`.NAME.XXXXXX.tmp` in the same folder) and renames into place on commit; without
+/// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
+/// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
+/// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
+/// and /dev/stdout are written directly. In a folder named by its descriptor, `/proc/PID/fd/N/NAME`, links, devices
+/// and pipes are themselves replaced.
+class OutputFile {
+public:
+    explicit OutputFile(std::filesystem::path target);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Buffered (1 MB).
+    void write(std::string_view bytes);
+    /// Bytes handed over so far.
+    std::uint64_t size() const { return written_; }
+    /// Whether insert() may be used: false for devices and pipes.
+    bool can_insert() const { return !direct_; }
+    /// Puts `bytes` before the byte at `position` (at most size()); what was there moves up. Cost: what moves.
+    void insert(std::uint64_t position, std::string_view bytes);
+    /// Replaces bytes that were written, where insert() may be used.
+    void overwrite(std::uint64_t position, std::string_view bytes);
+    /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
+    /// not write() after that.
+    const std::filesystem::path& temporary();
+    /// Synchronises the file, renames it and synchronises the folder: after a crash of the machine the file has the
+    /// old or the new content and is never empty. Devices and pipes are not synchronised. Call once, last. Cost on a
+    /// solid-state disk: about 9 ms (5 for the file, 3 for the folder), 70 ms for 100 MB.
+    void commit();
+
+private:
+    void create();
+    void flush();
+    void write_all(const char* bytes, std::size_t count);
+    void write_at(const char* bytes, std::size_t count, std::uint64_t offset);
+    [[noreturn]] void fail(int error) const;
+
+    std::filesystem::path name_;  ///< as the caller gave it, for messages
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+    int mode_ = -1;                    ///< of the replaced file
+    UnfinishedFile* entry_ = nullptr;  ///< in the list of remove_unfinished_files()
+    bool direct_ = false;
+    std::string buffer_;
+    std::uint64_t written_ = 0;
+};
+
+/// Removes the temporary files of all OutputFiles that are neither committed nor destroyed, however many there are.
+/// May be called from a signal handler that then ends the program.
+void remove_unfinished_files() noexcept;
+
+}  // namespace sikku

@@ -1,0 +1,136 @@
+#include "engine/base/text.h"
+
+#include "engine/base/diagnostic.h"
+
+namespace sikku {
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& byte : result) {
+        if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
+    }
+    return result;
+}
+
+namespace {
+
+/// The length of the character at the front of `text` (not empty) if XML 1.0 can hold it, else 0.
+std::size_t xml_character(std::string_view text) {
+    const auto byte = static_cast<unsigned char>(text.front());
+    if (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') return 0;
+    // U+FFFE and U+FFFF are no characters.
+    if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
+    return utf8_length(text);
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    return text;
+}
+
+bool fits_xml(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = xml_character(text.substr(i));
+        if (length == 0) return false;
+        i += length;
+    }
+    return true;
+}
+
+std::string xml_escaped(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = xml_character(text.substr(i));
+        if (length == 0) {
+            result += "\xEF\xBF\xBD";
+            ++i;
+            continue;
+        }
+        switch (text[i]) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            case '\r':
+                result += "&#13;";
+                break;  // a parser would turn it into a line feed
+            default:
+                result.append(text, i, length);
+        }
+        i += length;
+    }
+    return result;
+}
+
+std::string to_hex(std::string_view bytes) {
+    std::string result;
+    result.reserve(2 * bytes.size());
+    for (const char byte : bytes) {
+        result += "0123456789abcdef"[static_cast<unsigned char>(byte) >> 4];
+        result += "0123456789abcdef"[static_cast<unsigned char>(byte) & 15];
+    }
+    return result;
+}
+
+void append_utf8(std::uint32_t code, std::string& text) {
+    const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+    if (code < 0x80) return put(code);
+    if (code < 0x800) {
+        put(0xC0 | code >> 6);
+    } else {
+        if (code < 0x10000) {
+            put(0xE0 | code >> 12);
+        } else {
+            put(0xF0 | code >> 18);
+            put(0x80 | (code >> 12 & 0x3F));
+        }
+        put(0x80 | (code >> 6 & 0x3F));
+    }
+    put(0x80 | (code & 0x3F));
+}
+
+std::string plain_json(std::string_view json) {
+    std::string result;
+    result.reserve(json.size());
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const auto code = static_cast<unsigned char>(json[i]);
+        const std::string_view rest = json.substr(i);
+        const bool is_c1 = rest.size() > 1 && code == 0xC2 && static_cast<unsigned char>(rest[1]) >= 0x80 &&
+                           static_cast<unsigned char>(rest[1]) < 0xA0;
+        if (code < 0x20 || code == 0x7F) {
+            result += "\\u00" + to_hex(rest.substr(0, 1));
+        } else if (is_c1) {
+            result += "\\u00" + to_hex(rest.substr(1, 1));
+            i += 1;
+        } else if (rest.starts_with("\xE2\x80\xA8") || rest.starts_with("\xE2\x80\xA9")) {
+            result += rest[2] == '\xA8' ? "\\u2028" : "\\u2029";
+            i += 2;
+        } else {
+            result += json[i];
+        }
+    }
+    return result;
+}
+
+std::string json_string(std::string_view text) {
+    std::string result = "\"";
+    for (const char byte : text) {
+        if (byte == '"' || byte == '\\') result += '\\';
+        result += byte;
+    }
+    return plain_json(result + '"');
+}
+
+}  // namespace sikku

@@ -1,0 +1,33 @@
+// engine/base/text.h: texts, for all who write them to files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// ASCII letters in lower case, whatever the locale; other bytes as they are.
+std::string lower_case(std::string_view text);
+
+/// `text` without blanks and tabs at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// True if XML 1.0 can hold `text`: UTF-8 without control characters.
+bool fits_xml(std::string_view text);
+/// For XML and HTML, in elements and in attributes between double quotes. What XML cannot hold becomes U+FFFD.
+std::string xml_escaped(std::string_view text);
+
+/// Returns JSON on one line with control characters (C0, DEL, C1) and the line separators U+2028 and U+2029 escaped,
+/// so that terminals, JavaScript and line readers see plain text. Such characters can only occur in strings.
+std::string plain_json(std::string_view json);
+/// Formats a string of such JSON with its quotes; `text` is UTF-8.
+std::string json_string(std::string_view text);
+
+/// Appends a code point (up to U+10FFFF) in UTF-8.
+void append_utf8(std::uint32_t code, std::string& text);
+
+/// Two small digits for each byte.
+std::string to_hex(std::string_view bytes);
+
+}  // namespace sikku

@@ -1,0 +1,385 @@
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sikku {
+namespace {
+
+constexpr double most_work = 5e7;  // table entries looked at
+
+/// A table's productions as (successor symbol, multiplicity), and who has one.
+struct Sparse {
+    struct Term {
+        Symbol symbol;
+        std::uint32_t times;
+    };
+    std::vector<std::uint32_t> begin;  // by symbol; one more at the end
+    std::vector<Term> terms;
+    std::vector<char> has;              // by symbol: rewritten at all
+    std::vector<std::uint32_t> length;  // of the successor
+
+    Sparse(const Table& table, std::size_t symbols, const std::vector<char>& needed) {
+        begin.push_back(0);
+        for (Symbol symbol = 0; symbol < symbols; ++symbol) {
+            const Word* successor = needed[symbol] ? table.successor(symbol) : nullptr;
+            has.push_back(successor ? 1 : 0);
+            length.push_back(successor ? static_cast<std::uint32_t>(successor->size()) : 1);
+            if (successor) {
+                Word sorted = *successor;
+                std::sort(sorted.begin(), sorted.end());
+                for (std::size_t i = 0; i < sorted.size();) {
+                    std::size_t end = i;
+                    while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
+                    terms.push_back({sorted[i], static_cast<std::uint32_t>(end - i)});
+                    i = end;
+                }
+            }
+            begin.push_back(static_cast<std::uint32_t>(terms.size()));
+        }
+    }
+};
+
+/// The tables step by step, `interpret:` as a last one.
+struct Steps {
+    std::vector<Sparse> tables;
+    std::vector<std::pair<std::size_t, std::int64_t>> runs;  // index into tables, number of steps
+    std::vector<Symbol> symbols;                             // those reached
+    std::int64_t count = 0;
+    double work = 0;  // table entries looked at in one pass
+
+    Steps(const Grammar& grammar, bool interpreted) {
+        const std::vector<char> needed = grammar.reachable();
+        for (Symbol symbol = 0; symbol < needed.size(); ++symbol) {
+            if (needed[symbol]) symbols.push_back(symbol);
+        }
+        for (const Table& table : grammar.tables()) {
+            tables.emplace_back(table, needed.size(), needed);
+        }
+        for (const ScheduleRun& run : grammar.schedule()) runs.emplace_back(run.table, run.steps);
+        if (interpreted && grammar.interpretation()) {
+            tables.emplace_back(*grammar.interpretation(), needed.size(), needed);
+            runs.emplace_back(tables.size() - 1, 1);
+        }
+        for (const auto& [table, steps] : runs) {
+            count += steps;
+            work += static_cast<double>(steps) * static_cast<double>(symbols.size() + tables[table].terms.size());
+        }
+        if (work > most_work) {
+            throw BudgetError(
+                fmt::format("{} steps of {} symbols are too much even to forecast", count, symbols.size()));
+        }
+    }
+};
+
+/// For each step, which symbols lead to an empty word from there on. Told for the last steps only, as many as
+/// derive() keeps expansions of; before that, nothing is known to be empty.
+class Emptiness {
+public:
+    Emptiness(const Steps& steps, std::size_t symbols) {
+        bool any = false;
+        for (const Sparse& table : steps.tables) {
+            any = any || std::find(table.length.begin(), table.length.end(), 0U) != table.length.end();
+        }
+        if (!any) return;
+        const auto most_rows = static_cast<std::size_t>(kept_levels(symbols)) + 1;
+        rows_.emplace_back(symbols, 0);
+        for (std::size_t i = steps.runs.size(); i > 0; --i) {
+            const auto& [index, count] = steps.runs[i - 1];
+            const Sparse& table = steps.tables[index];
+            for (std::int64_t step = 0; step < count && rows_.size() < most_rows; ++step) {
+                std::vector<char> row = rows_.back();
+                for (const Symbol symbol : steps.symbols) {
+                    if (!table.has[symbol]) continue;
+                    row[symbol] = std::all_of(
+                        table.terms.begin() + table.begin[symbol], table.terms.begin() + table.begin[symbol + 1],
+                        [&](const Sparse::Term& term) { return rows_.back()[term.symbol] != 0; });
+                }
+                rows_.push_back(std::move(row));
+            }
+        }
+    }
+    /// Is the expansion of `symbol` with `left` steps to go known to be empty?
+    bool empty(Symbol symbol, std::int64_t left) const {
+        return static_cast<std::size_t>(left) < rows_.size() && rows_[static_cast<std::size_t>(left)][symbol];
+    }
+
+private:
+    std::vector<std::vector<char>> rows_;
+};
+
+/// A number of any size to 15 digits: value x 2^exponent.
+struct Scaled {
+    double value = 0.0;
+    std::int64_t exponent = 0;
+
+    void add(const Scaled& other, double times) {
+        if (other.value == 0 || times == 0) return;
+        Scaled term{other.value * times, other.exponent};
+        term.normalize();
+        if (value == 0 || term.exponent > exponent + 200) {
+            *this = term;
+            return;
+        }
+        const std::int64_t gap = term.exponent - exponent;
+        if (gap < -200) return;
+        value += std::ldexp(term.value, static_cast<int>(gap));
+        normalize();
+    }
+    void normalize() {
+        int shift = 0;
+        value = std::frexp(value, &shift);
+        exponent += shift;
+    }
+    double log10() const {
+        return value == 0 ? -std::numeric_limits<double>::infinity()
+                          : std::log10(value) + static_cast<double>(exponent) * std::log10(2.0);
+    }
+    double as_double() const {
+        return exponent > 1020 ? std::numeric_limits<double>::infinity()
+                               : std::ldexp(value, static_cast<int>(exponent));
+    }
+};
+
+template <class Number, class Add>
+void advance(const Sparse& table, const std::vector<Symbol>& symbols, std::vector<Number>& counts,
+             std::vector<Number>& next, Add add) {
+    for (const Symbol symbol : symbols) next[symbol] = Number();
+    for (const Symbol symbol : symbols) {
+        if (!table.has[symbol]) {
+            add(next[symbol], counts[symbol], 1);
+            continue;
+        }
+        for (std::uint32_t i = table.begin[symbol]; i < table.begin[symbol + 1]; ++i) {
+            add(next[table.terms[i].symbol], counts[symbol], table.terms[i].times);
+        }
+    }
+    counts.swap(next);
+}
+
+double sum_log10(const std::vector<Scaled>& counts) {
+    Scaled sum;
+    for (const Scaled& count : counts) sum.add(count, 1);
+    return sum.log10();
+}
+
+/// Visited nodes and the length's size, in 15 digits.
+Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
+    const std::size_t symbols = grammar.symbols().size();
+    const Emptiness emptiness(steps, symbols);
+    std::vector<Scaled> counts(symbols);
+    std::vector<Scaled> next(symbols);
+    std::vector<std::uint64_t> occurrences(symbols, 0);
+    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
+    for (std::size_t i = 0; i < symbols; ++i) counts[i].add({1.0, 0}, static_cast<double>(occurrences[i]));
+    Scaled nodes;
+    std::int64_t left = steps.count;
+    for (const auto& [index, count] : steps.runs) {
+        const Sparse& table = steps.tables[index];
+        for (std::int64_t step = 0; step < count; ++step, --left) {
+            for (const Symbol symbol : steps.symbols) {
+                if (emptiness.empty(symbol, left)) {
+                    counts[symbol] = {};
+                } else if (table.has[symbol] && table.length[symbol] != 1) {
+                    nodes.add(counts[symbol], 1);
+                }
+            }
+            advance(table, steps.symbols, counts, next,
+                    [](Scaled& sum, const Scaled& term, std::uint32_t times) { sum.add(term, times); });
+        }
+    }
+    Forecast result;
+    result.log10_length = sum_log10(counts);
+    for (const Scaled& count : counts) {
+        nodes.add(count, 1);
+        result.rough_counts.push_back(count.as_double());
+        result.log10_counts.push_back(count.log10());
+    }
+    result.nodes = nodes.as_double();
+    return result;
+}
+
+}  // namespace
+
+std::string Forecast::length() const {
+    if (!counts) return fmt::format("about 10^{:.0f}", std::floor(log10_length));
+    Integer sum = 0;
+    for (const Integer& count : *counts) sum += count;
+    return sum.str();
+}
+
+namespace {
+
+std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
+    std::vector<Integer> counts(grammar.symbols().size());
+    std::vector<Integer> next(grammar.symbols().size());
+    std::vector<std::uint64_t> occurrences(counts.size(), 0);
+    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = occurrences[i];
+    for (const auto& [index, count] : steps.runs) {
+        for (std::int64_t step = 0; step < count; ++step) {
+            advance(steps.tables[index], steps.symbols, counts, next,
+                    [](Integer& sum, const Integer& term, std::uint32_t times) {
+                        if (times == 1) {
+                            sum += term;
+                        } else {
+                            sum += term * times;
+                        }
+                    });
+        }
+    }
+    return counts;
+}
+
+}  // namespace
+
+std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
+    return rough_forecast(grammar, Steps(grammar, interpreted));
+}
+
+std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
+    const Steps steps(grammar, interpreted);
+    Forecast result = rough_forecast(grammar, steps);
+    if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
+    return result;
+}
+
+namespace {
+
+/// With one table in every step, one pass from the last step upwards tells the cost of every derivation length.
+std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interpreted, double budget) {
+    const Steps steps(grammar, interpreted);
+    const std::size_t symbols = grammar.symbols().size();
+    std::vector<double> nodes(symbols, 1.0);  // 0: nothing comes of the symbol
+    std::vector<double> next = nodes;
+    const auto level = [&](const Sparse& table) {
+        for (const Symbol symbol : steps.symbols) {
+            if (!table.has[symbol]) {
+                next[symbol] = nodes[symbol];
+                continue;
+            }
+            double sum = 0;
+            for (std::uint32_t i = table.begin[symbol]; i < table.begin[symbol + 1]; ++i) {
+                sum += table.terms[i].times * nodes[table.terms[i].symbol];
+            }
+            next[symbol] = sum > 0 && table.length[symbol] != 1 ? sum + 1 : sum;
+        }
+        nodes.swap(next);
+    };
+    const auto fits = [&] {
+        double sum = 0;
+        for (const Symbol symbol : grammar.axiom()) sum += nodes[symbol];
+        return sum <= budget;
+    };
+    if (interpreted && grammar.interpretation()) level(steps.tables.back());
+    std::int64_t largest = fits() ? 0 : -1;
+    for (std::int64_t n = 1; n <= grammar.steps(); ++n) {
+        level(steps.tables.front());
+        if (!fits()) break;
+        largest = n;
+    }
+    return largest;
+}
+
+}  // namespace
+
+std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget) {
+    if (grammar.tables().size() == 1) return largest_affordable_of_one_table(grammar, interpreted, budget);
+    const auto fits = [&](std::int64_t steps) {
+        const auto shorter = grammar.with_steps(steps);
+        return shorter && rough_forecast(*shorter, Steps(*shorter, interpreted)).nodes <= budget;
+    };
+    // The schedule may be too short for some lengths below n, too: then a smaller one is not looked for.
+    std::int64_t low = -1;
+    std::int64_t high = 1;
+    if (fits(0)) low = 0;
+    while (high < grammar.steps() && fits(high)) {
+        low = high;
+        high *= 2;
+    }
+    high = std::min(high, grammar.steps());
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (fits(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+void require_affordable(const Grammar& grammar, bool interpreted, double budget) {
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return;
+    const Steps steps(grammar, interpreted);
+    Forecast found = rough_forecast(grammar, steps);
+    if (found.nodes <= budget) return;
+    // Where exact counts take seconds, the word's size has to do.
+    if (found.log10_length < most_digits && steps.work * (1 + found.log10_length / 100) < most_work) {
+        found.counts = exact_counts(grammar, steps);
+    }
+    std::string advice;
+    if (!grammar.is_begun()) {
+        const std::int64_t fits = largest_affordable(grammar, interpreted, budget);
+        advice = fits >= 0 ? fmt::format("; the largest derivation length that fits is {}", fits)
+                           : std::string("; no derivation length fits");
+    }
+    throw BudgetError(fmt::format("a word of {} symbols (n = {}) is above the budget of {:.0f} nodes{}",
+                                  found.length(), grammar.steps(), budget, advice));
+}
+
+namespace {
+
+[[noreturn]] void refuse_steps(const Grammar& grammar) {
+    std::string size;
+    if (const auto shorter = grammar.with_steps(most_steps)) {
+        if (const auto known = estimate(*shorter, false); known && known->log10_length > 15) {
+            size = fmt::format("; at {} the word has {} symbols already", most_steps, known->length());
+        }
+    }
+    throw BudgetError(
+        fmt::format("a derivation length of {} is too much: above {} only systems are derived whose words "
+                    "do not grow{}",
+                    grammar.steps(), most_steps, size));
+}
+
+}  // namespace
+
+Grammar shorten(const Grammar& grammar) {
+    if (grammar.steps() <= most_steps) return grammar;
+    if (!grammar.is_plain() || grammar.cut()) refuse_steps(grammar);
+    const std::vector<char> reached = grammar.reachable();
+    constexpr auto nothing = std::numeric_limits<Symbol>::max();
+    std::vector<std::vector<Symbol>> maps;  // of each table: what a symbol becomes
+    for (const Table& table : grammar.tables()) {
+        std::vector<Symbol> map(reached.size());
+        for (Symbol symbol = 0; symbol < map.size(); ++symbol) {
+            const Word* successor = table.context_free() ? table.successor(symbol) : nullptr;
+            if (!table.context_free() || (reached[symbol] && successor && successor->size() > 1)) {
+                refuse_steps(grammar);
+            }
+            map[symbol] = !successor ? symbol : successor->size() == 1 ? successor->front() : nothing;
+        }
+        maps.push_back(std::move(map));
+    }
+    const auto then = [&](const std::vector<Symbol>& first, const std::vector<Symbol>& second) {
+        std::vector<Symbol> both = first;
+        for (Symbol& symbol : both) {
+            if (symbol != nothing) symbol = second[symbol];
+        }
+        return both;
+    };
+    std::vector<Symbol> all(reached.size());
+    for (Symbol symbol = 0; symbol < all.size(); ++symbol) all[symbol] = symbol;
+    for (const ScheduleRun& run : grammar.schedule()) {
+        std::vector<Symbol> power = maps[run.table];
+        for (std::int64_t steps = run.steps; steps > 0; steps /= 2) {
+            if (steps % 2 == 1) all = then(all, power);
+            power = then(power, power);
+        }
+    }
+    return grammar.with_map(all);
+}
+
+}  // namespace sikku

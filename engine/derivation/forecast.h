@@ -1,0 +1,56 @@
+// engine/derivation/forecast.h: how long the word will be and what it will cost, before anything is derived.
+#pragma once
+
+#include "engine/derivation/derivation.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+using Integer = boost::multiprecision::cpp_int;
+
+/// Numbers with more decimal digits than this are told as "about 10^k".
+constexpr int most_digits = 10'000;
+/// Above this number of steps only chains of units (F --> F) are derived.
+constexpr std::int64_t most_steps = 1'000'000;
+
+struct Forecast {
+    /// Nodes of the derivation tree that are visited: symbols rewritten into other than one symbol, and symbols of
+    /// the word; subwords known to be empty are not visited. May be infinite.
+    double nodes = 0.0;
+    double log10_length = 0.0;  ///< of the word; -infinity if it is empty
+    /// Of each symbol in the word, to 15 digits: its number (infinity if a double does not hold it), and log10 of it.
+    std::vector<double> rough_counts;
+    std::vector<double> log10_counts;
+    /// Exact number of each symbol in the word, unless the word's length has over 10^4 digits.
+    std::optional<std::vector<Integer>> counts;
+
+    /// The word's length: exact, or "about 10^k".
+    std::string length() const;
+};
+
+/// Nullopt if productions look at neighbours (see resolve_contexts), if words are cut, or if parameters or chance are
+/// in play: then nothing short of deriving tells.
+/// @param interpreted  of the word after `interpret:`
+/// Cost: O(steps x size of the tables), times the size of the numbers; BudgetError if even the first is too much
+/// (5 x 10^7).
+std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
+
+/// The same without exact counts, at a cost that does not grow with the numbers.
+std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
+
+/// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.
+std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget);
+
+/// Throws BudgetError, with the length and the largest derivation length that fits, if the word costs more than
+/// `budget` nodes. What forecast() does not tell of passes: DerivationOptions limits it.
+void require_affordable(const Grammar& grammar, bool interpreted, double budget);
+
+/// A grammar that derives the same word in at most most_steps steps: itself, or, for a longer derivation in which
+/// every symbol is replaced by at most one, the composition of all its steps as a single one. Else BudgetError.
+Grammar shorten(const Grammar& grammar);
+
+}  // namespace sikku

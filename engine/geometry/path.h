@@ -1,0 +1,60 @@
+// engine/geometry/path.h: what a turtle hands on: strokes of lines or Béziers, polygons, discs.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <span>
+
+namespace sikku {
+
+/// How the line looks from here on. The colour is an index into the style's palette; it may be negative or
+/// past the palette's end, and is then taken modulo its size.
+struct Pen {
+    double width = 1.0;      ///< a factor of the style's stroke width, or, if `width_set`, a width in its unit
+    bool width_set = false;  ///< set by `#(w)` or `!(w)`
+    int colour = 0;          ///< stepped by `'` `;` `,`
+
+    bool operator==(const Pen&) const = default;
+};
+
+/// Receives a drawing, in drawing order, a block of points at a time. Pattern units (one turtle step is 1), y up,
+/// no page yet. Every span dies with the call. A stroke is begin_stroke, then any number of lines, curves and
+/// change_pen, then end_stroke; strokes never nest. Polygons and discs may arrive in the middle of a stroke.
+class PathSink {
+public:
+    virtual ~PathSink() = default;
+
+    /// The pen comes down at `start`. Followed by at least one line or curve before end_stroke.
+    virtual void begin_stroke(glm::dvec2 start, const Pen& pen) = 0;
+    /// Straight lines, each from where the last one ended to the next of `ends`.
+    virtual void lines(std::span<const glm::dvec2> ends) = 0;
+    /// Cubic Béziers, three control points each: the first starts where the line is, the last is where it ends.
+    virtual void curves(std::span<const glm::dvec2> controls) = 0;
+    /// The same stroke goes on from where it is with another pen.
+    virtual void change_pen(const Pen& pen) = 0;
+    /// The pen is lifted. `closed`: the stroke ended exactly where it began.
+    virtual void end_stroke(bool closed) = 0;
+
+    /// A filled polygon of at least three vertices, without the first repeated at the end; it may cross itself
+    /// (non-zero winding rule).
+    virtual void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) = 0;
+    /// A filled area bounded by Béziers: the point where its outline begins, then three control points for each
+    /// curve, at least one curve; a straight line closes it if the last curve ends elsewhere. It may cross itself
+    /// (non-zero winding rule). Unless overridden, a polygon within 1/1000 of the larger side of its bounding box.
+    virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
+    /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
+    virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
+};
+
+/// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
+/// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.
+class OutlineSink {
+public:
+    virtual ~OutlineSink() = default;
+    virtual void begin_outline(glm::dvec2 at) = 0;
+    /// A vertex reached without drawing.
+    virtual void outline_vertex(glm::dvec2 at) = 0;
+    /// `is_area`: it has at least three vertices.
+    virtual void end_outline(const Pen& pen, bool is_area) = 0;
+};
+
+}  // namespace sikku

@@ -1,0 +1,416 @@
+#include "engine/geometry/turtle.h"
+
+#include "engine/geometry/lattice.h"
+#include "engine/geometry/turtle_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t points_in_block = 1024;
+
+/// Positions in Z[zeta], headings modulo k.
+template <int Rank>
+class ExactWalker {
+public:
+    struct State {
+        std::array<std::int64_t, Rank> at{};
+        std::uint32_t heading = 0;
+        bool same_place(const State& other) const { return at == other.at; }
+    };
+
+    explicit ExactWalker(const Lattice& lattice) : lattice_(lattice) {
+        for (int i = 0; i < Rank; ++i) basis_[static_cast<std::size_t>(i)] = lattice.basis(i) * lattice.unit;
+        for (const auto& power : lattice.power) std::copy_n(power.begin(), Rank, powers_.emplace_back().begin());
+    }
+    void step(State& state, Symbol symbol) const {
+        const std::int64_t length = lattice_.length[symbol];
+        const auto& power = powers_[state.heading];
+        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += power[i] * length;
+    }
+    // Modules that state their steps or angles lie on no lattice.
+    void step_by(State&, double) const {}
+    void turn_by(State&, double) const {}
+    void turn(State& state, Symbol symbol) const {
+        state.heading += lattice_.turn[symbol];
+        if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
+    }
+    glm::dvec2 point(const State& state) const {
+        glm::dvec2 sum(0.0);
+        for (std::size_t i = 0; i < Rank; ++i) sum += static_cast<double>(state.at[i]) * basis_[i];
+        return sum;
+    }
+    double heading(const State& state) const {
+        return lattice_.first_heading + 360.0 * state.heading / lattice_.headings;
+    }
+    /// Far enough from the end of 64 bits for another run of symbols?
+    bool in_range(const State& state) const {
+        return std::all_of(state.at.begin(), state.at.end(), [](std::int64_t coordinate) {
+            return coordinate < (std::int64_t{1} << 62) && coordinate > -(std::int64_t{1} << 62);
+        });
+    }
+
+private:
+    const Lattice& lattice_;
+    std::array<glm::dvec2, Rank> basis_;
+    std::vector<std::array<std::int64_t, Rank>> powers_;  // of zeta, by heading
+};
+
+/// Positions in doubles; headings modulo k, or in degrees where no k serves.
+class PlaneWalker {
+public:
+    struct State {
+        glm::dvec2 at{0.0};
+        std::uint32_t heading = 0;
+        double degrees = 0.0;
+        bool same_place(const State& other) const {
+            const glm::dvec2 gap = at - other.at;
+            return std::hypot(gap.x, gap.y) <= 1e-9 * std::max(1.0, std::hypot(at.x, at.y));
+        }
+    };
+
+    PlaneWalker(const Lattice& lattice, const Grammar& grammar) : lattice_(lattice), grammar_(grammar) {}
+    void step(State& state, Symbol symbol) const { step_by(state, grammar_.symbols()[symbol].command.value); }
+    void step_by(State& state, double length) const {
+        const glm::dvec2 direction = lattice_.headings > 0 ? lattice_.direction[state.heading]
+                                                           : unit_vector(lattice_.first_heading + state.degrees);
+        state.at += length * direction;
+    }
+    void turn(State& state, Symbol symbol) const {
+        if (lattice_.headings > 0) {
+            state.heading += lattice_.turn[symbol];
+            if (state.heading >= lattice_.headings) state.heading -= lattice_.headings;
+        } else {
+            turn_by(state, grammar_.symbols()[symbol].command.angle.degrees);
+        }
+    }
+    void turn_by(State& state, double degrees) const { state.degrees = std::fmod(state.degrees + degrees, 360.0); }
+    glm::dvec2 point(const State& state) const { return state.at; }
+    double heading(const State& state) const {
+        return lattice_.first_heading +
+               (lattice_.headings > 0 ? 360.0 * state.heading / lattice_.headings : state.degrees);
+    }
+    bool in_range(const State& state) const { return std::isfinite(state.at.x) && std::isfinite(state.at.y); }
+
+private:
+    const Lattice& lattice_;
+    const Grammar& grammar_;
+};
+
+/// Where a turtle draws; each may be absent.
+struct Sinks {
+    PathSink* path = nullptr;
+    PlaceSink* places = nullptr;
+    OutlineSink* outlines = nullptr;
+};
+
+/// The turtle over one way of walking. `Surveying` looks, else it draws.
+template <class Walker, bool Surveying>
+class WalkingTurtle final : public Turtle {
+public:
+    WalkingTurtle(std::unique_ptr<Lattice> lattice, Walker walker, const Grammar& grammar, const Sinks& sinks,
+                  bool moves_draw)
+        : lattice_(std::move(lattice)),
+          walker_(std::move(walker)),
+          sink_(sinks.path),
+          places_(sinks.places),
+          outlines_(sinks.outlines),
+          moves_draw_(moves_draw) {
+        for (const SymbolInfo& symbol : grammar.symbols()) {
+            commands_.push_back({symbol.command.action, symbol.command.value,
+                                 std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees),
+                                 symbol.command.takes_argument, symbol.arity});
+        }
+        points_.reserve(points_in_block);
+    }
+
+    void symbols(const Run& run) override {
+        const std::uint64_t first = position_;
+        if (run.arguments.empty()) {
+            for (const Symbol symbol : run.symbols) obey<false>(symbol, commands_[symbol]);
+        } else {
+            const double* next = run.arguments.data();
+            for (const Symbol symbol : run.symbols) {
+                const Instruction& command = commands_[symbol];
+                if (command.takes_argument) {
+                    Instruction own = command;
+                    own.value *= *next;
+                    own.finite = std::isfinite(own.value);
+                    obey<true>(symbol, own);
+                } else {
+                    obey<false>(symbol, command);
+                }
+                next += command.arity;
+            }
+        }
+        if (!walker_.in_range(state_.place)) {
+            throw WordError(
+                fmt::format("between symbols {} and {} of the word the turtle leaves the range of its "
+                            "coordinates",
+                            first + 1, position_));
+        }
+    }
+
+    void finish() override {
+        stack_.finish();
+        polygons_.finish();
+        lift();
+        survey_.end = walker_.point(state_.place);
+        survey_.closed = State().place.same_place(state_.place);
+        survey_.heading = std::fmod(walker_.heading(state_.place), 360.0);
+        if (survey_.heading < 0) survey_.heading += 360.0;
+        if (survey_.heading >= 360.0) survey_.heading = 0;
+    }
+
+    Survey survey() const override { return survey_; }
+
+private:
+    using Place = typename Walker::State;
+    struct State {
+        Place place;
+        Pen pen;
+    };
+    struct Instruction {
+        Action action;
+        double value;
+        bool finite;
+        bool takes_argument;
+        std::uint32_t arity;
+    };
+
+    /// With `Own`, a module that states the command's value.
+    template <bool Own>
+    void obey(Symbol symbol, const Instruction& command) {
+        ++position_;
+        switch (command.action) {
+            case Action::pass:
+                break;
+            case Action::draw:
+                step<Own>(symbol, command, true);
+                break;
+            case Action::move:
+                step<Own>(symbol, command, false);
+                break;
+            case Action::turn:
+                require_finite(command);
+                if constexpr (Own) {
+                    walker_.turn_by(state_.place, command.value);
+                } else {
+                    walker_.turn(state_.place, symbol);
+                }
+                break;
+            default:
+                rare(command);
+        }
+    }
+
+    template <bool Own>
+    void walk(Symbol symbol, const Instruction& command) {
+        if constexpr (Own) {
+            walker_.step_by(state_.place, command.value);
+        } else {
+            walker_.step(state_.place, symbol);
+        }
+    }
+
+    void require_finite(const Instruction& command) const {
+        if (!command.finite) throw_at(position_, "its parameter is not finite");
+    }
+
+    template <bool Own>
+    void step(Symbol symbol, const Instruction& command, bool drawn) {
+        require_finite(command);
+        if constexpr (Surveying) {
+            if (drawn) note_ink(walker_.point(state_.place));
+            walk<Own>(symbol, command);
+            const glm::dvec2 point = walker_.point(state_.place);
+            widen(survey_.box, point);
+            ++survey_.moves;
+            if (drawn) {
+                ++survey_.drawn;
+                survey_.length += std::fabs(command.value);
+                widen(*survey_.ink, point);
+            }
+        } else {
+            if (drawn || moves_draw_) {
+                lower();
+                walk<Own>(symbol, command);
+                points_.push_back(walker_.point(state_.place));
+                if (places_) note_place();
+                if (points_.size() == points_in_block) flush();
+            } else {
+                lift();
+                walk<Own>(symbol, command);
+                if (outlines_ && !polygons_.empty()) outlines_->outline_vertex(walker_.point(state_.place));
+            }
+            if (!polygons_.empty()) {
+                polygons_.add(state_.place, [this](const Place& place) { return walker_.point(place); });
+            }
+        }
+    }
+
+    static void widen(Bounds& bounds, glm::dvec2 point) {
+        bounds.low = {std::min(bounds.low.x, point.x), std::min(bounds.low.y, point.y)};
+        bounds.high = {std::max(bounds.high.x, point.x), std::max(bounds.high.y, point.y)};
+    }
+    void note_ink(glm::dvec2 point) {
+        if (!survey_.ink) survey_.ink = Bounds{point, point};
+        widen(*survey_.ink, point);
+    }
+
+    void rare(const Instruction& command) {
+        switch (command.action) {
+            case Action::push:
+                if (moves_draw_) lift();
+                stack_.push(state_, position_);
+                survey_.depth = std::max(survey_.depth, stack_.depth());
+                break;
+            case Action::pop: {
+                State popped = stack_.pop(position_);
+                lift();
+                state_ = popped;
+                break;
+            }
+            case Action::polygon_begin:
+                polygons_.begin(state_.place, position_);
+                if (outlines_) {
+                    flush();
+                    outlines_->begin_outline(walker_.point(state_.place));
+                }
+                break;
+            case Action::polygon_end:
+                end_polygon();
+                break;
+            case Action::width_factor:
+            case Action::width_set:
+            case Action::colour_step:
+            case Action::colour_set:
+                require_finite(command);
+                change_pen(state_.pen, command.action, command.value);
+                break;
+            case Action::disc:
+                require_finite(command);
+                if (sink_) {
+                    flush();
+                    sink_->disc(walker_.point(state_.place), std::fabs(command.value), state_.pen);
+                }
+                break;
+            default:
+                break;
+        }
+    }
+
+    void end_polygon() {
+        const std::vector<glm::dvec2> vertices = polygons_.end(position_);
+        if (outlines_) {
+            flush();
+            outlines_->end_outline(state_.pen, vertices.size() >= 3);
+        } else if (sink_ && vertices.size() >= 3) {
+            flush();
+            sink_->polygon(vertices, state_.pen);
+        }
+    }
+
+    /// Before a segment is drawn: the pen is down, and it is the right one.
+    void lower() {
+        if (!down_) {
+            down_ = true;
+            pen_ = state_.pen;
+            start_ = state_.place;
+            if (places_) {
+                note_place();
+                places_->places(coordinates_);
+            }
+            sink_->begin_stroke(walker_.point(state_.place), pen_);
+            coordinates_.clear();
+        } else if (pen_ != state_.pen) {
+            flush();
+            pen_ = state_.pen;
+            sink_->change_pen(pen_);
+        }
+    }
+
+    void lift() {
+        if (!down_) return;
+        flush();
+        sink_->end_stroke(start_.same_place(state_.place));
+        down_ = false;
+    }
+
+    void flush() {
+        if (points_.empty()) return;
+        if (places_) places_->places(coordinates_);
+        sink_->lines(points_);
+        points_.clear();
+        coordinates_.clear();
+    }
+
+    void note_place() {
+        if constexpr (requires { state_.place.at.begin(); }) {
+            coordinates_.insert(coordinates_.end(), state_.place.at.begin(), state_.place.at.end());
+        }
+    }
+
+    std::unique_ptr<Lattice> lattice_;
+    Walker walker_;
+    PathSink* sink_;
+    PlaceSink* places_;
+    OutlineSink* outlines_;
+    bool moves_draw_;
+    std::vector<Instruction> commands_;
+    State state_;
+    BracketStack<State> stack_;
+    PolygonStack<Place, glm::dvec2> polygons_;
+    std::uint64_t position_ = 0;
+    bool down_ = false;
+    Pen pen_;
+    Place start_;
+    std::vector<glm::dvec2> points_;
+    std::vector<std::int64_t> coordinates_;  // of points_
+    Survey survey_;
+};
+
+template <bool Surveying>
+std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, const Sinks& sinks, bool moves_draw) {
+    auto lattice = std::make_unique<Lattice>(make_lattice(grammar));
+    const Lattice& fixed = *lattice;
+    const auto make = [&]<class Walker>(Walker walker) -> std::unique_ptr<Turtle> {
+        return std::make_unique<WalkingTurtle<Walker, Surveying>>(std::move(lattice), std::move(walker), grammar,
+                                                                  sinks, moves_draw);
+    };
+    switch (fixed.rank) {
+        case 2:
+            return make(ExactWalker<2>(fixed));
+        case 4:
+            return make(ExactWalker<4>(fixed));
+        case 6:
+            return make(ExactWalker<6>(fixed));
+        case 8:
+            return make(ExactWalker<8>(fixed));
+        default:
+            return make(PlaneWalker(fixed, grammar));
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Turtle> Turtle::drawing(const Grammar& grammar, PathSink& sink, bool moves_draw) {
+    return make_turtle<false>(grammar, {.path = &sink}, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::outlining(const Grammar& grammar, PathSink& sink, OutlineSink& outlines,
+                                          bool moves_draw) {
+    return make_turtle<false>(grammar, {.path = &sink, .outlines = &outlines}, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places, bool moves_draw) {
+    return make_turtle<false>(grammar, {.path = &sink, .places = &places}, moves_draw);
+}
+std::unique_ptr<Turtle> Turtle::surveying(const Grammar& grammar) {
+    return make_turtle<true>(grammar, {}, false);
+}
+
+}  // namespace sikku

@@ -1,0 +1,64 @@
+// engine/geometry/turtle.h: from the symbols of a word to strokes, polygons and discs in the plane.
+#pragma once
+
+#include "engine/derivation/derivation.h"
+#include "engine/geometry/path.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace sikku {
+
+/// An axis-parallel box, in turtle steps.
+struct Bounds {
+    glm::dvec2 low{0.0};
+    glm::dvec2 high{0.0};
+};
+
+/// What a walk through a word tells of it; the turtle starts at 0 0, one step is 1.
+struct Survey {
+    std::uint64_t drawn = 0;    ///< segments drawn
+    std::uint64_t moves = 0;    ///< steps, drawn or not
+    double length = 0.0;        ///< drawn, in steps
+    Bounds box;                 ///< of all positions, the start included
+    std::optional<Bounds> ink;  ///< of the segments drawn
+    glm::dvec2 end{0.0};
+    double heading = 0.0;    ///< degrees in [0, 360)
+    bool closed = false;     ///< ended where it began
+    std::int64_t depth = 0;  ///< deepest nesting of brackets
+};
+
+/// Receives where a turtle draws, in whole coordinates of its grammar's lattice.
+class PlaceSink {
+public:
+    virtual ~PlaceSink() = default;
+    /// Lattice::rank coordinates for each point that the PathSink is told next, by begin_stroke or by lines; empty
+    /// if that is 0. The span lives until the PathSink was told.
+    virtual void places(std::span<const std::int64_t> coordinates) = 0;
+};
+
+/// A turtle in the plane. Symbols of the third dimension are passed over.
+/// Unbalanced brackets or braces in the word, steps that are not finite, and nesting over 2^20 are a WordError that
+/// names the symbol's position.
+/// Source: Prusinkiewicz & Hanan 1989, sections 2.1 and 3.1.
+class Turtle : public SymbolSink {
+public:
+    /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a
+    /// control point of a spline. Then brackets lift the pen, and only they.
+    static std::unique_ptr<Turtle> drawing(const Grammar& grammar, PathSink& sink, bool moves_draw);
+    /// As above, but polygons go to `outlines`.
+    static std::unique_ptr<Turtle> outlining(const Grammar& grammar, PathSink& sink, OutlineSink& outlines,
+                                             bool moves_draw);
+    /// The same, and tells `places` each point in exact coordinates, too.
+    static std::unique_ptr<Turtle> tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places,
+                                           bool moves_draw);
+    /// Draws nothing and looks at everything.
+    static std::unique_ptr<Turtle> surveying(const Grammar& grammar);
+
+    /// After finish(), of a surveying turtle.
+    virtual Survey survey() const = 0;
+};
+
+}  // namespace sikku

@@ -1,0 +1,146 @@
+#include "engine/import/import.h"
+
+#include "engine/base/text.h"
+#include "engine/language/grammar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_losses = 200;  // kept of one system
+constexpr std::size_t most_told = 12;     // in its description
+
+bool is_blank(char byte) {
+    return byte == ' ' || byte == '\t' || byte == '\r';
+}
+
+}  // namespace
+
+std::optional<ImportFormat> import_format(std::string_view text) {
+    bool has_entry = false;
+    bool in_comment = false;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+        // A cpfg file may begin with long comments and defines, which Fractint's entries look like in places.
+        if (!in_comment && lower_case(line.substr(0, 8)) == "lsystem:") return ImportFormat::cpfg;
+        if (!in_comment && !line.empty() && line.front() != ';' && line.front() != '#') {
+            const std::size_t brace = line.find('{');
+            has_entry = has_entry || (brace != std::string_view::npos && brace < line.find(';'));
+        }
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            if (!in_comment && line.substr(i, 2) == "/*") in_comment = true;
+            if (in_comment && line.substr(i, 2) == "*/") in_comment = false;
+        }
+        at = end + 1;
+    }
+    return has_entry ? std::optional(ImportFormat::fractint) : std::nullopt;
+}
+
+std::string import_file_name(std::string_view name) {
+    std::string result;
+    for (const char byte : lower_case(name.substr(0, 200))) {
+        const bool kept = (byte >= 'a' && byte <= 'z') || (byte >= '0' && byte <= '9');
+        if (kept) {
+            result += byte;
+        } else if (!result.empty() && result.back() != '-') {
+            result += '-';
+        }
+    }
+    while (result.ends_with('-')) result.pop_back();
+    return result.empty() ? "system" : result.substr(0, 80);
+}
+
+void ImportLosses::keep(std::string text) {
+    if (list_.size() < most_losses) {
+        list_.push_back(std::move(text));
+    } else {
+        ++more_;
+    }
+}
+
+void ImportLosses::add(std::size_t at, const std::string& what) {
+    keep(fmt::format("line {}: {}", line(at), what));
+    diagnostics_.warning({file_, at, 1}, what);
+}
+
+void ImportLosses::add(const SourcePointer& file, std::size_t at, const std::string& what) {
+    const int where = file->place(at).line;
+    keep(fmt::format("{}, line {}: {}", import_base_name(file->name()), where, what));
+    diagnostics_.warning({file, at, 1}, what);
+}
+
+int ImportLosses::line(std::size_t at) {
+    const std::string& text = file_->text();
+    at = std::min(at, text.size());
+    const auto begin = text.begin();
+    const auto newlines = [&](std::size_t from, std::size_t to) {
+        return static_cast<int>(
+            std::count(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(to), '\n'));
+    };
+    last_line_ += at >= last_at_ ? newlines(last_at_, at) : -newlines(at, last_at_);
+    last_at_ = at;
+    return last_line_;
+}
+
+std::vector<std::string> ImportLosses::take() {
+    if (more_ > 0) list_.push_back(fmt::format("and {} more", more_));
+    more_ = 0;
+    return std::exchange(list_, {});
+}
+
+std::string import_base_name(std::string_view path) {
+    return std::string(path.substr(path.rfind('/') + 1));
+}
+
+std::string import_text(std::string_view text, std::size_t most) {
+    std::string line = printable(text, most);
+    std::string result;
+    for (const char byte : line) {
+        const char plain = byte == '\n' || byte == '\t' || byte == '\r' ? ' ' : byte;
+        if (plain == ' ' && (result.empty() || result.back() == ' ')) continue;
+        if (plain == '*' && result.ends_with('/')) result += ' ';
+        result += plain;
+    }
+    while (result.ends_with('\\') || result.ends_with(' ')) result.pop_back();
+    return result;
+}
+
+std::string import_head(std::string_view title, std::string_view source, std::string_view description,
+                        const std::vector<std::string>& losses) {
+    std::string head = fmt::format("title: {}\nsource: {}\ndescription: {}", import_text(title, 120),
+                                   import_text(source), import_text(description));
+    if (!losses.empty()) {
+        head += " Not carried over: ";
+        const std::size_t told = std::min(losses.size(), most_told);
+        for (std::size_t i = 0; i < told; ++i) head += (i > 0 ? "; " : "") + import_text(losses[i], 200);
+        if (told < losses.size()) head += fmt::format("; and {} more", losses.size() - told);
+        head += '.';
+    }
+    return head + '\n';
+}
+
+bool import_compiles(const std::string& name, const std::string& pattern, const Span& where,
+                     Diagnostics& diagnostics) {
+    Diagnostics own;
+    if (pattern.size() > most_pattern_bytes) {
+        diagnostics.error(where, "the pattern of this system is longer than 64 MB");
+        return false;
+    }
+    const Pattern parsed = parse_pattern(name, pattern, own);
+    if (!own.is_unreadable()) compile_grammar(parsed, own);
+    if (!own.has_errors()) return true;
+    for (const Diagnostic& diagnostic : own.list()) {
+        if (diagnostic.warning) continue;
+        diagnostics.error(where, fmt::format("this system makes no pattern: {}", diagnostic.message));
+        break;
+    }
+    return false;
+}
+
+}  // namespace sikku

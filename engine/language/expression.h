@@ -1,0 +1,125 @@
+// engine/language/expression.h: arithmetic of pattern files, compiled once and evaluated often.
+#pragma once
+
+#include "engine/base/chance.h"
+#include "engine/base/diagnostic.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// What a name in an expression stands for: a constant, or the value of a formal parameter.
+struct NameMeaning {
+    bool is_formal = false;
+    double value = 0.0;      ///< of a constant
+    std::uint32_t slot = 0;  ///< of a formal: index into the values given to evaluate()
+};
+/// Looks a name up; nullopt for one that means nothing here.
+using NameLookup = std::function<std::optional<NameMeaning>(std::string_view name)>;
+
+/// `+ - * / ^`, comparisons, `&& ||`, functions of the pattern language, in reverse Polish order, what is constant
+/// computed beforehand. Division by zero and domain errors give what IEEE arithmetic gives.
+class Expression {
+public:
+    /// Compiles the whole of `text`. Nullopt after a mistake, which goes to `diagnostics`. No recursion: nesting is
+    /// limited by memory only. Cost: linear.
+    /// @param draws  counts the calls of `random`, each of which draws by its number; null where chance has no place
+    static std::optional<Expression> compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics,
+                                             std::uint32_t* draws = nullptr);
+
+    /// @param formals  a value for each slot that the names gave
+    double evaluate(std::span<const double> formals = {}, const Chance& chance = {}) const {
+        switch (shape_) {
+            case Shape::number:
+                return number_;
+            case Shape::formal:
+                return formals[slot_];
+            case Shape::product:
+                return formals[slot_] * number_;
+            case Shape::sum:
+                return formals[slot_] + number_;
+            case Shape::at_least:
+                return formals[slot_] >= number_ ? 1.0 : 0.0;
+            default:
+                return evaluate_steps(formals, chance);
+        }
+    }
+
+    /// The value, if it is always the same.
+    std::optional<double> constant() const { return shape_ == Shape::number ? std::optional(number_) : std::nullopt; }
+    bool uses_chance() const { return uses_chance_; }
+
+private:
+    enum class Operation : std::uint8_t {
+        number,
+        formal,
+        open,
+        // of one operand
+        negate,
+        complement,
+        sine,
+        cosine,
+        tangent,
+        arcsine,
+        arccosine,
+        arctangent,
+        exponential,
+        logarithm,
+        logarithm10,
+        square_root,
+        absolute,
+        floor,
+        ceiling,
+        round,
+        // of two
+        power,
+        multiply,
+        divide,
+        add,
+        subtract,
+        less,
+        less_equal,
+        greater,
+        greater_equal,
+        equal,
+        not_equal,
+        conjunction,
+        disjunction,
+        arctangent2,
+        minimum,
+        maximum,
+        modulo,
+        random  ///< its slot is the number of the draw
+    };
+    struct Step {
+        Operation operation;
+        std::uint32_t slot = 0;
+        double value = 0.0;
+    };
+    /// Of most expressions: what is evaluated at once. The others are `steps`.
+    enum class Shape : std::uint8_t { number, formal, product, sum, at_least, steps };
+    friend class ExpressionCompiler;
+
+    static double apply(Operation operation, double a, double b);
+    double evaluate_steps(std::span<const double> formals, const Chance& chance) const;
+    void find_shape();
+
+    Shape shape_ = Shape::number;
+    bool uses_chance_ = false;
+    std::uint32_t slot_ = 0;  // of all shapes but `steps`: a formal, or a number, or both
+    double number_ = 0.0;
+    std::vector<Step> steps_;  // of the others; empty if the shape says it all
+    std::size_t stack_ = 0;    // most values at a time
+};
+
+/// True for a byte that may begin a name of an expression: a letter, `_`, or any byte of a code point beyond ASCII.
+bool begins_name(char byte);
+/// True for a byte that may go on in a name.
+bool continues_name(char byte);
+
+}  // namespace sikku

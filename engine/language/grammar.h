@@ -1,0 +1,250 @@
+// engine/language/grammar.h: a checked L-system, ready to be derived: symbols as numbers, productions in tables, a
+// schedule.
+#pragma once
+
+#include "engine/language/expression.h"
+#include "engine/language/pattern.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)`
+/// and `F(2.5)` are three symbols; or, where a production names or computes the parameters, the type of a module:
+/// a letter with their number, the values standing beside the symbols of a word.
+using Symbol = std::uint32_t;
+using Word = std::vector<Symbol>;
+
+/// A word with what is a module's own.
+struct ModuleWord {
+    Word symbols;
+    std::vector<double> arguments;      ///< SymbolInfo::arity values for each symbol, in order
+    std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol, or none: that of an axiom
+};
+
+/// A rational number of whole turns (360 degrees), in lowest terms, denominator > 0.
+struct TurnFraction {
+    std::int64_t numerator = 0;
+    std::int64_t denominator = 1;
+};
+
+/// An angle: exact where the file states one that fits, and always in degrees between -360 and 360, anticlockwise.
+struct Angle {
+    double degrees = 0.0;
+    std::optional<TurnFraction> exact;
+};
+
+/// What a turtle does on a symbol.
+enum class Action : std::uint8_t {
+    pass,   ///< nothing
+    draw,   ///< one step of length `value`, drawing
+    move,   ///< one step of length `value`
+    turn,   ///< by `angle`, to the left where that is positive
+    pitch,  ///< by `angle`, down
+    roll,   ///< by `angle`, to the left
+    level,  ///< roll until the turtle's left is level
+    push,
+    pop,
+    polygon_begin,
+    polygon_end,
+    width_factor,  ///< multiply the line's width by `value`
+    width_set,     ///< set it to `value`
+    colour_step,   ///< next or previous colour: add `value`
+    colour_set,
+    disc,  ///< radius `value`; 0 is a dot
+};
+struct Command {
+    Action action = Action::pass;
+    double value = 0.0;
+    Angle angle;
+    /// The module's first argument times `value` is the value; of a turn, pitch or roll, degrees.
+    bool takes_argument = false;
+};
+
+/// A symbol as the file writes it.
+struct SymbolInfo {
+    std::string letter;              ///< without parameters: one code point, `@` and one, or a listed name
+    std::vector<double> arguments;   ///< constant parameters
+    bool is_name = false;            ///< listed under `symbols:`
+    std::uint32_t letter_index = 0;  ///< the same for `F` and `F(2)`; into Grammar::letters()
+    Command command;
+    std::uint32_t arity = 0;  ///< number of parameters that each module states for itself
+};
+
+/// left < predecessor > right : condition --> successor : weight
+/// Expressions take the arguments of left, predecessor and right, in this order, as formal parameters.
+struct Production {
+    Word left;
+    Word predecessor;
+    Word right;  ///< with brackets that balance, if it looks into branches
+    Word successor;
+    std::optional<Expression> condition{};  ///< none: always
+    std::optional<Expression> weight{};     ///< none: not chosen by chance
+    std::vector<Expression> arguments{};    ///< of the successor's symbols with arity, in order
+    std::uint32_t group = 0;                ///< the same in a table for equal predecessor and contexts
+    bool has_context() const { return !left.empty() || !right.empty(); }
+};
+
+/// The productions that one derivation step chooses from.
+class Table {
+public:
+    /// True if every production replaces one symbol whatever its neighbours are.
+    bool context_free() const { return context_free_; }
+    /// Context-free tables of plain grammars: the successor of a symbol, or null if it stays as it is.
+    const Word* successor(Symbol symbol) const {
+        const std::int32_t index = symbol < first_.size() ? first_[symbol] : -1;
+        return index < 0 ? nullptr : &productions_[static_cast<std::size_t>(index)].successor;
+    }
+    /// Other tables: the productions whose predecessor begins with `symbol`, in the order in which they are tried.
+    std::span<const std::uint32_t> candidates(Symbol symbol) const {
+        if (std::size_t{symbol} + 1 >= candidate_begin_.size()) return {};
+        return std::span(candidate_list_)
+            .subspan(candidate_begin_[symbol], candidate_begin_[symbol + 1] - candidate_begin_[symbol]);
+    }
+    const Production& production(std::uint32_t index) const { return productions_[index]; }
+    const std::vector<Production>& productions() const { return productions_; }
+    /// Do conditions depend on chance, so that a module that stays in one step may not in the next?
+    bool has_random_conditions() const { return has_random_conditions_; }
+
+private:
+    friend class GrammarCompiler;
+    friend class Grammar;
+    std::vector<Production> productions_;
+    bool context_free_ = true;
+    bool has_random_conditions_ = false;
+    std::vector<std::int32_t> first_;            // by symbol, index of the production or -1
+    std::vector<std::uint32_t> candidate_list_;  // grouped by first symbol
+    std::vector<std::uint32_t> candidate_begin_;
+};
+
+/// A stretch of equal steps of the schedule.
+struct ScheduleRun {
+    std::uint32_t table = 0;
+    std::int64_t steps = 0;
+};
+
+/// Bends branches: after each segment that is drawn the turtle turns about heading x force, by `elasticity` times
+/// the size of segment x force, radians.
+/// Source: Prusinkiewicz & Hanan 1989, section 3.1.
+struct Tropism {
+    glm::dvec3 force{0.0};
+    double elasticity = 0.0;
+};
+
+/// Immutable once compiled. Everything an interpreter needs beside its own keys.
+class Grammar {
+public:
+    const std::vector<SymbolInfo>& symbols() const { return symbols_; }
+    const std::vector<std::string>& letters() const { return letters_; }
+    const Word& axiom() const { return axiom_->symbols; }
+    const ModuleWord& axiom_modules() const { return *axiom_; }
+    const std::vector<Table>& tables() const { return tables_; }
+    /// The homomorphism, or null.
+    const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
+    /// Derivation length n, as the file, the variant or the caller set it.
+    std::int64_t steps() const { return steps_; }
+    /// Which table applies in which step, from the first to the last; steps sum to steps(), unless after() has taken
+    /// the first of them away.
+    const std::vector<ScheduleRun>& schedule() const { return schedule_; }
+    /// Steps that after() has taken away.
+    std::int64_t steps_done() const;
+
+    /// Some modules state their parameters for themselves.
+    bool is_parametric() const { return is_parametric_; }
+    /// Some successors, conditions or parameters are a matter of chance.
+    bool is_stochastic() const { return is_stochastic_; }
+    /// Neither: what a symbol becomes depends on nothing but the table, and on its neighbours in tables that are not
+    /// context-free. Only such systems are forecast and folded.
+    bool is_plain() const { return !is_parametric_ && !is_stochastic_; }
+    /// Where chance starts.
+    std::uint64_t seed() const { return seed_; }
+    /// The symbol `%`, if words hold it: a step begins by removing it and what follows in its branch.
+    std::optional<Symbol> cut() const { return cut_; }
+
+    const Angle& heading() const { return heading_; }
+    const std::optional<Tropism>& tropism() const { return tropism_; }
+    /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
+    bool is_spatial() const { return is_spatial_; }
+    double scale_percent() const { return scale_percent_; }
+    /// Does context matching see that symbol?
+    bool ignored(Symbol symbol) const { return ignored_[symbol] != 0; }
+    /// Names of several characters, sorted.
+    const std::vector<std::string>& names() const { return names_; }
+    bool is_push(Symbol symbol) const { return symbols_[symbol].command.action == Action::push; }
+    bool is_pop(Symbol symbol) const { return symbols_[symbol].command.action == Action::pop; }
+
+    /// For each symbol: can the axiom lead to it, `interpret:` included? (1 or 0)
+    std::vector<char> reachable() const;
+
+    /// The same system with another derivation length; nullopt if its schedule is too short for it.
+    std::optional<Grammar> with_steps(std::int64_t steps) const;
+
+    /// What is left to do once `word` has been derived by the first `steps` steps. It keeps steps(), and has no
+    /// with_steps().
+    Grammar after(std::int64_t steps, std::shared_ptr<const ModuleWord> word) &&;
+    bool is_begun() const { return begun_; }
+    /// True if the file says which table applies when; else one table applies in every step.
+    bool has_schedule() const { return schedule_items_ != nullptr; }
+
+    /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
+    Grammar with_map(const std::vector<Symbol>& map) const;
+
+    /// A plain system with nothing left to derive or to interpret, whose word is `word`: modules that state their
+    /// parameters become symbols of their own. Nullopt if there are more than 524,288 of them.
+    std::optional<Grammar> written_out(const ModuleWord& word) const;
+
+    /// The number of steps from the beginning up to and including the last that needs whole words (contexts,
+    /// predecessors of several symbols, cuts); 0 if the system is context-free throughout.
+    std::int64_t whole_word_steps() const;
+
+private:
+    friend class GrammarCompiler;
+    struct ScheduleItem;
+    bool make_schedule(std::string* problem);
+
+    std::vector<SymbolInfo> symbols_;
+    std::vector<std::string> letters_;
+    // Shared by copies: it may be large.
+    std::shared_ptr<const ModuleWord> axiom_ = std::make_shared<const ModuleWord>();
+    std::vector<Table> tables_;
+    std::optional<Table> interpretation_;
+    std::int64_t steps_ = 0;
+    bool begun_ = false;
+    bool is_parametric_ = false;
+    bool is_stochastic_ = false;
+    std::uint64_t seed_ = 0;
+    std::optional<Symbol> cut_;
+    std::vector<ScheduleRun> schedule_;
+    std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
+    Angle heading_;
+    std::optional<Tropism> tropism_;
+    bool is_spatial_ = false;
+    double scale_percent_ = 100.0;
+    std::vector<char> ignored_;
+    std::vector<std::string> names_;
+};
+
+/// Compiles and checks what a pattern states. All mistakes go to `diagnostics`; the grammar returned is of use only
+/// if there were none. Cost: linear in the file.
+Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics);
+
+/// The symbols of `word` as `sikku derive` prints them.
+std::string to_text(const Grammar& grammar, std::span<const Symbol> word);
+std::string to_text(const Grammar& grammar, const ModuleWord& word);
+
+/// True if a blank is needed between two symbols, so that the text reads back as the same two.
+bool needs_blank(const Grammar& grammar, Symbol before, Symbol after);
+
+/// One symbol as it is printed, parameters in the shortest digits that read back the same.
+/// @param arguments  those of the module, if its symbol has none of its own
+std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments = {});
+/// The same at the end of `text`.
+void append_symbol(const SymbolInfo& symbol, std::span<const double> arguments, std::string& text);
+
+}  // namespace sikku

@@ -1,0 +1,454 @@
+#include "engine/language/pattern.h"
+
+#include "engine/base/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <unordered_map>
+
+namespace sikku {
+namespace {
+
+constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
+
+constexpr std::size_t most_nesting = std::size_t{1} << 20;
+// Of a pattern file, counted while it is read, so that no small file takes much memory.
+constexpr std::size_t most_keys = 1024;  // together with those that settings add
+constexpr std::size_t most_defines = std::size_t{1} << 18;
+constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables together
+constexpr std::size_t most_tables = std::size_t{1} << 16;
+constexpr std::size_t most_variants = std::size_t{1} << 16;
+constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
+
+std::string folded(std::string_view name) {
+    std::string result;
+    for (const char byte : name) {
+        if (byte == ' ' || byte == '\t') {
+            if (!result.empty() && result.back() != ' ') result += ' ';
+        } else {
+            result += byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte - 'A' + 'a') : byte;
+        }
+    }
+    while (result.ends_with(' ')) result.pop_back();
+    return result;
+}
+
+/// The first byte that is NUL or no valid UTF-8, or npos.
+std::size_t first_bad_byte(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = text[i] == 0 ? 0 : utf8_length(text.substr(i));
+        if (length == 0) return i;
+        i += length;
+    }
+    return std::string_view::npos;
+}
+
+/// Finds `wanted` outside parentheses at or after `from`, or npos.
+std::size_t find_outside(std::string_view text, std::string_view wanted, std::size_t from = 0) {
+    int depth = 0;
+    for (std::size_t i = from; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        if (text[i] == ')' && depth > 0) --depth;
+        if (depth == 0 && text.compare(i, wanted.size(), wanted) == 0) return i;
+    }
+    return std::string_view::npos;
+}
+
+std::size_t rfind_outside(std::string_view text, char wanted) {
+    int depth = 0;
+    std::size_t found = std::string_view::npos;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        if (text[i] == ')' && depth > 0) --depth;
+        if (depth == 0 && text[i] == wanted) found = i;
+    }
+    return found;
+}
+
+class Parser {
+public:
+    Parser(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+
+    void run() {
+        const std::string_view text = pattern_.source->cleaned();
+        for (std::size_t at = 0; at < text.size() && !diagnostics_.is_unreadable();) {
+            std::size_t end = text.find('\n', at);
+            if (end == std::string_view::npos) end = text.size();
+            line(Span{pattern_.source, at, end - at}.trimmed());
+            at = end + 1;
+        }
+    }
+
+private:
+    enum class Section { common, table, interpret };
+
+    void line(const Span& whole) {
+        if (whole.empty()) return;
+        const std::string_view text = whole.view();
+        const std::size_t colon = text.find(':');
+        const std::string key = colon == std::string_view::npos ? "" : folded(text.substr(0, colon));
+        if (key == "title" || key == "source" || key == "description") return add_key(whole, key, colon);
+        if (!nesting_is_sane(whole)) return;
+        warn_of_late_comment(whole);
+        if (const std::size_t arrow = find_outside(text, "-->"); arrow != std::string_view::npos) {
+            return production(whole, arrow);
+        }
+        if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
+        if (colon == std::string_view::npos) {
+            const std::size_t wrong_arrow = text.find("\xE2\x86\x92");  // →
+            return diagnostics_.error(
+                wrong_arrow != std::string_view::npos ? whole.part(wrong_arrow) : whole,
+                wrong_arrow != std::string_view::npos
+                    ? "'→' is no arrow here: write '-->'"
+                    : "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a production with '-->'");
+        }
+        if (key == "interpret") return interpret(whole, colon);
+        if (starts_with_word(key, "table")) return table(whole, colon);
+        if (starts_with_word(key, "variant")) return variant(whole, colon);
+        if (key.empty()) return diagnostics_.error(whole, "expected the name of a key before ':'");
+        add_key(whole, key, colon);
+    }
+
+    static bool starts_with_word(std::string_view text, std::string_view word) {
+        if (text.size() <= word.size()) return text == word;
+        return folded(text.substr(0, word.size())) == word && (text[word.size()] == ' ' || text[word.size()] == '\t');
+    }
+
+    /// Is there room for one more? If not, the rest of the file is not read.
+    bool has_room(const Span& where, std::size_t count, std::size_t most, std::string_view what) {
+        if (count < most) return true;
+        diagnostics_.unreadable(where, fmt::format("too many {}: a pattern has at most {}", what, most));
+        return false;
+    }
+
+    bool nesting_is_sane(const Span& whole) {
+        std::size_t depth = 0;
+        const std::string_view text = whole.view();
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] == '(' && ++depth > most_nesting) {
+                diagnostics_.unreadable(whole.part(i), "parentheses nest deeper than 1,048,576");
+                return false;
+            }
+            if (text[i] == ')' && depth > 0) --depth;
+        }
+        return true;
+    }
+
+    /// ` // ` before letters in a word is two rolls, but was perhaps meant as a comment.
+    void warn_of_late_comment(const Span& whole) {
+        const std::string_view text = whole.view();
+        for (std::size_t i = text.find(" // "); i != std::string_view::npos; i = text.find(" // ", i + 1)) {
+            const std::size_t next = text.find_first_not_of(" \t", i + 4);
+            if (next == std::string_view::npos) continue;
+            const char letter = text[next];
+            if ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z')) {
+                diagnostics_.warning(whole.part(i + 1),
+                                     "'//' is a comment only at the beginning of a line; here it is two rolls");
+                return;
+            }
+        }
+    }
+
+    void add_key(const Span& whole, const std::string& name, std::size_t colon) {
+        const Key key{name, whole.part(0, colon).trimmed(), whole.part(colon + 1).trimmed()};
+        if (!has_room(key.name_at, pattern_.keys.size(), most_keys, "keys")) return;
+        if (!key_names_.insert(name).second) {
+            return diagnostics_.error(key.name_at, fmt::format("'{}:' is given twice", name));
+        }
+        pattern_.keys.push_back(key);
+    }
+
+    void define(const Span& whole) {
+        const bool hashed = whole.view().starts_with('#');
+        const Span rest = whole.part(hashed ? 7 : 6).trimmed();
+        const std::string_view text = rest.view();
+        std::size_t end = 0;
+        while (end < text.size() && text[end] != ' ' && text[end] != '\t' && text[end] != '=') ++end;
+        const Span name = rest.part(0, end);
+        Span value = rest.part(end).trimmed();
+        if (!value.view().starts_with('=')) {
+            if (!hashed) return diagnostics_.error(value.empty() ? rest : value, "expected '=' after the name");
+        } else {
+            value = value.part(1).trimmed();
+        }
+        if (name.empty()) return diagnostics_.error(whole, "expected a name after 'define'");
+        if (value.empty()) {
+            return diagnostics_.error(name, fmt::format("'{}' is defined without a value", name.view()));
+        }
+        if (!has_room(name, pattern_.defines.size(), most_defines, "defines")) return;
+        if (!define_names_.insert(std::string(name.view())).second) {
+            return diagnostics_.error(name, fmt::format("'{}' is defined twice", name.view()));
+        }
+        pattern_.defines.push_back({name, value});
+    }
+
+    void table(const Span& whole, std::size_t colon) {
+        const Span name = whole.part(5, colon - 5).trimmed();
+        if (name.empty()) return diagnostics_.error(whole, "expected the table's name: 'table NAME:'");
+        if (!has_room(name, pattern_.tables.size(), most_tables, "tables")) return;
+        const Span rest = whole.part(colon + 1).trimmed();
+        if (!rest.empty()) {
+            diagnostics_.error(rest, "a table's productions stand on the lines after its name");
+        }
+        if (!table_names_.insert(std::string(name.view())).second) {
+            diagnostics_.error(name, fmt::format("there are two tables '{}'", name.view()));
+        }
+        section_ = Section::table;
+        pattern_.tables.push_back({name, {}});
+    }
+
+    void interpret(const Span& whole, std::size_t colon) {
+        if (interpret_seen_) return diagnostics_.error(whole, "'interpret:' is given twice");
+        interpret_seen_ = true;
+        section_ = Section::interpret;
+        const Span rest = whole.part(colon + 1).trimmed();
+        if (!rest.empty()) diagnostics_.error(rest, "the productions of 'interpret:' stand on the lines after it");
+    }
+
+    void variant(const Span& whole, std::size_t colon) {
+        const Span name = whole.part(7, colon - 7).trimmed();
+        if (name.empty()) return diagnostics_.error(whole, "expected the variant's name: 'variant NAME:'");
+        if (!has_room(name, pattern_.variants.size(), most_variants, "variants")) return;
+        if (!variant_names_.insert(std::string(name.view())).second) {
+            return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
+        }
+        Variant result{name, {}};
+        const Span list = whole.part(colon + 1).trimmed();
+        if (list.empty()) return diagnostics_.error(name, "expected 'key = value' after the variant's name");
+        for (const Span& item : split_settings(list)) {
+            const std::size_t equals = item.view().find('=');
+            if (equals == std::string_view::npos || item.part(0, equals).trimmed().empty()) {
+                diagnostics_.error(item.empty() ? name : item, "expected 'key = value'");
+                continue;
+            }
+            const Span key = item.part(0, equals).trimmed();
+            if (!has_room(key, settings_++, most_settings, "settings of variants")) return;
+            result.settings.push_back({std::string(key.view()), key, item.part(equals + 1).trimmed()});
+        }
+        pattern_.variants.push_back(std::move(result));
+    }
+
+    /// At commas outside parentheses that are followed by `name =`: a comma may also be a symbol of a word.
+    static std::vector<Span> split_settings(const Span& list) {
+        std::vector<Span> items;
+        const std::string_view text = list.view();
+        std::size_t begin = 0;
+        for (std::size_t comma = find_outside(text, ","); comma != std::string_view::npos;
+             comma = find_outside(text, ",", comma + 1)) {
+            if (items.size() > most_settings) return items;
+            const std::size_t next = text.find_first_of(",=", comma + 1);
+            if (next != std::string_view::npos && text[next] == ',') continue;
+            items.push_back(list.part(begin, comma - begin).trimmed());
+            begin = comma + 1;
+        }
+        items.push_back(list.part(begin).trimmed());
+        return items;
+    }
+
+    void production(const Span& whole, std::size_t arrow) {
+        const Span left_side = whole.part(0, arrow).trimmed();
+        const Span right_side = whole.part(arrow + 3).trimmed();
+        const std::string_view left = left_side.view();
+        ProductionText result;
+        result.whole = whole;
+        if (const std::size_t second = find_outside(right_side.view(), "-->"); second != std::string_view::npos) {
+            return diagnostics_.error(right_side.part(second), "a second '-->' in one line: one production each");
+        }
+        std::size_t end = left.size();
+        if (const std::size_t colon = find_outside(left, ":"); colon != std::string_view::npos) {
+            result.condition = left_side.part(colon + 1).trimmed();
+            end = colon;
+        }
+        std::size_t begin = 0;
+        const std::string_view before_condition = left.substr(0, end);
+        if (const std::size_t less = find_outside(before_condition, "<"); less != std::string_view::npos) {
+            result.left = left_side.part(0, less).trimmed();
+            begin = less + 1;
+        }
+        if (const std::size_t greater = find_outside(before_condition, ">", begin);
+            greater != std::string_view::npos) {
+            result.right = left_side.part(greater + 1, end - greater - 1).trimmed();
+            end = greater;
+        }
+        result.predecessor = left_side.part(begin, end - begin).trimmed();
+        result.successor = right_side;
+        if (const std::size_t colon = rfind_outside(right_side.view(), ':'); colon != std::string_view::npos) {
+            result.weight = right_side.part(colon + 1).trimmed();
+            result.successor = right_side.part(0, colon).trimmed();
+        }
+        if (result.predecessor.empty()) {
+            return diagnostics_.error(whole, "expected a predecessor before '-->'");
+        }
+        if (!has_room(whole, productions_++, most_productions, "productions")) return;
+        switch (section_) {
+            case Section::common:
+                pattern_.common.push_back(std::move(result));
+                break;
+            case Section::table:
+                pattern_.tables.back().productions.push_back(std::move(result));
+                break;
+            case Section::interpret:
+                pattern_.interpret.push_back(std::move(result));
+                break;
+        }
+    }
+
+    Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    Section section_ = Section::common;
+    bool interpret_seen_ = false;
+    std::size_t productions_ = 0;
+    std::size_t settings_ = 0;
+    std::set<std::string, std::less<>> key_names_;
+    std::set<std::string, std::less<>> define_names_;
+    std::set<std::string, std::less<>> table_names_;
+    std::set<std::string, std::less<>> variant_names_;
+};
+
+/// Overrides values that a pattern states.
+class Overrides {
+public:
+    Overrides(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {
+        for (std::size_t i = 0; i < pattern.defines.size(); ++i) defines_.emplace(pattern.defines[i].name.view(), i);
+    }
+
+    void set(std::string_view name, const Span& name_at, const Span& value) {
+        if (const auto define = defines_.find(name); define != defines_.end()) {
+            pattern_.defines[define->second].value = value;
+            return;
+        }
+        const std::string key = folded(name);
+        // Of two keys that exclude each other the one set later wins.
+        constexpr std::array<std::pair<std::string_view, std::string_view>, 2> exclusive = {
+            std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
+        for (const auto& [one, other] : exclusive) {
+            if (key != one && key != other) continue;
+            std::erase_if(pattern_.keys, [excluded = key == one ? other : one](const Key& present) {
+                return present.name == excluded;
+            });
+        }
+        for (Key& present : pattern_.keys) {
+            if (present.name == key) {
+                present.name_at = name_at;
+                present.value = value;
+                return;
+            }
+        }
+        if (pattern_.keys.size() >= most_keys) {
+            if (!diagnostics_.is_unreadable()) {
+                diagnostics_.unreadable(name_at, fmt::format("too many keys: a pattern has at most {}", most_keys));
+            }
+            return;
+        }
+        pattern_.keys.push_back({key, name_at, value});
+    }
+
+private:
+    Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    std::unordered_map<std::string_view, std::size_t> defines_;
+};
+
+}  // namespace
+
+const Key* Pattern::find(std::string_view name) const {
+    for (const Key& key : keys) {
+        if (key.name == name) return &key;
+    }
+    return nullptr;
+}
+
+std::string Pattern::text(std::string_view name) const {
+    const Key* key = find(name);
+    return key ? std::string(key->value.view()) : std::string();
+}
+
+SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics) {
+    if (text.size() > most_pattern_bytes) {
+        text.resize(most_pattern_bytes);
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+        auto source = std::make_shared<const Source>(std::move(name), std::move(text));
+        diagnostics.unreadable({source, source->text().size(), 0}, "a pattern file is at most 64 MB");
+        return source;
+    }
+    const std::size_t bad = first_bad_byte(text);
+    auto source = std::make_shared<const Source>(std::move(name), std::move(text));
+    if (bad != std::string::npos) {
+        diagnostics.unreadable({source, bad, 1}, source->text()[bad] == 0
+                                                     ? "a NUL byte: this is no pattern file"
+                                                     : "a byte that is no UTF-8: this is no pattern file");
+    } else if (source->open_comment() != std::string::npos) {
+        diagnostics.unreadable({source, source->open_comment(), 2}, open_comment_message);
+    }
+    return source;
+}
+
+Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics) {
+    Pattern pattern;
+    pattern.source = read_source(std::move(name), std::move(text), diagnostics);
+    if (!diagnostics.is_unreadable()) Parser(pattern, diagnostics).run();
+    return pattern;
+}
+
+void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
+                     Diagnostics& diagnostics) {
+    if (variant.empty() && settings.empty()) return;
+    Overrides overrides(pattern, diagnostics);
+    if (!variant.empty()) {
+        const auto chosen = std::find_if(pattern.variants.begin(), pattern.variants.end(),
+                                         [&](const Variant& other) { return other.name.view() == variant; });
+        if (chosen == pattern.variants.end()) {
+            std::vector<std::string_view> known;
+            std::string list;
+            for (const Variant& other : pattern.variants) {
+                known.push_back(other.name.view());
+                list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
+            }
+            const auto source = std::make_shared<const Source>("--variant", std::string(variant));
+            pattern.overrides.push_back(source);
+            diagnostics.error({source, 0, variant.size()}, known.empty()
+                                                               ? "this pattern has no variants"
+                                                               : fmt::format("no such variant; there are: {}", list));
+        } else {
+            for (const Key& setting : chosen->settings) {
+                overrides.set(setting.name, setting.name_at, setting.value);
+            }
+        }
+    }
+    for (const Setting& setting : settings) {
+        const auto source = std::make_shared<const Source>(setting.origin, setting.key + "=" + setting.value);
+        pattern.overrides.push_back(source);
+        const Span whole{source, 0, source->text().size()};
+        if (first_bad_byte(source->text()) != std::string_view::npos ||
+            source->text().find('\n') != std::string::npos) {
+            diagnostics.error(whole, "a setting is one line of UTF-8");
+            continue;
+        }
+        if (source->open_comment() != std::string::npos) {
+            diagnostics.error(whole.part(source->open_comment()), open_comment_message);
+            continue;
+        }
+        const Span name = whole.part(0, setting.key.size()).trimmed();
+        if (name.empty()) {
+            diagnostics.error(whole, "expected key=value");
+            continue;
+        }
+        overrides.set(name.view(), name, whole.part(setting.key.size() + 1).trimmed());
+    }
+}
+
+void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
+    std::vector<std::string_view> known = {"interpret", "table", "variant", "define"};
+    for (const KeyInfo& key : language_keys()) known.push_back(key.name);
+    for (const Key& key : pattern.keys) {
+        if (find_language_key(key.name)) continue;
+        const std::string_view near = nearest(key.name, known);
+        diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(),
+                                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,94 @@
+// engine/language/pattern.h: a pattern file as plain data with places; nothing is interpreted yet.
+#pragma once
+
+#include "engine/base/diagnostic.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// `name: value`. `name` is folded: lower case, single blanks.
+struct Key {
+    std::string name;
+    Span name_at;
+    Span value;
+};
+
+/// `define NAME = EXPRESSION`.
+struct Define {
+    Span name;
+    Span value;
+};
+
+/// One production, cut at its separators; what is absent is nullopt.
+struct ProductionText {
+    Span whole;
+    std::optional<Span> left;
+    Span predecessor;
+    std::optional<Span> right;
+    std::optional<Span> condition;
+    Span successor;
+    std::optional<Span> weight;
+};
+
+/// `table NAME:` and the productions up to the next.
+struct TableText {
+    Span name;
+    std::vector<ProductionText> productions;
+};
+
+/// `variant NAME: a = 1, derivation length = 3`: what differs from the file.
+struct Variant {
+    Span name;
+    std::vector<Key> settings;
+};
+
+/// A setting from outside the file that overrides it.
+struct Setting {
+    std::string origin;  ///< where it was said, for messages: `--set`, `-n`
+    std::string key;
+    std::string value;
+};
+
+/// What a pattern file states; its Spans live as long as it does. Keys hold the final values, overrides applied, in
+/// the order of the file.
+struct Pattern {
+    SourcePointer source;
+    std::vector<SourcePointer> overrides;  ///< what overriding values were cut from
+    std::vector<Key> keys;
+    std::vector<Define> defines;
+    std::vector<ProductionText> common;  ///< productions before the first table
+    std::vector<TableText> tables;
+    std::vector<ProductionText> interpret;  ///< the homomorphism
+    std::vector<Variant> variants;
+
+    /// The key of that folded name, or null.
+    const Key* find(std::string_view name) const;
+    /// The value of a free-text key (`title`, `source`, `description`), or empty.
+    std::string text(std::string_view name) const;
+};
+
+/// A longer text is no pattern file.
+constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
+
+/// Takes the text of a pattern file without parsing it. Refuses (as unreadable) more than 64 MB, NUL bytes, invalid
+/// UTF-8, and comments without end. Cost: linear; memory: the text, twice if it has comments.
+SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics);
+
+/// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
+/// Refuses over 64 MB, NUL bytes and what is no UTF-8. Cost: linear.
+Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
+
+/// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
+/// A setting whose name is a define of the file replaces it, else it is a key.
+void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
+                     Diagnostics& diagnostics);
+
+/// Reports every key that language_keys() lacks, with the nearest one. Their values are checked by those that read
+/// them.
+void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
+
+}  // namespace sikku

@@ -1,0 +1,172 @@
+#include "engine/measure/extent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace sikku {
+namespace {
+
+void tell_counts(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
+    std::map<std::string, Integer> letters;
+    Integer total = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] == 0) continue;
+        letters[grammar.symbols()[i].letter] += counts[i];
+        total += counts[i];
+    }
+    result.symbols = Quantity::of(total);
+    for (const auto& [letter, count] : letters) result.counts.emplace_back(letter, Quantity::of(count));
+}
+
+/// drawn, moves and length, from the numbers of symbols of the interpreted word.
+void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
+    const Lattice lattice = make_lattice(grammar);
+    Integer drawn = 0;
+    Integer moves = 0;
+    Integer units = 0;
+    double length = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const Command& command = grammar.symbols()[i].command;
+        if (command.action != Action::draw && command.action != Action::move) continue;
+        if (counts[i] == 0) continue;
+        moves += counts[i];
+        if (command.action == Action::move) continue;
+        drawn += counts[i];
+        if (lattice.rank > 0) {
+            units += counts[i] * (lattice.length[i] < 0 ? -lattice.length[i] : lattice.length[i]);
+        } else {
+            length += counts[i].template convert_to<double>() * std::fabs(command.value);
+        }
+    }
+    result.drawn = Quantity::of(drawn);
+    result.moves = Quantity::of(moves);
+    if (lattice.rank > 0) {
+        const auto denominator = static_cast<std::int64_t>(std::llround(1.0 / lattice.unit));
+        result.length = Quantity::of(Integer((units + denominator / 2) / denominator));
+        if (result.length.digits.empty())
+            result.length.value = units.convert_to<double>() / static_cast<double>(denominator);
+    } else {
+        result.length = Quantity::of(length);
+    }
+}
+
+Fold as_fold(const Survey& survey) {
+    const auto four = [](const Bounds& bounds) {
+        return std::array{Quantity::of(bounds.low.x), Quantity::of(bounds.low.y), Quantity::of(bounds.high.x),
+                          Quantity::of(bounds.high.y)};
+    };
+    Fold fold;
+    fold.box = four(survey.box);
+    if (survey.ink) fold.ink = four(*survey.ink);
+    fold.end = {Quantity::of(survey.end.x), Quantity::of(survey.end.y)};
+    fold.heading = survey.heading;
+    fold.closed = survey.closed;
+    fold.depth = survey.depth;
+    return fold;
+}
+
+/// The number of those symbols of a word that `counted` picks, of a word too long to be counted exactly.
+template <class Counted>
+Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted) {
+    double value = 0;
+    double largest = -std::numeric_limits<double>::infinity();
+    double parts = 0;
+    for (std::size_t i = 0; i < forecast.rough_counts.size(); ++i) {
+        const double times = counted(grammar.symbols()[i].command);
+        if (times == 0 || forecast.rough_counts[i] == 0) continue;
+        value += times * forecast.rough_counts[i];
+        const double log10 = forecast.log10_counts[i] + std::log10(times);
+        parts =
+            log10 > largest ? parts * std::pow(10.0, largest - log10) + 1 : parts + std::pow(10.0, log10 - largest);
+        largest = std::max(largest, log10);
+    }
+    if (value < 0x1p53) return {value, ""};
+    return {value, fmt::format("about 10^{:.0f}", std::floor(largest + std::log10(parts)))};
+}
+
+/// How often each symbol occurs.
+class Census : public SymbolSink {
+public:
+    explicit Census(const Grammar& grammar) : counts_(grammar.symbols().size()) {}
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) ++counts_[symbol];
+    }
+    std::vector<Integer> counts() const { return {counts_.begin(), counts_.end()}; }
+
+private:
+    std::vector<std::uint64_t> counts_;
+};
+
+/// The word is walked through, for what only a turtle knows. With `counts_steps`, they are counted, too.
+void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, Measurement& result) {
+    const auto tell = [&](const auto& survey) {
+        if (!counts_steps) return;
+        result.drawn = Quantity::of(Integer(survey.drawn));
+        result.moves = Quantity::of(Integer(survey.moves));
+        result.length = Quantity::of(survey.length);
+    };
+    result.derived = true;
+    options.interpreted = true;
+    if (grammar.is_spatial()) {
+        const auto turtle = SpaceTurtle::make(grammar);
+        derive(grammar, *turtle, options);
+        tell(turtle->survey());
+        result.space = turtle->survey();
+    } else {
+        const auto turtle = Turtle::surveying(grammar);
+        derive(grammar, *turtle, options);
+        tell(turtle->survey());
+        result.geometry = as_fold(turtle->survey());
+    }
+}
+
+/// Of systems that cannot be forecast: both words are walked through.
+Measurement walked(const Grammar& grammar, DerivationOptions options) {
+    Measurement result;
+    result.n = grammar.steps();
+    options.interpreted = false;
+    Census census(grammar);
+    derive(grammar, census, options);
+    tell_counts(grammar, census.counts(), result);
+    walk(grammar, options, true, result);
+    return result;
+}
+
+}  // namespace
+
+Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
+    DerivationOptions options;
+    options.interpreted = true;
+    options.limit_whole_words(budget);
+    options.watch = watch;
+    const Grammar grammar = resolve_contexts(shorten(given), options);
+    if (!grammar.is_plain()) return walked(grammar, options);
+    Measurement result;
+    result.n = given.steps();
+    result.derived = grammar.is_begun();
+    const Forecast plain = *forecast(grammar, false);
+    const Forecast interpreted = grammar.interpretation() ? *forecast(grammar, true) : plain;
+    if (!plain.counts || !interpreted.counts) {
+        const auto one_if = [](bool wanted) { return wanted ? 1.0 : 0.0; };
+        const auto draws = [](const Command& command) { return command.action == Action::draw; };
+        const auto moves = [&](const Command& command) { return draws(command) || command.action == Action::move; };
+        result.symbols = about(grammar, plain, [](const Command&) { return 1.0; });
+        result.drawn = about(grammar, interpreted, [&](const Command& command) { return one_if(draws(command)); });
+        result.moves = about(grammar, interpreted, [&](const Command& command) { return one_if(moves(command)); });
+        result.length = about(grammar, interpreted, [&](const Command& command) {
+            return draws(command) ? std::fabs(command.value) : 0.0;
+        });
+        return result;
+    }
+    tell_counts(grammar, *plain.counts, result);
+    tell_steps(grammar, *interpreted.counts, result);
+    if (!grammar.is_spatial()) result.geometry = fold(grammar);
+    if (!result.geometry && interpreted.nodes <= budget) walk(grammar, options, false, result);
+    return result;
+}
+
+}  // namespace sikku

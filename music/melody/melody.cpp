@@ -1,0 +1,462 @@
+#include "music/melody/melody.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+#include "music/score/spelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+constexpr double most_tempo = 1000;
+
+/// Of the nearest key, with at most one sign.
+Spelling usual_spelling(double key) {
+    static constexpr std::array<Spelling, 12> usual = {
+        {{0, 0}, {1, -1}, {1, 0}, {2, -1}, {2, 0}, {3, 0}, {3, 1}, {4, 0}, {5, -1}, {5, 0}, {6, -1}, {6, 0}}};
+    const auto whole = static_cast<long>(std::lround(std::clamp(key, -1e3, 1e3)));
+    return usual[static_cast<std::size_t>((whole % 12 + 12) % 12)];
+}
+
+/// A choice among words; several words may mean the same.
+template <class Choice>
+using Choices = std::vector<std::pair<std::string_view, Choice>>;
+
+class MelodyReader {
+public:
+    MelodyReader(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics)
+        : pattern_(pattern), read_file_(read_file), diagnostics_(diagnostics) {}
+
+    Melody read() {
+        read_scale();
+        read_tonic();
+        choose<Mapping>(
+            "mapping", melody_.mapping,
+            {{"runs", Mapping::runs}, {"counterpoint", Mapping::counterpoint}, {"symbols", Mapping::symbols}});
+        choose<Anchor>("anchor", melody_.anchor,
+                       {{"first note", Anchor::first_note},
+                        {"piece", Anchor::piece},
+                        {"lowest note", Anchor::lowest_note},
+                        {"lowest vertex", Anchor::lowest_vertex},
+                        {"centre", Anchor::centre},
+                        {"center", Anchor::centre}});
+        choose<Vertical>("vertical", melody_.vertical,
+                         {{"ignore", Vertical::ignore},
+                          {"rest", Vertical::rest},
+                          {"extend", Vertical::extend},
+                          {"glissando", Vertical::glissando},
+                          {"voice", Vertical::voice}});
+        choose<Runs>("runs", melody_.runs, {{"merged", Runs::merged}, {"each step", Runs::each_step}});
+        choose<Sloped>("sloped", melody_.sloped,
+                       {{"project", Sloped::project}, {"skip", Sloped::skip}, {"refuse", Sloped::refuse}});
+        read_range();
+        choose<Loudness>("velocity", melody_.loudness,
+                         {{"fixed", Loudness::fixed},
+                          {"by turn", Loudness::by_turn},
+                          {"by depth", Loudness::by_depth},
+                          {"by length", Loudness::by_length}});
+        read_unit();
+        read_tempo();
+        read_meter();
+        read_instrument();
+        warn_of_what_has_no_meaning();
+        return std::move(melody_);
+    }
+
+private:
+    template <class Choice>
+    void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices) {
+        const Key* key = pattern_.find(name);
+        if (key) choose(name, key->value.view(), chosen, choices);
+    }
+
+    template <class Choice>
+    void choose(std::string_view name, std::string_view text, Choice& chosen, const Choices<Choice>& choices) {
+        const Key* key = pattern_.find(name);
+        std::string wanted = lower_case(text);
+        std::replace(wanted.begin(), wanted.end(), '-', ' ');
+        std::vector<std::string_view> words;
+        std::string list;
+        for (const auto& [word, choice] : choices) {
+            if (word == wanted) {
+                chosen = choice;
+                return;
+            }
+            words.push_back(word);
+            if (word != "center") list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
+        }
+        const std::string_view near = nearest(wanted, words);
+        diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                           near.empty() ? fmt::format("'{}:' is one of {}", name, list)
+                                        : fmt::format("'{}:' is one of {}; did you mean '{}'?", name, list, near));
+    }
+
+    void warn_of_what_has_no_meaning() {
+        if (melody_.mapping == Mapping::runs) return;
+        for (const std::string_view name : {"vertical", "runs", "sloped"}) {
+            const bool is_read = name == "runs" && melody_.mapping == Mapping::symbols;
+            if (const Key* key = pattern_.find(name); key && !is_read) {
+                diagnostics_.warning(key->name_at, fmt::format("'{}:' has no meaning with this 'mapping:'", name));
+            }
+        }
+    }
+
+    void read_scale() {
+        melody_.scale = *find_scale("major");
+        if (const Key* key = pattern_.find("scale")) {
+            const std::string name(key->value.view());
+            if (lower_case(name).ends_with(".scl")) {
+                if (const auto text = file_text(*key)) {
+                    const Source source(name, *text);
+                    // Mistakes are told before the file's text is gone.
+                    if (auto scale = read_scl(source, diagnostics_)) melody_.scale = std::move(*scale);
+                }
+            } else if (const Scale* known = find_scale(name)) {
+                melody_.scale = *known;
+            } else {
+                std::string near;
+                for (const std::string& one : similar_scales(name)) near += (near.empty() ? "" : ", ") + one;
+                diagnostics_.error(name.empty() ? key->name_at : key->value,
+                                   near.empty()
+                                       ? fmt::format("there is no scale '{}'; `sikku scales` lists them", name)
+                                       : fmt::format("there is no scale '{}'; near it are {}", name, near));
+            }
+        }
+        if (const Key* key = pattern_.find("keyboard")) {
+            if (const auto text = file_text(*key)) {
+                const Source source(std::string(key->value.view()), *text);
+                melody_.keys = read_kbm(source, diagnostics_);
+            }
+        }
+    }
+
+    std::optional<std::string> file_text(const Key& key) {
+        if (!read_file_) return std::nullopt;
+        try {
+            return read_file_(std::string(key.value.view()));
+        } catch (const std::runtime_error& error) {
+            diagnostics_.error(key.value, error.what());
+            return std::nullopt;
+        }
+    }
+
+    void read_tonic() {
+        const Key* key = pattern_.find("tonic");
+        if (!key) return;
+        std::string text(key->value.view());
+        if (const auto note = parse_note(text)) {
+            melody_.tonic_spelling = note->spelling;
+            melody_.tonic = note->key;
+        } else {
+            if (lower_case(text).ends_with("hz")) text.resize(text.size() - 2);
+            while (text.ends_with(' ')) text.pop_back();
+            double frequency = 0;
+            if (!read_number(text, frequency) || !(frequency > 0)) {
+                diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                                   "expected a note such as C4, F#3 or Bb, or a frequency such as 261.63 Hz");
+                return;
+            }
+            melody_.tonic = 69 + 12 * std::log2(frequency / 440.0);
+            melody_.tonic_spelling = usual_spelling(melody_.tonic);
+        }
+        if (!(melody_.tonic >= 0 && melody_.tonic <= 127)) {
+            diagnostics_.error(key->value, "the tonic lies beyond what MIDI can write: C-1 to G9, 8.2 to 12543.8 Hz");
+        }
+    }
+
+    /// `3/4` or `2`: two whole numbers, or false.
+    bool fraction(const Key& key, std::int64_t& above, std::int64_t& below) const {
+        const std::string_view text = key.value.view();
+        const std::size_t slash = text.find('/');
+        const auto whole = [](std::string_view digits, std::int64_t& number) {
+            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+            return error == std::errc() && end == digits.data() + digits.size() && !digits.empty() && number >= 0 &&
+                   number <= 100'000;
+        };
+        below = 1;
+        return whole(text.substr(0, slash), above) &&
+               (slash == std::string_view::npos || whole(text.substr(slash + 1), below));
+    }
+
+    /// `fold`, or `fold C2-C7`.
+    void read_range() {
+        const Key* key = pattern_.find("range");
+        if (!key) return;
+        const std::string_view text = key->value.view();
+        const std::size_t blank = text.find(' ');
+        choose<Range>(
+            "range", text.substr(0, blank), melody_.range,
+            {{"fold", Range::fold}, {"reflect", Range::reflect}, {"clamp", Range::clamp}, {"refuse", Range::refuse}});
+        if (blank == std::string_view::npos) return;
+        const std::string_view keys = text.substr(text.find_first_not_of(' ', blank));
+        // A dash may belong to an octave: C-1-C7.
+        for (std::size_t dash = keys.find('-'); dash != std::string_view::npos; dash = keys.find('-', dash + 1)) {
+            const auto low = parse_note(keys.substr(0, dash));
+            const auto high = parse_note(keys.substr(dash + 1));
+            if (!low || !high || low->key < 0 || high->key > 127 || low->key > high->key) continue;
+            melody_.lowest = low->key;
+            melody_.highest = high->key;
+            return;
+        }
+        diagnostics_.error(key->value, "expected the lowest and the highest note, such as `fold C2-C7`");
+    }
+
+    void read_unit() {
+        const Key* key = pattern_.find("unit");
+        if (!key) return;
+        std::int64_t above = 0;
+        std::int64_t below = 1;
+        const bool good = fraction(*key, above, below) && above > 0 && below > 0;
+        const std::int64_t whole_note = 4 * ticks_per_quarter;
+        if (!good || above * whole_note % below != 0 || above * whole_note / below > 16 * whole_note) {
+            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                               "expected the value of a step as a part of a whole note that 1920 ticks divide into, "
+                               "such as 1/16, 1/8 or 3/16, up to 16");
+            return;
+        }
+        melody_.unit = above * whole_note / below;
+    }
+
+    void read_tempo() {
+        const Key* key = pattern_.find("tempo");
+        if (!key) return;
+        double tempo = 0;
+        if (!read_number(key->value.view(), tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
+            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                               "expected quarter notes a minute, from 4 to 1000");
+            return;
+        }
+        melody_.tempo = tempo;
+    }
+
+    void read_meter() {
+        const Key* key = pattern_.find("meter");
+        if (!key) return;
+        std::int64_t beats = 0;
+        std::int64_t unit = 0;
+        const bool power = fraction(*key, beats, unit) && unit > 0 && (unit & (unit - 1)) == 0 && unit <= 64;
+        if (!power || beats < 1 || beats > 64 || key->value.view().find('/') == std::string_view::npos) {
+            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                               "expected a meter such as 4/4, 3/4 or 7/8: 1 to 64 over a power of two up to 64");
+            return;
+        }
+        melody_.meter = {static_cast<int>(beats), static_cast<int>(unit)};
+    }
+
+    void read_instrument() {
+        const Key* key = pattern_.find("instrument");
+        if (!key) return;
+        const std::string_view text = key->value.view();
+        int number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error == std::errc() && end == text.data() + text.size() && !text.empty()) {
+            if (number < 1 || number > 128) {
+                diagnostics_.error(key->value, "the programs of General MIDI are 1 to 128");
+            } else {
+                melody_.program = number - 1;
+            }
+            return;
+        }
+        const std::string wanted = lower_case(text);
+        std::vector<std::string> folded;
+        std::vector<std::string_view> names;
+        for (const std::string_view name : instrument_names()) folded.push_back(lower_case(name));
+        for (std::size_t i = 0; i < folded.size(); ++i) {
+            if (folded[i] == wanted) {
+                melody_.program = static_cast<int>(i);
+                return;
+            }
+            names.push_back(folded[i]);
+        }
+        // A word that only one instrument, or the first of a family, holds will do: `flute`, `violin`.
+        for (std::size_t i = 0; i < folded.size() && wanted.size() >= 4; ++i) {
+            if (folded[i].find(wanted) == std::string::npos) continue;
+            melody_.program = static_cast<int>(i);
+            return;
+        }
+        const std::string_view near = nearest(wanted, names);
+        diagnostics_.error(text.empty() ? key->name_at : key->value,
+                           near.empty() ? std::string("expected an instrument of General MIDI by name or number")
+                                        : fmt::format("nobody plays the '{}'; did you mean '{}'?", text, near));
+    }
+
+    const Pattern& pattern_;
+    const FileReader& read_file_;
+    Diagnostics& diagnostics_;
+    Melody melody_;
+};
+
+}  // namespace
+
+void transpose(Melody& melody, double semitones) {
+    melody.transpose += semitones;
+    if (semitones != 0 && semitones == std::round(semitones)) {
+        melody.tonic_spelling = usual_spelling(melody.tonic + semitones);
+    }
+}
+
+std::optional<double> Melody::key(std::int64_t degree, bool falling) const {
+    if (keys) {
+        const std::int64_t place = keys->middle + degree;
+        if (place < 0 || place > 127) return std::nullopt;
+        const auto mapped = mapped_key(scale, *keys, static_cast<int>(place));
+        if (!mapped) return std::nullopt;
+        return *mapped + transpose;
+    }
+    return tonic + scale.cents(degree, falling) / 100 + transpose;
+}
+
+bool Melody::is_microtonal() const {
+    constexpr double least = 0.005;  // half a cent
+    const auto is_between = [](double semitones) { return std::fabs(semitones - std::round(semitones)) > least; };
+    const auto any = [&](const std::vector<double>& cents) {
+        return std::any_of(cents.begin(), cents.end(), [&](double one) { return is_between(one / 100); });
+    };
+    return keys || is_between(tonic) || is_between(transpose) || is_between(scale.period / 100) ||
+           any(scale.ascent) || any(scale.descent);
+}
+
+Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics) {
+    return MelodyReader(pattern, read_file, diagnostics).read();
+}
+
+const std::vector<std::string_view>& instrument_names() {
+    static const std::vector<std::string_view> names = {"Acoustic Grand Piano",
+                                                        "Bright Acoustic Piano",
+                                                        "Electric Grand Piano",
+                                                        "Honky-tonk Piano",
+                                                        "Electric Piano 1",
+                                                        "Electric Piano 2",
+                                                        "Harpsichord",
+                                                        "Clavinet",
+                                                        "Celesta",
+                                                        "Glockenspiel",
+                                                        "Music Box",
+                                                        "Vibraphone",
+                                                        "Marimba",
+                                                        "Xylophone",
+                                                        "Tubular Bells",
+                                                        "Dulcimer",
+                                                        "Drawbar Organ",
+                                                        "Percussive Organ",
+                                                        "Rock Organ",
+                                                        "Church Organ",
+                                                        "Reed Organ",
+                                                        "Accordion",
+                                                        "Harmonica",
+                                                        "Tango Accordion",
+                                                        "Acoustic Guitar (nylon)",
+                                                        "Acoustic Guitar (steel)",
+                                                        "Electric Guitar (jazz)",
+                                                        "Electric Guitar (clean)",
+                                                        "Electric Guitar (muted)",
+                                                        "Overdriven Guitar",
+                                                        "Distortion Guitar",
+                                                        "Guitar Harmonics",
+                                                        "Acoustic Bass",
+                                                        "Electric Bass (finger)",
+                                                        "Electric Bass (pick)",
+                                                        "Fretless Bass",
+                                                        "Slap Bass 1",
+                                                        "Slap Bass 2",
+                                                        "Synth Bass 1",
+                                                        "Synth Bass 2",
+                                                        "Violin",
+                                                        "Viola",
+                                                        "Cello",
+                                                        "Contrabass",
+                                                        "Tremolo Strings",
+                                                        "Pizzicato Strings",
+                                                        "Orchestral Harp",
+                                                        "Timpani",
+                                                        "String Ensemble 1",
+                                                        "String Ensemble 2",
+                                                        "Synth Strings 1",
+                                                        "Synth Strings 2",
+                                                        "Choir Aahs",
+                                                        "Voice Oohs",
+                                                        "Synth Voice",
+                                                        "Orchestra Hit",
+                                                        "Trumpet",
+                                                        "Trombone",
+                                                        "Tuba",
+                                                        "Muted Trumpet",
+                                                        "French Horn",
+                                                        "Brass Section",
+                                                        "Synth Brass 1",
+                                                        "Synth Brass 2",
+                                                        "Soprano Sax",
+                                                        "Alto Sax",
+                                                        "Tenor Sax",
+                                                        "Baritone Sax",
+                                                        "Oboe",
+                                                        "English Horn",
+                                                        "Bassoon",
+                                                        "Clarinet",
+                                                        "Piccolo",
+                                                        "Flute",
+                                                        "Recorder",
+                                                        "Pan Flute",
+                                                        "Blown Bottle",
+                                                        "Shakuhachi",
+                                                        "Whistle",
+                                                        "Ocarina",
+                                                        "Lead 1 (square)",
+                                                        "Lead 2 (sawtooth)",
+                                                        "Lead 3 (calliope)",
+                                                        "Lead 4 (chiff)",
+                                                        "Lead 5 (charang)",
+                                                        "Lead 6 (voice)",
+                                                        "Lead 7 (fifths)",
+                                                        "Lead 8 (bass + lead)",
+                                                        "Pad 1 (new age)",
+                                                        "Pad 2 (warm)",
+                                                        "Pad 3 (polysynth)",
+                                                        "Pad 4 (choir)",
+                                                        "Pad 5 (bowed)",
+                                                        "Pad 6 (metallic)",
+                                                        "Pad 7 (halo)",
+                                                        "Pad 8 (sweep)",
+                                                        "FX 1 (rain)",
+                                                        "FX 2 (soundtrack)",
+                                                        "FX 3 (crystal)",
+                                                        "FX 4 (atmosphere)",
+                                                        "FX 5 (brightness)",
+                                                        "FX 6 (goblins)",
+                                                        "FX 7 (echoes)",
+                                                        "FX 8 (sci-fi)",
+                                                        "Sitar",
+                                                        "Banjo",
+                                                        "Shamisen",
+                                                        "Koto",
+                                                        "Kalimba",
+                                                        "Bagpipe",
+                                                        "Fiddle",
+                                                        "Shanai",
+                                                        "Tinkle Bell",
+                                                        "Agogo",
+                                                        "Steel Drums",
+                                                        "Woodblock",
+                                                        "Taiko Drum",
+                                                        "Melodic Tom",
+                                                        "Synth Drum",
+                                                        "Reverse Cymbal",
+                                                        "Guitar Fret Noise",
+                                                        "Breath Noise",
+                                                        "Seashore",
+                                                        "Bird Tweet",
+                                                        "Telephone Ring",
+                                                        "Helicopter",
+                                                        "Applause",
+                                                        "Gunshot"};
+    return names;
+}
+
+}  // namespace sikku

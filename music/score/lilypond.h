@@ -1,0 +1,24 @@
+// music/score/lilypond.h: scores for LilyPond, which prints them best.
+#pragma once
+
+#include "music/score/notation.h"
+#include "music/score/score.h"
+
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// Formats a LilyPond string with its quotation marks, on a single line. Line and paragraph separators, which make
+/// LilyPond 2.24 abort, and direction marks, which may make it hang, become blanks; invalid or unprintable UTF-8
+/// becomes `?`.
+std::string lilypond_string(std::string_view text);
+
+/// Writes a file for LilyPond 2.24 that makes a print and a MIDI file: the pattern and what made it as comments,
+/// title and composer, for each part a staff or a piano staff with its instrument, a line for each bar. Pitches are
+/// exact to the quarter tone, the tempo is to a whole number.
+/// Texts are written with lilypond_string().
+/// Throws what `sink` throws.
+void write_lilypond(const Notation& notation, const ScoreHead& head, ByteSink& sink);
+
+}  // namespace sikku

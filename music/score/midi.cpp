@@ -1,0 +1,583 @@
+#include "music/score/midi.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// The largest number that four bytes of seven bits hold.
+constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
+constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t block_bytes = std::size_t{1} << 16;
+constexpr int channels = 16;
+constexpr int drums = 9;  // General MIDI, counted from 0
+constexpr std::size_t most_voices = channels - 1;
+/// Half a cent, which no ear tells; and a little, as halves of cents are no binary numbers.
+constexpr double least_fraction = 0.005 + 1e-9;
+constexpr int centre = 8192;  // of a pitch bend
+constexpr int release = 64;   // the velocity of a note-off that does not matter
+constexpr std::uint32_t unset = ~std::uint32_t{0};
+
+constexpr std::uint64_t plain_note_bytes = 14;
+// What comes before a note that needs it, with the delta of one byte that the note-on then has.
+constexpr std::uint64_t bend_bytes = 4;
+constexpr std::uint64_t tuning_bytes = 14;
+constexpr std::size_t note_room = plain_note_bytes + tuning_bytes;
+
+inline char* put_byte(char* out, int byte) {
+    *out = static_cast<char>(byte);
+    return out + 1;
+}
+
+/// A variable-length number: seven bits a byte, the highest first; all but the last byte have bit 7 set.
+inline char* put_delta(char* out, std::uint64_t value) {
+    const auto seven = [value](int shift) { return static_cast<int>(value >> shift & 0x7F); };
+    if (value >= 0x80) {
+        if (value >= 0x4000) {
+            if (value >= 0x200000) out = put_byte(out, 0x80 | seven(21));
+            out = put_byte(out, 0x80 | seven(14));
+        }
+        out = put_byte(out, 0x80 | seven(7));
+    }
+    return put_byte(out, seven(0));
+}
+
+std::string delta(std::uint64_t value) {
+    std::array<char, 4> bytes{};
+    return {bytes.data(), put_delta(bytes.data(), value)};
+}
+
+/// As delta(), but four bytes whatever the value: leading zeros are legal, if wasteful.
+std::string wide_delta(std::uint64_t value) {
+    std::string bytes(4, '\0');
+    for (int i = 0; i < 4; ++i) {
+        put_byte(&bytes[static_cast<std::size_t>(i)],
+                 static_cast<int>(value >> (21 - 7 * i) & 0x7F) | (i < 3 ? 0x80 : 0));
+    }
+    return bytes;
+}
+
+std::string big_endian(std::uint64_t value, int bytes) {
+    std::string text;
+    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+    return text;
+}
+
+/// The first byte of a channel message.
+int status(int kind, int channel) {
+    return kind | channel;
+}
+
+constexpr int text_type = 0x01;
+constexpr int name_type = 0x03;
+constexpr int instrument_type = 0x04;
+constexpr int end_type = 0x2F;
+constexpr int tempo_type = 0x51;
+constexpr int meter_type = 0x58;
+constexpr int key_type = 0x59;
+
+std::string meta(int type, std::string_view data) {
+    if (data.size() > most_delta) throw ScoreError("a text of 256 MB or more does not fit into a MIDI file");
+    std::string bytes = {'\xFF', static_cast<char>(type)};
+    return bytes.append(delta(data.size())).append(data);
+}
+
+std::string meta_now(int type, std::string_view data) {
+    return '\0' + meta(type, data);
+}
+
+std::string controller_now(int channel, int number, int value) {
+    return {'\0', static_cast<char>(status(0xB0, channel)), static_cast<char>(number), static_cast<char>(value)};
+}
+
+/// A registered parameter: select it, then set both halves of its value.
+std::string parameter_now(int channel, int parameter, int value) {
+    return controller_now(channel, 101, 0) + controller_now(channel, 100, parameter) +
+           controller_now(channel, 6, value) + controller_now(channel, 38, 0);
+}
+
+/// Further data entry changes nothing.
+std::string no_parameter_now(int channel) {
+    return controller_now(channel, 101, 127) + controller_now(channel, 100, 127);
+}
+
+constexpr int bend_range_parameter = 0;
+constexpr int tuning_program_parameter = 3;
+constexpr int tuning_bank_parameter = 4;
+
+/// The melody of one channel as the bytes of a track.
+struct Voice {
+    int number = 0;
+    int channel = 0;
+    std::string name;
+    int program = 0;
+    std::int64_t now = 0;  ///< the tick of the last event
+    int bend = centre;
+    std::vector<std::uint32_t> tuned;  ///< what each key sounds as, with MTS; in 1/2^14 semitones
+    std::vector<std::string> full;     ///< blocks that were filled, unless they are in the sink
+    std::uint64_t full_bytes = 0;      ///< of all of them
+    std::unique_ptr<char[]> block = std::make_unique<char[]>(block_bytes);
+    char* out = block.get();
+
+    const char* last_start() const { return block.get() + block_bytes - note_room; }
+    std::string_view open_block() const { return {block.get(), static_cast<std::size_t>(out - block.get())}; }
+    std::uint64_t bytes() const { return full_bytes + open_block().size(); }
+};
+
+/// Where events of a tick come in the file.
+int rank(unsigned char status) {
+    switch (status & 0xF0) {
+        case 0xB0:
+            return 1;
+        case 0xC0:
+            return 2;
+        case 0x80:
+            return 3;
+        case 0xE0:
+            return 4;
+        case 0x90:
+            return 5;
+        default:
+            return status == 0xF0 ? 4 : 0;
+    }
+}
+
+/// Goes through the events of a voice; knows just what the writer writes.
+class Events {
+public:
+    explicit Events(const Voice& voice, std::string_view opening) {
+        pieces_.push_back(opening);
+        pieces_.insert(pieces_.end(), voice.full.begin(), voice.full.end());
+        pieces_.push_back(voice.open_block());
+        next();
+    }
+
+    bool done() const { return event_.empty(); }
+    std::int64_t tick() const { return tick_; }
+    /// Events of all voices are sorted by it.
+    std::int64_t place() const { return tick_ * 8 + rank(static_cast<unsigned char>(event_.front())); }
+    std::string_view event() const { return event_; }
+
+    void next() {
+        event_ = {};
+        while (rest_.empty()) {
+            if (piece_ == pieces_.size()) return;
+            rest_ = pieces_[piece_++];
+        }
+        tick_ += static_cast<std::int64_t>(number());
+        const auto first = static_cast<unsigned char>(rest_.front());
+        std::size_t size = (first & 0xF0) == 0xC0 ? 2 : 3;
+        if (first >= 0xF0) {
+            const std::string_view whole = rest_;
+            rest_.remove_prefix(first == 0xFF ? 2 : 1);
+            const auto data = static_cast<std::size_t>(number());
+            size = whole.size() - rest_.size() + data;
+            rest_ = whole;
+        }
+        event_ = rest_.substr(0, size);
+        rest_.remove_prefix(size);
+    }
+
+private:
+    std::uint64_t number() {
+        std::uint64_t value = 0;
+        for (;;) {
+            const auto byte = static_cast<unsigned char>(rest_.front());
+            rest_.remove_prefix(1);
+            value = value << 7 | (byte & 0x7F);
+            if (byte < 0x80) return value;
+        }
+    }
+
+    std::vector<std::string_view> pieces_;
+    std::size_t piece_ = 0;
+    std::string_view rest_;   // of the piece
+    std::string_view event_;  // without its delta
+    std::int64_t tick_ = 0;
+};
+
+class MidiWriter final : public NoteSink {
+public:
+    MidiWriter(const ScoreHead& head, ByteSink& sink, const MidiOptions& options)
+        : head_(head), sink_(sink), options_(options) {
+        check_options();
+        std::size_t voices = 0;
+        for (const Part& part : head_.parts) voices += static_cast<std::size_t>(std::max(part.voices, 0));
+        voices_.resize(std::min(voices, std::size_t{std::numeric_limits<std::int16_t>::max()} + 1));
+        conductor_ = conductor();
+    }
+
+    void notes(std::span<const Note> notes) override {
+        while (!notes.empty()) {
+            const std::int16_t number = notes.front().voice;
+            const bool known = number >= 0 && static_cast<std::size_t>(number) < voices_.size();
+            if (!known) throw ScoreError(fmt::format("there is a note of voice {}, which no part has", number + 1));
+            auto& voice = voices_[static_cast<std::size_t>(number)];
+            if (!voice) voice = begin_voice(number);
+            notes = notes.subspan(options_.microtonal ? write<true>(*voice, notes) : write<false>(*voice, notes));
+        }
+    }
+
+    void finish(std::int64_t end) override {
+        check_end(end);
+        if (options_.format == 0) {
+            write_merged(end);
+            return;
+        }
+        const auto conductor_end = std::min(static_cast<std::uint64_t>(end), most_delta);
+        if (streamed_) {
+            sink_.overwrite(10, big_endian(1 + sounding_, 2));
+            sink_.overwrite(conductor_end_at_, wide_delta(conductor_end));
+        } else {
+            write_head(1 + sounding_, delta(conductor_end));
+        }
+        for (const auto& voice : voices_) {
+            if (!voice) continue;
+            const std::string last = end_of_track(end - voice->now);
+            const std::string opening = open(*voice);
+            const std::uint64_t size = opening.size() + voice->bytes() + last.size();
+            check_track(size);
+            if (streamed_ && voice->number == 0) {
+                sink_.overwrite(streamed_length_at_, big_endian(size, 4));
+            } else {
+                sink_.write("MTrk" + big_endian(size, 4) + opening);
+                for (const std::string& block : voice->full) sink_.write(block);
+            }
+            sink_.write(voice->open_block());
+            sink_.write(last);
+        }
+    }
+
+private:
+    void check_options() const {
+        if (options_.format != 0 && options_.format != 1) {
+            throw ScoreError(fmt::format("MIDI files are written in format 0 or 1, not {}", options_.format));
+        }
+        if (options_.bend_range < 1 || options_.bend_range > 24) {
+            throw ScoreError(fmt::format("a bend range of {} semitones: expected 1 to 24", options_.bend_range));
+        }
+        const Meter& meter = head_.meter;
+        const bool is_power =
+            meter.unit >= 1 && meter.unit <= 64 && std::has_single_bit(static_cast<unsigned>(meter.unit));
+        if (meter.beats < 1 || meter.beats > 255 || !is_power) {
+            throw ScoreError(fmt::format("a MIDI file cannot tell a meter of {}/{}", meter.beats, meter.unit));
+        }
+        for (const Part& part : head_.parts) {
+            if (part.program < 0 || part.program > 127) {
+                throw ScoreError(
+                    fmt::format("part '{}': program {} is not within 0 to 127", part.name, part.program));
+            }
+            if (part.key && (part.key->fifths < -7 || part.key->fifths > 7)) {
+                throw ScoreError(fmt::format("part '{}': a key signature of {} fifths", part.name, part.key->fifths));
+            }
+        }
+    }
+
+    void check_end(std::int64_t end) const {
+        std::int64_t last = 0;
+        for (const auto& voice : voices_) {
+            if (!voice) continue;
+            last = std::max(last, voice->now);
+            if (voice->now > end) break;
+            // In format 0 others may go on until then.
+            if (options_.format == 1 && static_cast<std::uint64_t>(end - voice->now) > most_delta) {
+                throw ScoreError(fmt::format(
+                    "voice {} is silent for the last {} ticks of the score; a MIDI file can tell rests up "
+                    "to {} ticks",
+                    voice->number + 1, end - voice->now, most_delta));
+            }
+        }
+        if (end < last) throw ScoreError(fmt::format("the score ends at tick {}, but its notes at {}", end, last));
+        if ((sounding_ == 0 || options_.format == 0) && static_cast<std::uint64_t>(end - last) > most_delta) {
+            throw ScoreError(fmt::format("the score ends with {} ticks of silence; a MIDI file can tell up to {}",
+                                         end - last, most_delta));
+        }
+    }
+
+    static void check_track(std::uint64_t bytes) {
+        if (bytes > most_track_bytes) throw ScoreError("a track of a MIDI file cannot be larger than 4 GB");
+    }
+
+    /// What stands at the beginning of the first track, all at tick 0.
+    std::string conductor() const {
+        const double tempo = std::round(60e6 / head_.tempo);  // microseconds a quarter
+        if (!(head_.tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
+            throw ScoreError(fmt::format("a MIDI file cannot tell a tempo of {} quarters a minute", head_.tempo));
+        }
+        std::string bytes;
+        if (!head_.title.empty()) bytes += meta_now(name_type, head_.title);
+        // Texts have no names; so the first is the pattern, be it empty.
+        bytes += meta_now(text_type, head_.pattern);
+        bytes += meta_now(text_type, head_.made);
+        bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(tempo), 3));
+        const int power = std::countr_zero(static_cast<unsigned>(head_.meter.unit));
+        // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
+        const int click = std::max(96 / head_.meter.unit, 1);
+        bytes += meta_now(meter_type, std::string{static_cast<char>(head_.meter.beats), static_cast<char>(power),
+                                                  static_cast<char>(click), 8});
+        if (!head_.parts.empty() && head_.parts.front().key) {
+            const KeySignature key = *head_.parts.front().key;
+            bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
+        }
+        return bytes;
+    }
+
+    static std::string end_of_track(std::int64_t rest) {
+        return delta(static_cast<std::uint64_t>(rest)) + meta(end_type, "");
+    }
+
+    std::string header(std::uint64_t tracks) const {
+        return "MThd" + big_endian(6, 4) + big_endian(static_cast<std::uint64_t>(options_.format), 2) +
+               big_endian(tracks, 2) + big_endian(ticks_per_quarter, 2);
+    }
+
+    void write_head(std::uint64_t tracks, const std::string& conductor_end) {
+        const std::string last = conductor_end + meta(end_type, "");
+        const std::uint64_t size = conductor_.size() + last.size();
+        check_track(size);
+        const std::string front = header(tracks) + "MTrk" + big_endian(size, 4);
+        sink_.write(front);
+        sink_.write(conductor_);
+        sink_.write(last);
+        conductor_end_at_ = front.size() + conductor_.size();
+        head_bytes_ = front.size() + size;
+    }
+
+    std::unique_ptr<Voice> begin_voice(std::int16_t number) {
+        if (sounding_ == most_voices) {
+            throw ScoreError(fmt::format("too many voices: a MIDI file has channels for {}", most_voices));
+        }
+        auto voice = std::make_unique<Voice>();
+        voice->number = number;
+        const int slot = voices_.size() <= most_voices ? number : static_cast<int>(sounding_);
+        voice->channel = slot < drums ? slot : slot + 1;
+        ++sounding_;
+        int within = number;
+        for (const Part& part : head_.parts) {
+            const int count = std::max(part.voices, 0);
+            if (within < count) {
+                voice->program = part.program;
+                voice->name = part.name;
+                if (count > 1 && !part.name.empty()) voice->name += fmt::format(" {}", within + 1);
+                break;
+            }
+            within -= count;
+        }
+        if (options_.microtonal && options_.tuning == Tuning::mts) voice->tuned.assign(128, unset);
+        return voice;
+    }
+
+    /// What stands at the beginning of a voice's track, all at tick 0.
+    std::string open(const Voice& voice) const {
+        std::string bytes;
+        if (!voice.name.empty()) bytes += meta_now(options_.format == 1 ? name_type : instrument_type, voice.name);
+        const int channel = voice.channel;
+        if (options_.microtonal && options_.tuning == Tuning::bend) {
+            bytes += parameter_now(channel, bend_range_parameter, options_.bend_range) + no_parameter_now(channel);
+        }
+        if (options_.microtonal && options_.tuning == Tuning::mts) {
+            // A tuning program of its own, so that voices do not retune each other's keys.
+            bytes += parameter_now(channel, tuning_bank_parameter, 0) +
+                     parameter_now(channel, tuning_program_parameter, channel) + no_parameter_now(channel);
+        }
+        return bytes.append({'\0', static_cast<char>(status(0xC0, channel)), static_cast<char>(voice.program)});
+    }
+
+    /// Writes the notes at the front that are of this voice; returns how many.
+    template <bool microtonal>
+    std::size_t write(Voice& voice, std::span<const Note> notes) {
+        char* out = voice.out;
+        std::int64_t now = voice.now;
+        const int on = status(0x90, voice.channel);
+        const int off = status(0x80, voice.channel);
+        const char* const last_start = voice.last_start();
+        std::size_t i = 0;
+        for (; i < notes.size() && notes[i].voice == voice.number; ++i) {
+            const Note& note = notes[i];
+            // Unsigned, so that what is negative is too much.
+            std::uint64_t rest = static_cast<std::uint64_t>(note.onset) - static_cast<std::uint64_t>(now);
+            const auto length = static_cast<std::uint64_t>(note.duration);
+            const bool is_key = note.key >= 0.0 && note.key <= 127.0;
+            if (rest > most_delta || length - 1 >= most_delta || !is_key || note.velocity - 1U > 126U) {
+                refuse(voice, now, note);
+            }
+            const int key = static_cast<int>(note.key + 0.5);
+            const double fraction = note.key - key;
+            const bool is_fraction = std::abs(fraction) > least_fraction;
+            if (out > last_start) {
+                voice.out = out;
+                flush(voice);
+                out = voice.out;
+            }
+            if constexpr (microtonal) {
+                char* const tuned = voice.tuned.empty() ? bend(voice, out, rest, is_fraction ? fraction : 0.0)
+                                                        : retune(voice, out, rest, key, is_fraction ? fraction : 0.0);
+                if (tuned != out) rest = 0;
+                out = tuned;
+            } else if (is_fraction) {
+                refuse(voice, now, note);
+            }
+            out = put_delta(out, rest);
+            out = put_byte(out, on);
+            out = put_byte(out, key);
+            out = put_byte(out, note.velocity);
+            out = put_delta(out, length);
+            out = put_byte(out, off);
+            out = put_byte(out, key);
+            out = put_byte(out, release);
+            now = note.onset + note.duration;
+        }
+        voice.out = out;
+        voice.now = now;
+        return i;
+    }
+
+    /// @param fraction  of a semitone, -0.5 to 0.5
+    char* bend(Voice& voice, char* out, std::uint64_t rest, double fraction) const {
+        const int wanted = centre + static_cast<int>(std::lround(fraction * centre / options_.bend_range));
+        if (wanted == voice.bend) return out;
+        voice.bend = wanted;
+        out = put_delta(out, rest);
+        out = put_byte(out, status(0xE0, voice.channel));
+        out = put_byte(out, wanted & 0x7F);
+        return put_byte(out, wanted >> 7);
+    }
+
+    static char* retune(Voice& voice, char* out, std::uint64_t rest, int key, double fraction) {
+        const auto wanted = static_cast<std::uint32_t>(std::lround((key + fraction) * 0x1p14));
+        std::uint32_t& tuned = voice.tuned[static_cast<std::size_t>(key)];
+        if (wanted == tuned) return out;
+        tuned = wanted;
+        out = put_delta(out, rest);
+        // Real time, to all devices: in this tuning program one key sounds as so many semitones and 2^-14 of them.
+        for (const int byte : {0xF0, 11, 0x7F, 0x7F, 0x08, 0x02, voice.channel, 1, key}) out = put_byte(out, byte);
+        for (const int shift : {14, 7, 0}) out = put_byte(out, static_cast<int>(wanted >> shift & 0x7F));
+        return put_byte(out, 0xF7);
+    }
+
+    /// Says what is wrong with a note.
+    [[noreturn]] static void refuse(const Voice& voice, std::int64_t now, const Note& note) {
+        const std::string where = fmt::format("voice {}, tick {}: ", voice.number + 1, note.onset);
+        if (note.onset < 0) throw ScoreError(where + "a note before the beginning of the score");
+        if (note.duration <= 0) throw ScoreError(where + fmt::format("a note of {} ticks", note.duration));
+        if (note.onset < now) throw ScoreError(where + fmt::format("a note before the last one ends at {}", now));
+        if (!(note.key >= 0.0 && note.key <= 127.0)) {
+            throw ScoreError(where + fmt::format("key {} is not within 0 to 127", note.key));
+        }
+        if (note.velocity < 1 || note.velocity > 127) {
+            throw ScoreError(where + fmt::format("velocity {} is not within 1 to 127", note.velocity));
+        }
+        const bool is_long = static_cast<std::uint64_t>(note.duration) > most_delta;
+        if (is_long || static_cast<std::uint64_t>(note.onset - now) > most_delta) {
+            throw ScoreError(where + fmt::format("a {} of {} ticks; a MIDI file can tell up to {}",
+                                                 is_long ? "note" : "rest before it",
+                                                 is_long ? note.duration : note.onset - now, most_delta));
+        }
+        throw ScoreError(where + fmt::format("key {} has a fraction, but no microtones were announced", note.key));
+    }
+
+    /// Makes room in the open block.
+    void flush(Voice& voice) {
+        voice.full_bytes += voice.open_block().size();
+        check_track(voice.full_bytes);
+        if (voice.number == 0 && options_.format == 1) {
+            if (!streamed_) begin_streaming(voice);
+            sink_.write(voice.open_block());
+        } else {
+            voice.full.emplace_back(voice.open_block());
+        }
+        voice.out = voice.block.get();
+    }
+
+    /// What is not known yet, finish() fills in.
+    void begin_streaming(const Voice& voice) {
+        streamed_ = true;
+        write_head(0, wide_delta(0));
+        streamed_length_at_ = head_bytes_ + 4;
+        sink_.write("MTrk" + big_endian(0, 4) + open(voice));
+    }
+
+    /// All voices in one track, by tick and rank; what is equal there, by voice.
+    void write_merged(std::int64_t end) {
+        std::vector<std::string> openings;
+        openings.reserve(sounding_);  // events refer to them
+        std::vector<Events> voices;
+        for (const auto& voice : voices_) {
+            if (!voice) continue;
+            openings.push_back(open(*voice));
+            voices.emplace_back(*voice, openings.back());
+        }
+        const std::string head = header(1);
+        sink_.write(head + "MTrk" + big_endian(0, 4));
+        std::string block = conductor_;
+        std::uint64_t bytes = 0;
+        std::int64_t now = 0;
+        const auto write_block = [&] {
+            bytes += block.size();
+            check_track(bytes);
+            sink_.write(block);
+            block.clear();
+        };
+        for (;;) {
+            const auto first = std::min_element(voices.begin(), voices.end(), [](const Events& a, const Events& b) {
+                return !a.done() && (b.done() || a.place() < b.place());
+            });
+            if (first == voices.end() || first->done()) break;
+            block += delta(static_cast<std::uint64_t>(first->tick() - now));
+            block += first->event();
+            now = first->tick();
+            first->next();
+            if (block.size() >= block_bytes) write_block();
+        }
+        block += end_of_track(end - now);
+        write_block();
+        sink_.overwrite(head.size() + 4, big_endian(bytes, 4));
+    }
+
+    const ScoreHead& head_;
+    ByteSink& sink_;
+    const MidiOptions options_;
+    std::vector<std::unique_ptr<Voice>> voices_;  // by number; null while they are silent
+    std::size_t sounding_ = 0;
+    std::string conductor_;
+    bool streamed_ = false;  // head and the beginning of voice 0 are in the sink
+    std::uint64_t head_bytes_ = 0;
+    std::uint64_t conductor_end_at_ = 0;
+    std::uint64_t streamed_length_at_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, ByteSink& sink, const MidiOptions& options) {
+    return std::make_unique<MidiWriter>(head, sink, options);
+}
+
+std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head, const MidiOptions& options) {
+    constexpr std::uint64_t text_bytes = 7;  // delta, FF, type, length
+    constexpr std::uint64_t end_bytes = 7;
+    std::uint64_t fixed =
+        14 + 8 + 3 * text_bytes + head.title.size() + head.pattern.size() + head.made.size() + 7 + 8 + 6 + end_bytes;
+    std::uint64_t longest_name = 0;
+    for (const Part& part : head.parts) longest_name = std::max(longest_name, std::uint64_t{part.name.size()});
+    // Up to ten controllers, the program, and a number after the name.
+    fixed += most_voices * (8 + text_bytes + longest_name + 12 + 10 * 4 + 3 + end_bytes);
+    const std::uint64_t each = plain_note_bytes + (!options.microtonal              ? 0
+                                                   : options.tuning == Tuning::bend ? bend_bytes
+                                                                                    : tuning_bytes);
+    if (notes > (std::numeric_limits<std::uint64_t>::max() - fixed) / each) {
+        return std::numeric_limits<std::uint64_t>::max();
+    }
+    return fixed + notes * each;
+}
+
+}  // namespace sikku

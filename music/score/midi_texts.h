@@ -1,0 +1,21 @@
+// music/score/midi_texts.h: reads back from a MIDI file what a score was made from.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace sikku {
+
+struct MidiTexts {
+    std::string pattern;  ///< the first text of the first track
+    std::string made;     ///< its second text
+};
+
+/// Reads the texts that write_midi puts first into a Standard MIDI File; missing texts stay empty. The bytes may end
+/// after the texts. Memory: the texts. Cost: at most one pass over the first track.
+/// @throws std::runtime_error, whose text continues "this MIDI file …", if the file is damaged before the second text
+/// or if a text exceeds 64 MB
+MidiTexts read_midi_texts(std::span<const std::uint8_t> bytes);
+
+}  // namespace sikku

@@ -1,0 +1,94 @@
+// music/score/score.h: notes, and what a score tells beside them; every reader of a melody and every writer of a file
+// meets here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// Times are counted in ticks from the beginning of the score.
+constexpr std::int64_t ticks_per_quarter = 480;
+
+/// One note of one voice.
+struct Note {
+    std::int64_t onset = 0;
+    std::int64_t duration = 1;   ///< above 0
+    double key = 60.0;           ///< MIDI key, 60 is C4; fractions are microtones; within [0, 127]
+    std::int16_t voice = 0;      ///< counted from 0
+    std::uint8_t velocity = 80;  ///< 1 to 127
+    glm::dvec2 from{0.0};        ///< the piece of the curve it comes from, in turtle steps
+    glm::dvec2 to{0.0};
+};
+
+/// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any order
+/// to each other. Spans die with the call.
+class NoteSink {
+public:
+    virtual ~NoteSink() = default;
+    virtual void notes(std::span<const Note> notes) = 0;
+    /// Called once after the last note. `end`: where the score ends, rests included.
+    virtual void finish(std::int64_t end) = 0;
+};
+
+/// Something about a melody that cannot be written: too many voices, a note out of range that is to be refused.
+class ScoreError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Meter {
+    int beats = 4;
+    int unit = 4;                                                              ///< a power of two, 1 to 64
+    std::int64_t bar() const { return 4 * ticks_per_quarter * beats / unit; }  ///< ticks
+};
+
+/// How a pitch class is written: letter 0 (C) to 6 (B), alteration in semitones.
+struct Spelling {
+    int letter = 0;
+    int alteration = 0;
+};
+
+/// fifths: sharps if positive, flats if negative, -7 to 7.
+struct KeySignature {
+    int fifths = 0;
+    bool minor = false;
+};
+
+/// One instrument: the voices of one pattern.
+struct Part {
+    std::string name;
+    std::string scale;  ///< in words, with its tonic
+    int program = 0;    ///< General MIDI, 0 to 127
+    int voices = 1;     ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
+    std::optional<KeySignature> key;      ///< only for major, minor and the modes
+    std::array<Spelling, 12> spelling{};  ///< of each pitch class from C
+};
+
+/// What a score tells beside its notes. Voices are numbered through the parts in order.
+struct ScoreHead {
+    std::string title;
+    std::string composer;  ///< the pattern's source, perhaps empty
+    std::string pattern;   ///< the text of the pattern file, so that the score can be made again
+    std::string made;      ///< what made it: `sikku 0.1.0, -n 4`
+    double tempo = 120.0;  ///< quarters a minute
+    Meter meter;
+    std::vector<Part> parts;
+};
+
+/// Where a writer puts its bytes: a file that appears whole or not at all, or memory. Failures are thrown.
+class ByteSink {
+public:
+    virtual ~ByteSink() = default;
+    virtual void write(std::string_view bytes) = 0;
+    /// Replaces bytes that were written before; `position` counts from the first.
+    virtual void overwrite(std::uint64_t position, std::string_view bytes) = 0;
+};
+
+}  // namespace sikku
