@@ -125,7 +125,7 @@ Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
     return grammar;
 }
 
-Document load(const PatternOptions& options, const Telling& telling) {
+Document load(const PatternOptions& options, bool quiet) {
     std::vector<Setting> settings;
     for (const std::string& text : options.settings) {
         const std::size_t equals = text.find('=');
@@ -152,19 +152,33 @@ Document load(const PatternOptions& options, const Telling& telling) {
                                           {options.variant, std::move(settings)}, diagnostics);
     if (!diagnostics.is_unreadable()) check_values(document.pattern(), diagnostics);
     diagnostics.throw_if_errors();
-    for (const Diagnostic& warning : diagnostics.list()) telling.say("{}\n", warning.text());
+    if (!quiet) {
+        for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());
+    }
     return document;
 }
 
-Document load(const PatternOptions& options, bool quiet) {
-    return load(options, Telling{.quiet = quiet, .listener = {}, .watch = {}});
+void make(Work& work, const std::string& output, bool quiet) {
+    Made made;
+    {
+        Progress progress(quiet);
+        made = work.make(file_system(), output, progress.monitor());
+    }
+    if (quiet) return;
+    for (const Remark& remark : made.remarks)
+        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", remark.text);
 }
 
-Progress::Progress(double expected, bool quiet)
-    : expected_(expected), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
 
 Progress::~Progress() {
     if (visible_) tell("\r\033[K");
+}
+
+void Progress::expect(double symbols) {
+    expected_ = symbols;
+    symbols_ = 0;
+    started_ = now();
 }
 
 void Progress::add(std::uint64_t symbols) {
@@ -172,6 +186,12 @@ void Progress::add(std::uint64_t symbols) {
     if (interrupted()) throw Interrupted();
     // The clock costs more than most calls do.
     if (shown_ && (symbols == 0 || ++calls_ % 256 == 0)) show();
+}
+
+Monitor Progress::monitor() {
+    return Monitor([](void*) { return interrupted(); },
+                   [](void* progress, std::uint64_t symbols) { static_cast<Progress*>(progress)->add(symbols); },
+                   this, [](void* progress, double symbols) { static_cast<Progress*>(progress)->expect(symbols); });
 }
 
 void Progress::show() {
@@ -187,15 +207,6 @@ void Progress::show() {
              std::string(30 - filled, ' '), share * 100, rate / 1e6);
     } else {
         tell("\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
-    }
-}
-
-double expected_symbols(const Grammar& grammar, bool interpreted) {
-    try {
-        const auto known = grammar.steps() <= most_steps ? estimate(grammar, interpreted) : std::nullopt;
-        return known ? std::pow(10.0, known->log10_length) : 0.0;
-    } catch (const BudgetError&) {
-        return 0.0;  // too much to forecast is not too much to stream
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include "art/provenance/provenance.h"
 #include "cli/signals.h"
+#include "engine/base/text.h"
+#include "engine/interpreter.h"
 #include "engine/language/document.h"
 
 #include <fmt/format.h>
@@ -37,23 +39,11 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noe
     }
 }
 
-/// Where goes what a print or a score has to tell while it is made: to the terminal, or to whoever makes many of
-/// them.
-struct Telling {
-    bool quiet = false;                                     ///< nothing goes to standard error
-    std::function<void(const std::string& text)> listener;  ///< takes it all instead; lines end with a line feed
-    /// Instead of a progress bar: called as DerivationOptions::watch is; may throw to stop.
-    std::function<void(std::uint64_t symbols)> watch;
-
-    template <typename... Arguments>
-    void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) const {
-        if (listener) {
-            listener(fmt::format(format, std::forward<Arguments>(arguments)...));
-        } else if (!quiet) {
-            tell(format, std::forward<Arguments>(arguments)...);
-        }
-    }
-};
+/// The same unless `quiet`.
+template <typename... Arguments>
+void tell_unless(bool quiet, fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {
+    if (!quiet) tell(format, std::forward<Arguments>(arguments)...);
+}
 
 /// Path, name of a pattern that comes along, or `-`: its text and the name to call it by in messages.
 struct PatternText {
@@ -61,13 +51,6 @@ struct PatternText {
     std::string text;
 };
 PatternText read_pattern_text(const std::string& pattern);
-
-/// `1 note`, `2 notes`.
-template <typename Number>
-std::string counted(const Number& count, std::string_view what) {
-    const std::string digits = fmt::format("{}", count);
-    return fmt::format("{} {}{}", digits, what, digits == "1" ? "" : "s");
-}
 
 /// Options of every command that takes a pattern.
 struct PatternOptions {
@@ -94,10 +77,12 @@ void check_values(const Pattern& pattern, Diagnostics& diagnostics);
 /// Compiles what a pattern states; mistakes in its keys, in its grammar and in its style go to `diagnostics`.
 Grammar compile(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// Reads and compiles a pattern; warnings are printed.
+/// Reads, compiles and checks a pattern; warnings are printed unless `quiet`.
 /// @throws PatternError, UsageError for an unknown name
-Document load(const PatternOptions& options, const Telling& telling);
 Document load(const PatternOptions& options, bool quiet);
+
+/// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
+void make(Work& work, const std::string& output, bool quiet);
 
 /// The gallery file of that name among the bundled ones, patterns/posters/NAME.toml, if no file has it.
 std::string known_gallery(const std::string& name);
@@ -105,12 +90,15 @@ std::string known_gallery(const std::string& name);
 /// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.
 class Progress {
 public:
-    /// @param expected  symbols in all, or 0 if unknown
-    Progress(double expected, bool quiet);
+    explicit Progress(bool quiet);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
+    /// Begins another piece of work. @param symbols  in all, or 0 if unknown
+    void expect(double symbols);
     void add(std::uint64_t symbols);
+    /// Refers to this object.
+    Monitor monitor();
     /// For DerivationOptions::watch; refers to this object.
     std::function<void(std::uint64_t)> watch() {
         return [this](std::uint64_t symbols) { add(symbols); };
@@ -118,7 +106,7 @@ public:
 
 private:
     void show();
-    double expected_;
+    double expected_ = 0;
     bool shown_;
     bool visible_ = false;
     double symbols_ = 0;
@@ -126,9 +114,6 @@ private:
     double started_;
     double last_;
 };
-
-/// Symbols of the word, for a progress bar; 0 if only deriving tells.
-double expected_symbols(const Grammar& grammar, bool interpreted);
 
 /// Most symbols of a word kept whole that memory now has room for.
 std::uint64_t memory_budget();

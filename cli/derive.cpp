@@ -133,7 +133,8 @@ void add_derive(CLI::App& app, bool& quiet) {
         const Grammar grammar = shorten(loaded.grammar());
         // Where the word itself goes to the terminal, a bar would be lost in it.
         const bool silent = quiet || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 0;
-        Progress progress(silent ? 0 : expected_symbols(grammar, *interpreted), silent);
+        Progress progress(silent);
+        if (!silent) progress.expect(expected_symbols(grammar, *interpreted));
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;

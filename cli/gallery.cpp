@@ -317,7 +317,9 @@ public:
                 if (sheet.is_poster != posters) continue;
                 for (const std::string& file : sheet_files(sheet)) {
                     make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
-                        draw_gallery_sheet(jobs_, sheet, path, telling_);
+                        draw_gallery_sheet(jobs_, sheet, path, [](std::uint64_t) {
+                            if (interrupted()) throw Interrupted();
+                        });
                     });
                 }
             }
@@ -367,9 +369,6 @@ private:
     GalleryRecord& record_;
     const Options& options_;
     bool shown_;
-    Telling telling_{.quiet = true, .listener = {}, .watch = [](std::uint64_t) {
-                         if (interrupted()) throw Interrupted();
-                     }};
 };
 
 void run(Options& options, bool quiet) {

@@ -251,22 +251,16 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.hash = hashes_[turn.task.job];
     result.job = job.text();
     const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
-        Telling telling;
-        telling.quiet = true;
-        telling.listener = [&](const std::string& text) {
-            const std::string line = text.substr(0, text.find_last_not_of('\n') + 1);
-            told.push_back(line.starts_with("sikku: ") ? line.substr(7) : line);
-        };
-        telling.watch = [this](std::uint64_t) {
-            if (interrupted()) throw Interrupted();
-            progress_->watch();
-        };
-        if (job.is_score()) {
-            play_score(score_settings(job, path), telling);
-        } else {
-            DrawSettings settings = print_settings(job, path);
-            settings.threads = turn.threads;
-            draw_print(settings, telling);
+        OptionValues values = job.values();
+        if (!job.is_score()) values.push_back({"jobs", std::to_string(turn.threads)});
+        const Monitor monitor([](void*) { return interrupted(); },
+                              [](void* progress, std::uint64_t) { static_cast<BatchProgress*>(progress)->watch(); },
+                              progress_);
+        const Document document = job.document();
+        for (const Diagnostic& warning : document.warnings()) told.push_back(warning.text());
+        const auto work = job.interpreter().plan(document, job.format, values, job.folder);
+        for (const Remark& remark : work->make(file_system(), path, monitor).remarks) {
+            told.push_back((remark.is_warning ? "warning: " : "") + remark.text);
         }
     };
     const bool replaces = options_.replaces || record_.is_ours(result.file);

@@ -1,8 +1,11 @@
 #include "cli/gallery_items.h"
 
+#include "art/draw_settings.h"
+#include "art/prints.h"
 #include "art/style/style.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
 
@@ -20,14 +23,27 @@ namespace {
 constexpr std::size_t most_settings = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{16} << 20;
 
-/// Formats of prints, then of scores.
-constexpr std::array<std::string_view, 12> print_formats = {"svg",  "pdf", "png",  "tif", "tiff",  "jpg",
-                                                            "jpeg", "exr", "hpgl", "plt", "gcode", "nc"};
-constexpr std::array<std::string_view, 9> score_formats = {"mid", "midi", "musicxml",  "xml", "ly",
-                                                           "wav", "flac", "notes.svg", "html"};
+bool is_format(const FormatName& row, std::string_view format) {
+    return format == row.extension || (!row.alias.empty() && format == row.alias);
+}
 
-bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
+/// GIF needs a range of derivation lengths, which are jobs of their own here; models have several files.
+bool is_gallery_format(std::string_view format) {
+    return format != "gif" && format != "obj" && format != "glb";
+}
+
+/// Names and aliases of all formats: prints, then scores. `svg` is a print.
+std::vector<std::string_view> known_formats() {
+    std::vector<std::string_view> known;
+    for (const Interpreter* interpreter : {&prints(), &scores()}) {
+        for (const FormatName& row : interpreter->formats()) {
+            for (const std::string_view name : {row.extension, row.alias}) {
+                const bool is_new = std::find(known.begin(), known.end(), name) == known.end();
+                if (!name.empty() && is_new && is_gallery_format(name)) known.push_back(name);
+            }
+        }
+    }
+    return known;
 }
 
 /// `A:B` or `A:B:STEP`; nullopt for what is none.
@@ -79,22 +95,22 @@ void check_value(const std::string& key, const GalleryKeyFacts* facts, const std
                  const std::string& place) {
     if (!fits_xml(value)) fail(place, fmt::format("{}: '{}' is no UTF-8 text", key, printable(value, 80)));
     if (!facts) return;
-    const GalleryKind kind = facts->kind;
+    const OptionKind kind = facts->kind;
     double number = 0;
     const bool is_number = read_number(value, number);
-    if (kind == GalleryKind::number && !is_number) {
+    if (kind == OptionKind::number && !is_number) {
         fail(place, fmt::format("{}: expected a number, not '{}'", key, printable(value, 80)));
     }
-    if (kind == GalleryKind::whole && !is_whole(value)) {
+    if (kind == OptionKind::whole && !is_whole(value)) {
         fail(place, fmt::format("{}: expected a whole number, 0 or more, not '{}'", key, printable(value, 80)));
     }
-    if (kind == GalleryKind::flag && value != "true" && value != "false") {
+    if (kind == OptionKind::flag && value != "true" && value != "false") {
         fail(place, fmt::format("{}: expected true or false, not '{}'", key, printable(value, 80)));
     }
-    if ((kind == GalleryKind::number || kind == GalleryKind::whole) && number < facts->least) {
+    if ((kind == OptionKind::number || kind == OptionKind::whole) && number < facts->least) {
         fail(place, fmt::format("{}: expected {:g} or more, not '{}'", key, facts->least, printable(value, 80)));
     }
-    if ((kind == GalleryKind::number || kind == GalleryKind::whole) && number > facts->most) {
+    if ((kind == OptionKind::number || kind == OptionKind::whole) && number > facts->most) {
         fail(place, fmt::format("{}: expected {:g} at most, not '{}'", key, facts->most, printable(value, 80)));
     }
 }
@@ -103,9 +119,9 @@ void check_value(const std::string& key, const GalleryKeyFacts* facts, const std
 void check_range(const std::string& key, const GalleryRange& range, const std::string& word,
                  const GalleryKeyFacts* facts, const std::string& place) {
     if (!facts) return;
-    if (facts->kind == GalleryKind::flag) check_value(key, facts, word, place);
+    if (facts->kind == OptionKind::flag) check_value(key, facts, word, place);
     const bool is_countable = range.count <= most_gallery_jobs;
-    if (facts->kind == GalleryKind::whole) {
+    if (facts->kind == OptionKind::whole) {
         const auto is_whole_number = [](double value) {
             return value >= 0 && value == std::floor(value) && value < 1e11;
         };
@@ -120,12 +136,11 @@ void check_range(const std::string& key, const GalleryRange& range, const std::s
 }
 
 void check_format(const std::string& format, const std::string& place) {
-    if (is_one_of(format, print_formats) || is_one_of(format, score_formats)) return;
-    std::vector<std::string_view> known(print_formats.begin(), print_formats.end());
-    known.insert(known.end(), score_formats.begin(), score_formats.end());
+    const std::vector<std::string_view> known = known_formats();
+    if (std::find(known.begin(), known.end(), format) != known.end()) return;
     const std::string_view near = nearest(format, known);
-    fail(place, fmt::format("there is no format '{}'{}", printable(format, 80),
-                            near.empty() ? fmt::format("; there are {}", fmt::join(known, ", "))
+    fail(place, fmt::format("unknown format '{}'{}", printable(format, 80),
+                            near.empty() ? fmt::format("; expected {}", fmt::join(known, ", "))
                                          : fmt::format("; did you mean '{}'?", near)));
 }
 
@@ -166,154 +181,51 @@ bool next_line(std::istream& stream, std::string& line, const std::string& place
 
 const std::vector<GalleryKeyFacts>& all_gallery_keys() {
     static const std::vector<GalleryKeyFacts> keys = [] {
+        using enum OptionKind;
         std::vector<GalleryKeyFacts> list = {
-            {{"n", "Derivation length, or a range of them: 1:6", false, true},
+            {{"n", "derivation length, or a range of them: 1:6", false, true}, GalleryUse::any, whole},
+            {{"variant", "one of the pattern's variants", false, true}, GalleryUse::any, text},
+            {{"seed", "random seed", false, true}, GalleryUse::any, whole},
+            {{"budget", "maximum number of derivation nodes visited", false, true},
              GalleryUse::any,
-             GalleryKind::whole,
-             false},
-            {{"variant", "One of the pattern's variants", false, true}, GalleryUse::any, GalleryKind::text, false},
-            {{"budget", "Maximum number of derivation nodes visited", false, true},
-             GalleryUse::any,
-             GalleryKind::number,
+             number,
              false,
-             1},
-            {{"seed", "Random seed", false, true}, GalleryUse::any, GalleryKind::whole, false},
-            {{"size", "Page size of a print: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"landscape", "Landscape page", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"margin", "Margin on all four sides", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"fit", "Fill the page within its margins (default)", true, true},
-             GalleryUse::print,
-             GalleryKind::flag,
-             false},
-            {{"step", "Length of one turtle step on paper", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"rotate", "Rotation in degrees anticlockwise", false, true},
-             GalleryUse::print,
-             GalleryKind::number,
-             false},
-            {{"mirror", "Mirror left and right", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"window", "Part of the drawing that fills the page: X0,Y0,X1,Y1 in turtle steps", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"compression", "PNG compression, 1 (fast) to 9 (small)", false, true},
-             GalleryUse::print,
-             GalleryKind::whole,
-             false,
-             1,
-             9},
-            {{"dpi", "Pixels per inch of pictures", false, true}, GalleryUse::print, GalleryKind::number, false},
-            {{"dot-spacing", "Distance between neighbouring dots of a kolam", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"border", "kaavi: a frame of red earth lines", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"colour-by", "strand: each line in a colour of its own", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"animate", "SVG that draws itself; duration in seconds", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"plotter", "Draw nothing twice, with few pen lifts", true, true},
-             GalleryUse::print,
-             GalleryKind::flag,
-             false},
-            {{"split", "Maximum length of a plotted stroke", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"travel", "Show pen-up travel", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"pen-speed", "Drawing speed in mm per second", false, true},
-             GalleryUse::print,
-             GalleryKind::number,
-             false},
-            {{"travel-speed", "Pen-up speed in mm per second", false, true},
-             GalleryUse::print,
-             GalleryKind::number,
-             false},
-            {{"lift-time", "Seconds to lift and lower the pen", false, true},
-             GalleryUse::print,
-             GalleryKind::number,
-             false},
-            {{"profile", "G-code profile: grbl or z", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"gcode-start", "G-code lines before the first stroke", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"gcode-end", "G-code lines after the last stroke", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"bleed", "How far the ground extends beyond the page", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"marks", "Crop marks; PDF", true, true}, GalleryUse::print, GalleryKind::flag, false},
-            {{"spot", "Spot ink, NAME=COLOUR; PDF", false, true}, GalleryUse::print, GalleryKind::text, false},
-            {{"cmyk", "ICC profile of the CMYK inks; TIFF", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"bits", "Bits per channel: 8 or 1 (TIFF)", false, true},
-             GalleryUse::print,
-             GalleryKind::whole,
-             false,
-             1,
-             8},
-            {{"screen", "Screening for 1 bit: threshold, diffusion, halftone or halftone,LPI", false, true},
-             GalleryUse::print,
-             GalleryKind::text,
-             false},
-            {{"no-icc", "Omit the ICC colour profile from pictures", true, true},
-             GalleryUse::print,
-             GalleryKind::flag,
-             false},
-            {{"angle", "The pattern's angle: its define of that name, or its angle increment", false, true},
-             GalleryUse::any,
-             GalleryKind::text,
-             true},
-            {{"angle-increment", "", false, false}, GalleryUse::any, GalleryKind::text, true},
-            {{"angle-factor", "", false, false}, GalleryUse::any, GalleryKind::text, true},
-            {{"heading", "", false, false}, GalleryUse::any, GalleryKind::text, true},
-            {{"turn", "", false, false}, GalleryUse::any, GalleryKind::text, true},
-            {{"scale-factor", "", false, false}, GalleryUse::print, GalleryKind::text, true},
+             1}};
+        const auto has = [&](std::string_view name) {
+            return std::any_of(list.begin(), list.end(), [&](const auto& key) { return key.shown.name == name; });
         };
+        const auto add = [&](const Interpreter& interpreter, GalleryUse use) {
+            for (const OptionInfo* info : interpreter.options()) {
+                if (info->is_alone || info->is_key || has(info->name)) continue;
+                const bool is_flag = info->kind == flag;
+                const std::string name = (info->is_on ? "no-" : "") + std::string(info->name);
+                list.push_back({{name, std::string(info->help), is_flag, true},
+                                use,
+                                info->kind,
+                                false,
+                                info->least,
+                                info->most});
+            }
+        };
+        add(prints(), GalleryUse::print);
+        list.push_back(
+            {{"angle", "the pattern's angle: its define of that name, or its angle increment", false, true},
+             GalleryUse::any,
+             text,
+             true});
+        for (const char* key : {"angle-increment", "angle-factor", "heading", "turn"}) {
+            list.push_back({{key, "", false, false}, GalleryUse::any, text, true});
+        }
+        list.push_back({{"scale-factor", "", false, false}, GalleryUse::print, text, true});
         for (const KeyInfo& key : language_keys()) {
             if (key.owner == KeyOwner::engine) continue;
             const bool is_art = key.owner == KeyOwner::art;
             list.push_back({{std::string(key.name), std::string(key.help), false, true},
                             is_art ? GalleryUse::print : GalleryUse::score,
-                            GalleryKind::text,
+                            text,
                             is_art});
         }
-        const std::vector<GalleryKeyFacts> of_play = {
-            {{"from-bar", "First bar", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
-            {{"bars", "Number of bars", false, true}, GalleryUse::score, GalleryKind::whole, false, 1},
-            {{"seconds", "Maximum length in seconds", false, true}, GalleryUse::score, GalleryKind::number, false},
-            {{"transpose", "Transposition in semitones", false, true}, GalleryUse::score, GalleryKind::number, false},
-            {{"humanise", "Deviation from exact playing, 0 to 1", false, true},
-             GalleryUse::score,
-             GalleryKind::number,
-             false},
-            {{"midi-format", "MIDI format: 1 (a track for each voice) or 0", false, true},
-             GalleryUse::score,
-             GalleryKind::whole,
-             false},
-            {{"tuning", "Microtones by pitch bend or by the MIDI Tuning Standard: bend, mts", false, true},
-             GalleryUse::score,
-             GalleryKind::text,
-             false}};
-        list.insert(list.end(), of_play.begin(), of_play.end());
+        add(scores(), GalleryUse::score);
         return list;
     }();
     return keys;
@@ -335,8 +247,15 @@ std::string folded_key(std::string key) {
     return key;
 }
 
+const Interpreter& interpreter_of(std::string_view format) {
+    const auto formats = prints().formats();
+    const bool is_print =
+        std::any_of(formats.begin(), formats.end(), [&](const FormatName& row) { return is_format(row, format); });
+    return is_print ? prints() : scores();
+}
+
 bool is_score_format(std::string_view format) {
-    return is_one_of(format, score_formats);
+    return &interpreter_of(format) == &scores();
 }
 
 std::string GalleryRange::value(std::uint64_t index) const {
@@ -438,16 +357,10 @@ void read_gallery_key(const std::string& written, const GalleryValue& value, Gal
 }
 
 void check_sheet_size(const std::string& key, const std::string& size, const std::string& place) {
-    DrawSettings settings;
-    settings.size = size;
-    settings.output = "sheet.svg";
-    settings.margin = "0mm";
     try {
-        plan_print(settings);
-    } catch (const UsageError& error) {
-        std::string message = error.what();
-        if (message.starts_with("--size")) message.replace(0, 6, "--" + key);
-        fail(place, message);
+        read_draw_settings({{"size", size}, {"margin", "0mm"}});
+    } catch (const SettingError& error) {
+        fail(place, fmt::format("{} {}: {}", key, printable(size, 80), error.what()));
     }
 }
 

@@ -18,13 +18,12 @@
 namespace sikku {
 
 enum class GalleryUse { any, print, score };
-enum class GalleryKind { text, number, whole, flag };
 
 /// Properties of a gallery key.
 struct GalleryKeyFacts {
     GalleryKey shown;
     GalleryUse use = GalleryUse::any;
-    GalleryKind kind = GalleryKind::text;
+    OptionKind kind = OptionKind::text;
     bool overrides = false;  ///< it is a key of the pattern, not an option
     double least = -1e300;
     double most = 1e300;
@@ -36,6 +35,8 @@ const GalleryKeyFacts* find_gallery_key(std::string_view name);
 std::string folded_key(std::string key);
 
 bool is_score_format(std::string_view format);
+/// What makes files of that format.
+const Interpreter& interpreter_of(std::string_view format);
 
 /// `60:90:5`, not written out.
 struct GalleryRange {

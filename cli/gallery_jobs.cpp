@@ -49,9 +49,6 @@ std::string name_part(std::string_view value) {
     return part;
 }
 
-double number_of(const GalleryJob& job, const char* key, double otherwise);
-PatternOptions pattern_options(const GalleryJob& job);
-
 /// Compiles patterns as jobs change them, each change once.
 class Compilations {
 public:
@@ -85,7 +82,7 @@ public:
 private:
     static Result compile(const GalleryJob& job) {
         try {
-            return {"", fmt::format("{}", load(pattern_options(job), true).grammar().steps())};
+            return {"", fmt::format("{}", job.document().grammar().steps())};
         } catch (const std::runtime_error& error) {
             std::string message = error.what();
             while (message.ends_with('\n')) message.pop_back();
@@ -269,7 +266,7 @@ private:
                                axis->in_set ? axis->key
                                : overrides  ? override_key(axis->key, pattern)
                                             : "",
-                               facts && facts->kind == GalleryKind::flag});
+                               facts && facts->kind == OptionKind::flag});
         }
         return choices;
     }
@@ -396,20 +393,14 @@ private:
 
     static void check(const GalleryItem& item, const GalleryJob& job) {
         try {
-            if (job.is_score()) {
-                check_score(score_settings(job, job.file()));
-            } else {
-                if (job.keys.contains("step") && job.keys.contains("fit")) {
-                    throw UsageError("step: a print has a step or fits its page, not both");
-                }
-                plan_print(print_settings(job, job.file()));
-            }
-        } catch (const UsageError& error) {
-            // Of a single option, where that was said.
-            const std::string message = error.what();
+            job.interpreter().check(job.format, job.values());
+        } catch (const SettingError& error) {
+            const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
+            const std::string message =
+                error.option().empty() ? error.what() : fmt::format("{}{}: {}", error.option(), value, error.what());
+            // For a single option, its place in the file.
             for (const GalleryItem::Axis& axis : item.axes) {
-                const bool is_option = message.starts_with("--" + axis->key) || message.starts_with(axis->key + ":");
-                if (is_option && !axis->place.empty()) fail(axis->place, message);
+                if (axis->key == error.option() && !axis->place.empty()) fail(axis->place, message);
             }
             fail(job.place, message);
         }
@@ -425,34 +416,6 @@ private:
     std::vector<PatternShelf::List> patterns_;
     mutable std::size_t watched_ = 0;
 };
-
-double number_of(const GalleryJob& job, const char* key, double otherwise) {
-    const auto found = job.keys.find(key);
-    double value = otherwise;
-    if (found != job.keys.end()) read_number(found->second, value);
-    return value;
-}
-
-template <typename Whole>
-void whole_of(const GalleryJob& job, const char* key, Whole& value) {
-    const auto found = job.keys.find(key);
-    if (found == job.keys.end()) return;
-    const std::string& text = found->second;
-    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) {
-        throw UsageError(fmt::format("{}: {} is too large", key, text));
-    }
-}
-
-PatternOptions pattern_options(const GalleryJob& job) {
-    PatternOptions options;
-    options.pattern = job.pattern->path;
-    options.text = job.pattern->text;
-    if (job.keys.contains("n")) options.steps = job.keys.at("n");
-    if (job.keys.contains("variant")) options.variant = job.keys.at("variant");
-    for (const auto& [key, value] : job.overrides) options.settings.push_back(key + "=" + value);
-    if (job.keys.contains("seed")) options.settings.push_back("seed=" + job.keys.at("seed"));
-    return options;
-}
 
 /// The kinds of the patterns, `Kolams, curves`, if they are few.
 std::string title_of(const std::vector<GalleryJob>& jobs) {
@@ -603,83 +566,43 @@ std::string GalleryJob::hash() const {
     if (is_score() && pattern->text) {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
-            for (const auto& [file, held] : scala_files(score_settings(*this, "x.mid"))) {
-                hash.add_piece(file);
-                hash.add_piece(held);
+            try {
+                for (const auto& [file, held] :
+                     interpreter().plan(document(), format, values(), folder)->read_files()) {
+                    hash.add_piece(file);
+                    hash.add_piece(held);
+                }
+            } catch (const std::exception&) {
+                // The job itself reports why.
             }
         }
     }
     return hash.digits();
 }
 
-DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& output) {
-    DrawSettings settings;
-    settings.pattern = pattern_options(job);
-    settings.output = output.string();
-    const auto text = [&](const char* key, std::string& value) {
-        if (job.keys.contains(key)) value = job.keys.at(key);
-    };
-    text("size", settings.size);
-    text("margin", settings.margin);
-    if (job.keys.contains("step") && !job.keys.contains("fit")) settings.step = job.keys.at("step");
-    if (job.keys.contains("window")) settings.window = job.keys.at("window");
-    whole_of(job, "compression", settings.compression);
-    const auto optional = [&](const char* key, std::optional<std::string>& value) {
-        if (job.keys.contains(key)) value = job.keys.at(key);
-    };
-    optional("dot-spacing", settings.dot_spacing);
-    optional("animate", settings.animate);
-    optional("gcode-start", settings.gcode_start);
-    optional("gcode-end", settings.gcode_end);
-    text("border", settings.border);
-    text("colour-by", settings.colour_by);
-    text("split", settings.split);
-    text("profile", settings.profile);
-    text("bleed", settings.bleed);
-    if (job.keys.contains("cmyk")) settings.cmyk = (job.folder / job.keys.at("cmyk")).string();
-    text("screen", settings.screen);
-    if (job.keys.contains("spot")) settings.spots = {job.keys.at("spot")};
-    whole_of(job, "bits", settings.bits);
-    settings.plotter = job.keys.contains("plotter");
-    settings.travel = job.keys.contains("travel");
-    settings.marks = job.keys.contains("marks");
-    settings.icc = !job.keys.contains("no-icc");
-    settings.speeds.drawing = number_of(job, "pen-speed", settings.speeds.drawing);
-    settings.speeds.travelling = number_of(job, "travel-speed", settings.speeds.travelling);
-    settings.speeds.lift = number_of(job, "lift-time", settings.speeds.lift);
-    settings.landscape = job.keys.contains("landscape");
-    settings.mirror = job.keys.contains("mirror");
-    settings.rotate = number_of(job, "rotate", settings.rotate);
-    settings.dpi = number_of(job, "dpi", settings.dpi);
-    settings.budget = number_of(job, "budget", settings.budget);
-    settings.threads = 1;
-    return settings;
+const Interpreter& GalleryJob::interpreter() const {
+    return interpreter_of(format);
 }
 
-PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& output) {
-    PlaySettings settings;
-    settings.pattern = pattern_options(job);
-    settings.patterns = {job.pattern->path};
-    settings.output = output.string();
-    settings.folder = job.folder;
-    const auto keys = keys_of(KeyOwner::music);
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const auto found = job.keys.find(std::string(keys[i]));
-        if (found != job.keys.end()) settings.keys[i] = found->second;
+OptionValues GalleryJob::values() const {
+    OptionValues values;
+    for (const OptionInfo* info : interpreter().options()) {
+        const auto found = keys.find((info->is_on ? "no-" : "") + std::string(info->name));
+        if (found == keys.end()) continue;
+        values.push_back({std::string(info->name), info->is_on ? "false" : found->second});
     }
-    whole_of(job, "from-bar", settings.from_bar);
-    if (settings.from_bar < 1) throw UsageError("from-bar: bars are counted from 1");
-    whole_of(job, "bars", settings.bars);
-    whole_of(job, "seed", settings.seed);
-    whole_of(job, "midi-format", settings.format);
-    if (settings.format != 0 && settings.format != 1) throw UsageError("midi-format: expected 0 or 1");
-    settings.seconds = number_of(job, "seconds", settings.seconds);
-    settings.transpose = number_of(job, "transpose", settings.transpose);
-    settings.humanise = number_of(job, "humanise", settings.humanise);
-    settings.budget = number_of(job, "budget", settings.budget);
-    if (job.keys.contains("tuning")) settings.tuning = job.keys.at("tuning");
-    if (settings.tuning != "bend" && settings.tuning != "mts") throw UsageError("tuning: expected bend or mts");
-    return settings;
+    return values;
+}
+
+Document GalleryJob::document() const {
+    PatternOptions options;
+    options.pattern = pattern->path;
+    options.text = pattern->text;
+    if (keys.contains("n")) options.steps = keys.at("n");
+    if (keys.contains("variant")) options.variant = keys.at("variant");
+    for (const auto& [key, value] : overrides) options.settings.push_back(key + "=" + value);
+    if (keys.contains("seed")) options.settings.push_back("seed=" + keys.at("seed"));
+    return load(options, true);
 }
 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {

@@ -2,9 +2,9 @@
 // line.
 #pragma once
 
-#include "cli/draw.h"
+#include "cli/command.h"
 #include "cli/gallery_patterns.h"
-#include "cli/play.h"
+#include "engine/interpreter.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,17 +33,18 @@ struct GalleryJob {
     /// The file's path below the folder of the gallery.
     std::string file() const { return name + "." + format; }
     bool is_score() const;
+    /// What makes it.
+    const Interpreter& interpreter() const;
+    /// Its options, for the interpreter.
+    OptionValues values() const;
+    /// Its pattern with its overrides, compiled. @throws PatternError, UsageError
+    Document document() const;
     /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
     std::string text() const;
     /// 32 hexadecimal digits of all that decides what the file holds: settings, pattern, files the pattern names,
     /// version of the program.
     std::string hash() const;
 };
-
-/// For a job that is a print.
-DrawSettings print_settings(const GalleryJob& job, const std::filesystem::path& output);
-/// For a job that is a score.
-PlaySettings score_settings(const GalleryJob& job, const std::filesystem::path& output);
 
 /// A key of gallery files, and an option of `sikku gallery`.
 struct GalleryKey {

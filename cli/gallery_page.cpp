@@ -632,7 +632,7 @@ follow();
 
 }  // namespace
 
-void write_gallery_page(std::string_view title, std::span<const GalleryEntry> entries, ByteSink& out) {
+void write_gallery_page(std::string_view title, std::span<const GalleryEntry> entries, Output& out) {
     const std::string heading = xml_escaped(title.empty() ? "Gallery" : title);
     std::string head = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"

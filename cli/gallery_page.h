@@ -36,6 +36,6 @@ struct GalleryEntry {
 ///
 /// Pattern texts that several entries share are in the file once. Bytes that are no UTF-8 become U+FFFD. Throws what
 /// `out` throws.
-void write_gallery_page(std::string_view title, std::span<const GalleryEntry> entries, ByteSink& out);
+void write_gallery_page(std::string_view title, std::span<const GalleryEntry> entries, Output& out);
 
 }  // namespace sikku

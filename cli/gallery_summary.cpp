@@ -1,7 +1,7 @@
 #include "cli/gallery_summary.h"
 
+#include "art/draw_settings.h"
 #include "art/sheet/sheet.h"
-#include "cli/file_bytes.h"
 #include "cli/gallery_page.h"
 #include "engine/base/output_file.h"
 #include "engine/derivation/forecast.h"
@@ -59,11 +59,6 @@ std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys
     return text;
 }
 
-Document load_quietly(const GalleryJob& job) {
-    return load(job.is_score() ? score_settings(job, job.file()).pattern : print_settings(job, job.file()).pattern,
-                true);
-}
-
 /// How the word grows: with the step's number in the exponent, with a power of it, or not at all; empty where the
 /// grammar does not tell.
 std::string growth_of(const Grammar& grammar) {
@@ -93,7 +88,7 @@ std::string angle_of(const Pattern& pattern) {
 
 GalleryEntry entry_of(const Prints& item) {
     const GalleryJob& first = *item.jobs.front();
-    const Document loaded = load_quietly(first);
+    const Document loaded = first.document();
     GalleryEntry entry;
     entry.name = first.name;
     entry.title = loaded.pattern().text("title");
@@ -118,7 +113,7 @@ GalleryEntry entry_of(const Prints& item) {
         if (small && entry.thumbnail.empty()) entry.thumbnail = small->file();
     }
     if (!shown->is_score()) {
-        const Page page = plan_print(print_settings(*shown, shown->file())).print.page;
+        const Page page = read_draw_settings(shown->values()).page;
         entry.width = static_cast<int>(std::lround(page.width));
         entry.height = static_cast<int>(std::lround(page.height));
     }
@@ -156,9 +151,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
     std::vector<GalleryEntry> entries;
     for (const Prints& item : by_name(jobs)) entries.push_back(entry_of(item));
     OutputFile file(path);
-    FileBytes bytes(file);
-    write_gallery_page(title, entries, bytes);
-    bytes.finish();
+    write_gallery_page(title, entries, file);
     file.commit();
 }
 
@@ -182,7 +175,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
         const auto print =
             std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return !job->is_score(); });
         if (print == item.jobs.end()) continue;
-        prints.emplace_back(*print, load_quietly(**print));
+        prints.emplace_back(*print, (*print)->document());
         lengths[(*print)->pattern.get()].insert(prints.back().second.grammar().steps());
         const GalleryJob& other = *first.emplace((*print)->pattern.get(), *print).first->second;
         std::set<std::string>& keys = varying[(*print)->pattern.get()];
@@ -197,14 +190,16 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
         std::all_of(lengths.begin(), lengths.end(), [](const auto& one) { return one.second.size() > 1; });
     const GalleryPattern* row = nullptr;
     for (auto& [job, loaded] : prints) {
-        const PlannedPrint planned = plan_print(print_settings(*job, job->file()));
+        const DrawSettings settings = read_draw_settings(job->values());
         SheetCell cell;
         Diagnostics diagnostics;
-        cell.style = read_style(loaded.pattern(), planned.print.dpi, diagnostics);
+        cell.style = read_style(loaded.pattern(), settings.dpi, diagnostics);
         diagnostics.throw_if_errors();
-        cell.placement = planned.drawing.placement;
-        cell.window = planned.drawing.window;
-        cell.budget = planned.drawing.budget;
+        cell.placement.rotate = settings.rotate;
+        cell.placement.mirror = settings.mirror;
+        cell.placement.step = settings.step;
+        cell.window = settings.window;
+        cell.budget = settings.budget;
         cell.title = loaded.pattern().text("title");
         if (cell.title.empty()) cell.title = job->pattern->name;
         cell.grammar = std::make_shared<const Grammar>(loaded.grammar());
@@ -218,8 +213,8 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
             cell.caption = {job->name};
         }
         if (request.is_poster) {
-            const std::string settings = settings_of(*job, &varying.at(job->pattern.get()));
-            if (!settings.empty()) cell.caption.push_back(settings);
+            const std::string told = settings_of(*job, &varying.at(job->pattern.get()));
+            if (!told.empty()) cell.caption.push_back(told);
         }
         cells.push_back(std::move(cell));
     }
@@ -227,13 +222,9 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
 }
 
 SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
-    DrawSettings settings;
-    settings.size = request.size;
-    settings.output = file.string();
-    const PlannedPrint planned = plan_print(settings);
     SheetOptions options;
-    options.format = planned.drawing.format;
-    options.page = planned.print.page;
+    options.format = *print_format(file);
+    options.page = read_draw_settings({{"size", request.size}}).page;
     options.page.margin = std::min(options.page.width, options.page.height) / 25;
     // Large sheets are looked at from further away, and memory has an end.
     options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
@@ -247,11 +238,11 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 }  // namespace
 
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Telling& telling) {
+                        const std::filesystem::path& file, const std::function<void(std::uint64_t)>& watch) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
     if (cells.empty()) return;
     SheetOptions options = options_of(request, file);
-    options.watch = telling.watch;
+    options.watch = watch;
     draw_sheet(cells, options, file);
 }
 

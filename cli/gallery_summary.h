@@ -4,6 +4,7 @@
 #include "cli/gallery_jobs.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 /// have several derivation lengths, each has rows of its own. Nothing is written where there is no print.
 /// @throws UsageError, and what draw_sheet() throws
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Telling& telling);
+                        const std::filesystem::path& file, const std::function<void(std::uint64_t)>& watch);
 
 /// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

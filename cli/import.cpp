@@ -82,7 +82,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 
 /// Each into a file of its own name; a name that is taken gets a number.
 void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices,
-                  const std::string& folder, const Telling& telling) {
+                  const std::string& folder, bool quiet) {
     std::filesystem::create_directories(folder);
     std::set<std::string> taken;
     std::size_t written = 0;
@@ -95,14 +95,14 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
         std::string name = plain;
         for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}-{}", plain, number);
         if (name != plain) {
-            telling.say("sikku: there is a {}.lsys already: '{}' of line {} is {}.lsys\n", plain, system.name,
+            tell_unless(quiet, "sikku: there is a {}.lsys already: '{}' of line {} is {}.lsys\n", plain, system.name,
                         system.line, name);
         }
         write_file(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
         ++written;
         if (!system.losses.empty()) ++lossy;
     }
-    telling.say("sikku: {} in {}{}\n", counted(written, "pattern"), folder,
+    tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), folder,
                 lossy > 0 ? fmt::format(", {} of them without all that they had", lossy) : "");
 }
 
@@ -116,7 +116,7 @@ bool concerns(const Diagnostic& diagnostic, const SourcePointer& file, const std
     return std::binary_search(indices.begin(), indices.end(), static_cast<std::size_t>(after - systems.begin()) - 1);
 }
 
-void import_file(const ImportOptions& options, const Telling& telling) {
+void import_file(const ImportOptions& options, bool quiet) {
     const SourcePointer file = read_source(options.file);
     const auto format = import_format(file->text());
     if (!format) {
@@ -143,14 +143,14 @@ void import_file(const ImportOptions& options, const Telling& telling) {
     for (const Diagnostic& diagnostic : diagnostics.sorted()) {
         if (!concerns(diagnostic, file, systems, indices)) continue;
         if (diagnostic.warning) {
-            telling.say("{}\n", diagnostic.text());
+            tell_unless(quiet, "{}\n", diagnostic.text());
         } else {
             tell("{}\n", diagnostic.text());
         }
     }
     const ImportedSystem& first = systems[indices.front()];
     if (to_folder) {
-        write_folder(systems, indices, options.output, telling);
+        write_folder(systems, indices, options.output, quiet);
     } else if (first.pattern.empty()) {
     } else if (options.output.empty()) {
         fmt::print("{}", first.pattern);
@@ -183,8 +183,7 @@ void add_import(CLI::App& app, bool& quiet) {
         "  sikku import fractint.l -o imported\n"
         "  sikku import fractint.l Dragon | sikku draw - -n 10 -o dragon.svg\n"
         "  sikku import plant.l --view-file plant.v -o plant.lsys");
-    command->callback(
-        [options, &quiet] { import_file(*options, Telling{.quiet = quiet, .listener = {}, .watch = {}}); });
+    command->callback([options, &quiet] { import_file(*options, quiet); });
 }
 
 }  // namespace sikku

@@ -156,7 +156,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         examination.moves_lift = style.moves_lift;
         examination.draws = [&style](const Pen& pen) { return style.draws(pen); };
         examination.budget = *budget;
-        Progress progress(0, quiet);
+        Progress progress(quiet);
         examination.watch = progress.watch();
         examination.monitor = stop_monitor();
         const KolamExamination examined = examine_kolam(loaded.grammar(), examination);

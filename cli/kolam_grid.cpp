@@ -73,8 +73,7 @@ std::optional<std::size_t> second_count(const DotGrid& grid, const Crossings& cr
     return laplacian_nullity(grid, crossings, stop_monitor());
 }
 
-void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry,
-                  const Telling& telling) {
+void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry, bool quiet) {
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json: standard output is the pattern's; give its file with -o");
     }
@@ -114,7 +113,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed for it", counted(made.changed, "gap"));
         if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
-        telling.say("sikku: {}: {}{}\n", name, pattern.description, note);
+        tell_unless(quiet, "sikku: {}: {}{}\n", name, pattern.description, note);
     }
 }
 
@@ -197,7 +196,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->capture_default_str();
 }
 
-void kolam_grid(const KolamGridOptions& options, const Telling& telling) {
+void kolam_grid(const KolamGridOptions& options, bool quiet) {
     const DotGrid grid = of_option("--grid", [&] { return parse_dot_grid(options.grid); });
     const GridSymmetry symmetry = of_option("--symmetry", [&] {
         const GridSymmetry wanted = parse_grid_symmetry(options.symmetry);
@@ -213,7 +212,7 @@ void kolam_grid(const KolamGridOptions& options, const Telling& telling) {
     if (options.enumerate) {
         enumerate(options, grid, symmetry);
     } else {
-        make_pattern(options, grid, symmetry, telling);
+        make_pattern(options, grid, symmetry, quiet);
     }
 }
 

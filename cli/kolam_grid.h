@@ -33,6 +33,6 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options);
 
 /// Writes the pattern of a kolam, or lists the kolams of an enumeration.
 /// @throws UsageError, and std::runtime_error if no single line was found or the file cannot be written
-void kolam_grid(const KolamGridOptions& options, const Telling& telling);
+void kolam_grid(const KolamGridOptions& options, bool quiet);
 
 }  // namespace sikku

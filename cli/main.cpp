@@ -1,5 +1,6 @@
 // cli/main.cpp: the program: its commands and its errors.
 #include "cli/command.h"
+#include "cli/options.h"
 #include "cli/signals.h"
 #include "engine/derivation/derivation.h"
 #include "music/score/score.h"
@@ -74,6 +75,8 @@ int run(int argc, char** argv) {
         return fail(2, error.what());
     } catch (const ScoreError& error) {
         return fail(2, error.what());
+    } catch (const SettingError& error) {
+        return fail(2, option_message(error));
     } catch (const UsageError& error) {
         return fail(2, error.what());
     } catch (const Stopped& stopped) {

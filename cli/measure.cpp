@@ -144,7 +144,7 @@ void add_measure(CLI::App& app, bool& quiet) {
         "  sikku measure hilbert -n 60 --json");
     command->callback([options, as_json, budget, &quiet] {
         const Document loaded = load(*options, quiet);
-        Progress progress(0, quiet);
+        Progress progress(quiet);
         const Measurement measured = measure(loaded.grammar(), *budget, progress.watch());
         const std::string title = loaded.pattern().text("title");
         fmt::print("{}", *as_json ? json(title, measured) : prose(title, measured));

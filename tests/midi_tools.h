@@ -18,22 +18,20 @@
 namespace sikku {
 
 /// A file in memory.
-class MidiMemory final : public ByteSink {
+class MidiMemory final : public MemoryOutput {
 public:
     void write(std::string_view bytes) override {
-        bytes_ += bytes;
+        MemoryOutput::write(bytes);
         largest_ = std::max(largest_, bytes.size());
     }
     void overwrite(std::uint64_t position, std::string_view bytes) override {
-        if (position + bytes.size() > bytes_.size()) throw std::logic_error("nothing was written there yet");
-        bytes_.replace(position, bytes.size(), bytes);
+        if (position + bytes.size() > size()) throw std::logic_error("nothing was written there yet");
+        MemoryOutput::overwrite(position, bytes);
     }
-    const std::string& bytes() const { return bytes_; }
     /// The most bytes written at once.
     std::size_t largest() const { return largest_; }
 
 private:
-    std::string bytes_;
     std::size_t largest_ = 0;
 };
 

@@ -1,4 +1,4 @@
-#include "cli/music_page.h"
+#include "music/score/music_page.h"
 
 #include "tests/files.h"
 #include "tests/print_tools.h"
@@ -22,13 +22,9 @@
 namespace sikku {
 namespace {
 
-class Memory : public ByteSink {
+class Memory : public MemoryOutput {
 public:
-    void write(std::string_view bytes) override { text += bytes; }
-    void overwrite(std::uint64_t position, std::string_view bytes) override {
-        text.replace(static_cast<std::size_t>(position), bytes.size(), bytes);
-    }
-    std::string text;
+    const std::string& text = bytes_;
 };
 
 Note note(std::int64_t onset, std::int64_t duration, double key, glm::dvec2 from, glm::dvec2 to,

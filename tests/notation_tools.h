@@ -19,13 +19,9 @@
 
 namespace sikku {
 
-class MemorySink final : public ByteSink {
+class MemorySink final : public MemoryOutput {
 public:
-    void write(std::string_view bytes) override { text += bytes; }
-    void overwrite(std::uint64_t position, std::string_view bytes) override {
-        text.replace(static_cast<std::size_t>(position), bytes.size(), bytes);
-    }
-    std::string text;
+    const std::string& text = bytes_;
 };
 
 /// A note as it can be told from print: ticks, and the key to the quarter tone.

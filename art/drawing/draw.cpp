@@ -11,7 +11,7 @@
 #include "art/space/solids.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/point_tree.h"
@@ -163,7 +163,9 @@ public:
         dots_ = dot_places(examination);
         distance_ = least_distance(dots_);
         if (options.dot_spacing) {
-            if (!(distance_ > 0)) throw std::runtime_error("--dot-spacing: there are no two dots");
+            if (!(distance_ > 0))
+                throw std::runtime_error(
+                    fmt::format("dot spacing needs at least two dots; this drawing has {}", dots_.size()));
             options.placement.step = *options.dot_spacing / distance_;
         }
         if (dots_.empty() && options.only_dots) {
@@ -272,7 +274,7 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
 }
 
 void draw_plot(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
-               OutputFile& output, DrawReport& report) {
+               Output& output, DrawReport& report) {
     // Where lines are drawn they are what a pen draws, and not the edges of fills beside them.
     print.is_plot = true;
     PlotOptions arranged = options.plot.value_or(PlotOptions{});
@@ -306,7 +308,7 @@ void draw_plot(const Drawing& drawing, const Composition& composition, Print pri
 using Content = std::function<void(PathSink& sink)>;
 
 /// @return is nothing of the drawing visible?
-bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, OutputFile& output,
+bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& options, Output& output,
                   const std::filesystem::path& file) {
     Picture picture(print, options, rendering.channels(), output, file);
     std::mutex mutex;
@@ -324,7 +326,7 @@ bool write_pixels(Rendering& rendering, const Print& print, const DrawOptions& o
 }
 
 /// @return is it a picture in which nothing of the drawing is visible?
-bool write(const Content& content, const Print& given, const DrawOptions& options, OutputFile& output,
+bool write(const Content& content, const Print& given, const DrawOptions& options, Output& output,
            const std::filesystem::path& file) {
     // Only PDF knows the sheet from its bleed.
     const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
@@ -341,16 +343,17 @@ bool write(const Content& content, const Print& given, const DrawOptions& option
 
 /// Each sheet is drawn from the whole word again, and keeps what is seen on it.
 void draw_tiles(const Drawing& drawing, const Composition& composition, Print print, double widest,
-                const DrawOptions& options, const std::filesystem::path& file, DrawReport& report) {
+                const DrawOptions& options, const std::filesystem::path& file, Destination& destination,
+                DrawReport& report) {
     const int mark_colour = static_cast<int>(print.style.palette.size());
     const bool is_dark = print.style.ground && print.style.ground->red + print.style.ground->green < 256;
     const std::uint8_t grey = is_dark ? 0xc0 : 0x70;
     print.style.palette.push_back({grey, grey, grey, 255});
     const double around = widest / (print.style.stroke.in_steps ? 1.0 : print.placement.step);
-    std::vector<std::unique_ptr<OutputFile>> outputs;
+    std::vector<std::unique_ptr<Output>> outputs;
     for (const Tile& tile : tiles_of(print.page, *options.tiles)) {
         const Print sheet = tile_print(print, tile, *options.tiles);
-        outputs.push_back(std::make_unique<OutputFile>(tile_file(file, tile)));
+        outputs.push_back(destination.open(tile_file(file, tile)));
         const glm::dmat3x2& to_page = sheet.placement.to_page;
         const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
         Box seen;
@@ -568,14 +571,14 @@ bool Drawing::all_lines_are_seen() const {
 }
 
 DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_options,
-                const std::filesystem::path& file) {
+                const std::filesystem::path& file, Destination& destination) {
     DrawOptions options = given_options;
     if (!is_vector(options.format)) prepare_images(options.threads);
     // Once for both roads.
     const Grammar grammar = resolved(given, options);
-    if (auto report = draw_view(grammar, print, options, file)) return *report;
+    if (auto report = draw_view(grammar, print, options, file, destination)) return *report;
     if (grammar.is_spatial() && (print.style.dots || options.colours_strokes || options.border || print.animation)) {
-        throw std::runtime_error("dots, colours by strand, borders and --animate are for drawings in the plane");
+        throw std::runtime_error("dots, colours by strand, borders and animations are for drawings in the plane");
     }
     Composition composition(grammar, print, options);
     Drawing drawing(grammar, print.style, options);
@@ -583,9 +586,9 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
     print.style = drawing.style();
     const bool is_plot = options.plot || is_for_plotters(options.format);
     if (options.tiles) {
-        if (is_plot) throw std::runtime_error("--tile: a plot is not cut into sheets");
+        if (is_plot) throw std::runtime_error("a plot cannot be cut into sheets");
         if (grammar.is_spatial() && !is_vector(options.format)) {
-            throw std::runtime_error("--tile: drawings in space are cut into sheets as SVG or PDF");
+            throw std::runtime_error("drawings in space are cut into sheets only as SVG or PDF");
         }
         if (options.placement.step) {
             // The page of the whole is as large as the drawing asks for.
@@ -595,10 +598,11 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
         }
         composition.add_colours(print);
         check_spots(print.press, print.style);
-        draw_tiles(drawing, composition, print, drawing.extent().widest, options, file, report);
+        draw_tiles(drawing, composition, print, drawing.extent().widest, options, file, destination, report);
         return report;
     }
-    OutputFile output(file);
+    const auto opened = destination.open(file);
+    Output& output = *opened;
     report.dots = composition.dots();
     composition.add_colours(print);
     check_spots(print.press, print.style);
@@ -619,7 +623,7 @@ DrawReport draw(const Grammar& given, Print print, const DrawOptions& given_opti
 }
 
 ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& options, PrintFormat format,
-                       const std::filesystem::path& file) {
+                       const std::filesystem::path& file, Destination& destination) {
     if (print.style.line == Line::spline) {
         throw std::runtime_error("a model is of straight lines, and this drawing is of splines");
     }
@@ -633,7 +637,7 @@ ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& opt
     PlacementOptions placement = options.placement;
     placement.scale *= grammar.scale_percent() / 100;
     place_print(print, {seen.box, seen.widest}, print.style.stroke, placement);
-    return write_model(scene, print, format, file, options.monitor);
+    return write_model(scene, print, format, file, options.monitor, destination);
 }
 
 }  // namespace sikku

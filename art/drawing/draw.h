@@ -11,6 +11,7 @@
 #include "art/space/model.h"
 #include "art/space/scene.h"
 #include "engine/base/monitor.h"
+#include "engine/base/output.h"
 #include "engine/geometry/path.h"
 #include "engine/language/grammar.h"
 
@@ -133,12 +134,13 @@ private:
 /// the word. What leaves nothing on paper (`stroke: none`, transparent colours) does not count. Drawings in space
 /// (Grammar::is_spatial()) are seen as the style's camera sees them.
 /// @throws BudgetError, WordError; std::runtime_error if nothing is drawn or the file cannot be written
-DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file);
+DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file,
+                Destination& destination = file_system());
 
 /// A model of what is drawn: see write_model(). Widths in millimetres are those that a print would have; of `options`
 /// placement, budget, begin and watch count.
 /// @throws as draw()
 ModelReport draw_model(const Grammar& grammar, Print print, const DrawOptions& options, PrintFormat format,
-                       const std::filesystem::path& file);
+                       const std::filesystem::path& file, Destination& destination = file_system());
 
 }  // namespace sikku

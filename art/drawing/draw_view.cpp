@@ -6,7 +6,7 @@
 #include "art/raster/raster.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
@@ -279,7 +279,7 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
 
 std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options) {
     const auto none = [&](const char* why) -> std::optional<Parts<double>> {
-        if (options.window) throw std::runtime_error(std::string("--window: ") + why);
+        if (options.window) throw std::runtime_error(std::string("this drawing has no window: ") + why);
         return std::nullopt;
     };
     if (is_vector(options.format) && !options.window) return std::nullopt;
@@ -432,7 +432,7 @@ struct Strip {
 };
 
 /// Sets `is_blank` if nothing of the drawing is visible.
-ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, OutputFile& output,
+ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, Output& output,
                        const std::filesystem::path& file, bool& is_blank) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixel = 25.4 / print.dpi;
@@ -497,12 +497,13 @@ ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const Dra
 }  // namespace
 
 std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const DrawOptions& options,
-                                    const std::filesystem::path& file) {
+                                    const std::filesystem::path& file, Destination& destination) {
     auto parts = seen_parts(grammar, print.style, options);
     if (!parts) return std::nullopt;
     const SeenDrawing drawing(grammar, std::move(*parts), print.style, options);
     if (options.begin) options.begin(1);
-    OutputFile output(file);
+    const auto opened = destination.open(file);
+    Output& output = *opened;
     DrawReport report = drawing.place(print);
     check_spots(print.press, print.style);
     if (options.format != PrintFormat::pdf) print = as_picture(std::move(print));

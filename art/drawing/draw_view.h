@@ -66,6 +66,6 @@ private:
 /// As draw(), of what has seen_parts(); else nullopt, and nothing is written. Pictures are made in strips, each from
 /// a walk of its own that passes over what lies outside.
 std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const DrawOptions& options,
-                                    const std::filesystem::path& file);
+                                    const std::filesystem::path& file, Destination& destination);
 
 }  // namespace sikku

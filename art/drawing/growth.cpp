@@ -3,7 +3,7 @@
 #include "art/drawing/draw_view.h"
 #include "art/image/image_file.h"
 #include "art/raster/raster.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 
@@ -68,9 +68,10 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
 }
 
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
-              const std::filesystem::path& file, DrawReport& report) {
+              const std::filesystem::path& file, Destination& destination, DrawReport& report) {
     const PixelSize size = pixel_size(given.page, given.dpi);
-    OutputFile output(file);
+    const auto opened = destination.open(file);
+    Output& output = *opened;
     std::unique_ptr<AnimationWriter> animation;
     const auto named = [&](auto&& action) {
         try {
@@ -120,7 +121,7 @@ std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t
 }
 
 DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOptions& given_options,
-                       const GrowthOptions& growth, const std::filesystem::path& file) {
+                       const GrowthOptions& growth, const std::filesystem::path& file, Destination& destination) {
     if (growth.first < 0 || growth.last > most_steps || growth.last - growth.first >= most_frames) {
         throw std::runtime_error(
             fmt::format("expected up to {} generations, with derivation "
@@ -139,15 +140,15 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
         options.frame = frame_of(grammar, print.style, options, growth, bounds);
     }
     DrawReport report;
-    if (lower_case(file.extension().string()) == ".gif") {
-        draw_gif(grammar, print, options, growth, file, report);
+    if (growth.is_animation) {
+        draw_gif(grammar, print, options, growth, file, destination, report);
         return report;
     }
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
         if (growth.made) print.made = growth.made(generation);
         report = draw(generation, print, framed(grammar, print.style, options, growth, n),
-                      frame_file(file, n, growth.last));
+                      frame_file(file, n, growth.last), destination);
     }
     return report;
 }

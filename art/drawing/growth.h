@@ -18,6 +18,7 @@ struct GrowthOptions {
     double seconds = 0.5;              ///< display time of each generation
     double hold = 2.0;                 ///< minimum display time of the last one
     bool fits_each = false;            ///< scale each to the page instead of sharing one scale and position
+    bool is_animation = false;         ///< one animated GIF instead of a file for each generation
     /// What Print::made says of a file of its own; null: as it stands.
     std::function<std::string(const Grammar& generation)> made{};
 };
@@ -26,13 +27,14 @@ struct GrowthOptions {
 std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last);
 
 /// Draws each generation like draw(), but all with one scale and position, chosen for the largest of them and the
-/// area they cover together (unless `fits_each`): as an animated GIF if `file` ends in .gif, otherwise as one file
-/// for each (frame_file()). For GIF, `print` and `options` have the same meaning as for a PNG on white paper.
+/// area they cover together (unless `fits_each`): as one animated GIF, or as one file for each
+/// (frame_file()). For GIF, `print` and `options` have the same meaning as for a PNG on white paper.
 /// Generations that draw nothing are empty pages. Separate files appear one after the other, each whole; an error in
 /// a later one leaves earlier ones in place.
 /// @return what became of the last
 /// @throws as draw(); std::runtime_error if all are empty or there are more than most_frames
 DrawReport draw_growth(const Grammar& grammar, const Print& print, const DrawOptions& options,
-                       const GrowthOptions& growth, const std::filesystem::path& file);
+                       const GrowthOptions& growth, const std::filesystem::path& file,
+                       Destination& destination = file_system());
 
 }  // namespace sikku

@@ -22,7 +22,7 @@ auto named(const std::filesystem::path& file, Action&& action) {
 
 }  // namespace
 
-Picture::Picture(const Print& print, const DrawOptions& options, int channels, OutputFile& output,
+Picture::Picture(const Print& print, const DrawOptions& options, int channels, Output& output,
                  std::filesystem::path file)
     : file_(std::move(file)),
       channels_(static_cast<std::size_t>(channels)),

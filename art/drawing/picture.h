@@ -4,7 +4,7 @@
 #include "art/drawing/draw.h"
 #include "art/image/image_file.h"
 #include "art/print/screen.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,8 +19,7 @@ namespace sikku {
 /// Failures are std::runtime_error and name the file.
 class Picture {
 public:
-    Picture(const Print& print, const DrawOptions& options, int channels, OutputFile& output,
-            std::filesystem::path file);
+    Picture(const Print& print, const DrawOptions& options, int channels, Output& output, std::filesystem::path file);
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
     void close();
     /// After the last row: is every pixel indistinguishable from the ground?

@@ -102,7 +102,7 @@ void require(bool holds, const char* what) {
 
 class Writer final : public PlotWriter {
 public:
-    Writer(const Print& print, const GcodeOptions& options, OutputFile& file)
+    Writer(const Print& print, const GcodeOptions& options, Output& file)
         : PlotWriter(print), options_(options), file_(file) {
         for (const double feed : {options.drawing_feed, options.travel_feed, options.z_feed}) {
             require(std::isfinite(feed) && feed > 0, "a feed is finite and above 0 mm/min");
@@ -239,7 +239,7 @@ private:
     }
 
     GcodeOptions options_;
-    OutputFile& file_;
+    Output& file_;
     int pen_ = 0;
     bool started_ = false;            // the pen is down
     glm::dvec2 at_{0.0};              // where it is, as it was written
@@ -269,7 +269,7 @@ std::optional<GcodeOptions> gcode_profile(std::string_view name) {
     return name == "grbl" || name == "z" ? std::optional(options) : std::nullopt;
 }
 
-std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, OutputFile& file) {
+std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file) {
     return std::make_unique<Writer>(print, options, file);
 }
 

@@ -3,7 +3,7 @@
 
 #include "art/plotter/plot.h"
 #include "art/print/print.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 
 #include <memory>
 #include <optional>
@@ -45,6 +45,6 @@ std::string gcode_comment(std::string_view label, std::string_view text);
 /// that are not finite and at least 0; from here and from every call of the writer if the file cannot be written; and
 /// for what lies off the page
 /// Source: NIST RS274/NGC Interpreter, version 3, 2000; grbl 1.1.
-std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, OutputFile& file);
+std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file);
 
 }  // namespace sikku

@@ -20,7 +20,7 @@ using Units = glm::ivec2;
 
 class Writer final : public PlotWriter {
 public:
-    Writer(const Print& print, OutputFile& file) : PlotWriter(print), file_(file) { file_.write("IN;\n"); }
+    Writer(const Print& print, Output& file) : PlotWriter(print), file_(file) { file_.write("IN;\n"); }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
@@ -88,7 +88,7 @@ private:
         instruction_.clear();
     }
 
-    OutputFile& file_;
+    Output& file_;
     int pen_ = 0;
     bool started_ = false;  // the pen is down
     bool moved_ = false;    // and has drawn something
@@ -98,7 +98,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PlotWriter> write_hpgl(const Print& print, OutputFile& file) {
+std::unique_ptr<PlotWriter> write_hpgl(const Print& print, Output& file) {
     return std::make_unique<Writer>(print, file);
 }
 

@@ -3,7 +3,7 @@
 
 #include "art/plotter/plot.h"
 #include "art/print/print.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 
 #include <memory>
 
@@ -17,6 +17,6 @@ namespace sikku {
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and for
 /// what lies off the page
 /// Source: Hewlett-Packard, HP-GL/2 and HP RTL Reference Guide, 1997.
-std::unique_ptr<PlotWriter> write_hpgl(const Print& print, OutputFile& file);
+std::unique_ptr<PlotWriter> write_hpgl(const Print& print, Output& file);
 
 }  // namespace sikku

@@ -71,21 +71,22 @@ Spot parse_spot(std::string_view text) {
     return {std::string(name), *colour};
 }
 
+void add_spot(std::vector<Spot>& spots, Spot spot) {
+    for (const Spot& other : spots) {
+        if (other.name == spot.name) {
+            throw std::runtime_error(fmt::format("two spot colours are named '{}'", spot.name));
+        }
+        if (other.colour == spot.colour) {
+            throw std::runtime_error(fmt::format("spot colours '{}' and '{}' are both {}", other.name, spot.name,
+                                                 colour_name(spot.colour)));
+        }
+    }
+    spots.push_back(std::move(spot));
+}
+
 std::vector<Spot> parse_spots(std::span<const std::string> texts) {
     std::vector<Spot> spots;
-    for (const std::string& text : texts) {
-        Spot spot = parse_spot(text);
-        for (const Spot& other : spots) {
-            if (other.name == spot.name) {
-                throw std::runtime_error(fmt::format("spot colour '{}': there are two of that name", spot.name));
-            }
-            if (other.colour == spot.colour) {
-                throw std::runtime_error(fmt::format("spot colours '{}' and '{}' are both {}", other.name, spot.name,
-                                                     colour_name(spot.colour)));
-            }
-        }
-        spots.push_back(std::move(spot));
-    }
+    for (const std::string& text : texts) add_spot(spots, parse_spot(text));
     return spots;
 }
 

@@ -40,6 +40,8 @@ struct Press {
 /// @throws std::runtime_error if there is no name or no opaque colour, if the name is over 127 bytes, is All or None,
 /// which PDF reserves, or holds control characters or what is no UTF-8
 Spot parse_spot(std::string_view text);
+/// Adds a spot colour. @throws std::runtime_error if its name or its colour is there already
+void add_spot(std::vector<Spot>& spots, Spot spot);
 /// Several. @throws std::runtime_error as parse_spot(), and if a name or a colour comes twice
 std::vector<Spot> parse_spots(std::span<const std::string> texts);
 

@@ -7,7 +7,7 @@
 #include "art/raster/raster.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
@@ -162,7 +162,7 @@ public:
     const Print& print() const { return print_; }
     const Plan& arrange();
     void write_vectors(PrintWriter& writer) const;
-    void write_pixels(OutputFile& output, const std::filesystem::path& file) const;
+    void write_pixels(Output& output, const std::filesystem::path& file) const;
 
 private:
     void watch(std::uint64_t symbols) const {
@@ -590,7 +590,7 @@ void render(const Rendering& raster, int left, int top, int height, int channels
     });
 }
 
-void Sheet::write_pixels(OutputFile& output, const std::filesystem::path& file) const {
+void Sheet::write_pixels(Output& output, const std::filesystem::path& file) const {
     const PixelSize size = pixel_size(options_.page, options_.dpi);
     const double millimetre = options_.dpi / 25.4;
     const Colour ground = options_.ground.value_or(Colour{255, 255, 255, 0});
@@ -676,12 +676,13 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
 }  // namespace
 
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
-                       const std::filesystem::path& file) {
+                       const std::filesystem::path& file, Destination& destination) {
     if (!is_vector(options.format)) prepare_images(options.threads);
     return on_threads(options.threads, [&] {
         Sheet sheet(cells, options);
         const Plan& plan = sheet.arrange();
-        OutputFile output(file);
+        const auto opened = destination.open(file);
+        Output& output = *opened;
         if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
             const auto writer = options.format == PrintFormat::svg ? write_svg(sheet.print(), output)
                                                                    : write_pdf(sheet.print(), output);

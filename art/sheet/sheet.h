@@ -68,7 +68,7 @@ struct SheetLayout {
 /// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; std::runtime_error if
 /// there are no cells, the cells do not fit, memory is insufficient, or the file cannot be written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
-                       const std::filesystem::path& file);
+                       const std::filesystem::path& file, Destination& destination = file_system());
 
 /// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
 /// the options allow that, otherwise the minimum. 0 for other formats.

@@ -1,7 +1,7 @@
 #include "art/space/model.h"
 
 #include "art/space/triangles.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -226,7 +226,7 @@ std::string one_line(std::string text) {
 }
 
 void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
-               const std::filesystem::path& file, const Monitor& monitor) {
+               const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     Pulse pulse(monitor);
     std::filesystem::path materials_file = file;
     materials_file.replace_extension(".mtl");
@@ -234,7 +234,10 @@ void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     if (std::any_of(name.begin(), name.end(), [](char byte) { return byte >= 0 && byte < ' '; })) {
         throw std::runtime_error("the name of an OBJ file, which stands in it, has no control characters");
     }
-    OutputFile materials(materials_file), output(file);
+    const auto materials_opened = destination.open(materials_file);
+    const auto opened = destination.open(file);
+    Output& materials = *materials_opened;
+    Output& output = *opened;
     output.write(fmt::format("# {}, {}\nmtllib {}\n", one_line(print.title), one_line(print.made), name));
     std::size_t first = 1;
     for (const Mesh& mesh : meshes) {
@@ -278,7 +281,7 @@ std::string bytes_of(std::uint32_t number) {
 }
 
 template <class Element>
-void write_raw(OutputFile& output, const std::vector<Element>& elements, const Monitor& monitor) {
+void write_raw(Output& output, const std::vector<Element>& elements, const Monitor& monitor) {
     static_assert(std::endian::native == std::endian::little);
     constexpr std::size_t block = std::size_t{1} << 24;
     std::string_view rest(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
@@ -289,7 +292,7 @@ void write_raw(OutputFile& output, const std::vector<Element>& elements, const M
 }
 
 void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
-               const std::filesystem::path& file, const Monitor& monitor) {
+               const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     std::string accessors, views, materials, primitives;
     std::uint64_t offset = 0;
     int next = 0;
@@ -339,7 +342,8 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::uint64_t size = 12 + 8 + json.size() + 8 + offset;
     if (size > UINT32_MAX) throw std::runtime_error("the model is larger than the 4 GB that a .glb file holds");
-    OutputFile output(file);
+    const auto opened = destination.open(file);
+    Output& output = *opened;
     output.write("glTF" + bytes_of(2) + bytes_of(static_cast<std::uint32_t>(size)));
     output.write(bytes_of(static_cast<std::uint32_t>(json.size())) + "JSON" + json);
     output.write(bytes_of(static_cast<std::uint32_t>(offset)) + std::string("BIN\0", 4));
@@ -354,14 +358,14 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
 }  // namespace
 
 ModelReport write_model(const Scene& scene, const Print& print, PrintFormat format, const std::filesystem::path& file,
-                        const Monitor& monitor) {
+                        const Monitor& monitor, Destination& destination) {
     const Modeller modeller(scene, print, monitor);
     const std::vector<Mesh>& meshes = modeller.meshes();
     if (meshes.empty()) throw std::runtime_error("there is nothing to model: everything is without width and area");
     if (format == PrintFormat::obj) {
-        write_obj(meshes, modeller.origin(), print, file, monitor);
+        write_obj(meshes, modeller.origin(), print, file, monitor, destination);
     } else {
-        write_glb(meshes, modeller.origin(), print, file, monitor);
+        write_glb(meshes, modeller.origin(), print, file, monitor, destination);
     }
     ModelReport report;
     report.materials = meshes.size();

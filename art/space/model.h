@@ -5,6 +5,7 @@
 #include "art/print/print.h"
 #include "art/space/scene.h"
 #include "engine/base/monitor.h"
+#include "engine/base/output.h"
 
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,6 @@ struct ModelReport {
 /// @throws std::runtime_error if the file cannot be written, would be over 4 GB, or nothing in it has width or area;
 /// Stopped
 ModelReport write_model(const Scene& scene, const Print& print, PrintFormat format, const std::filesystem::path& file,
-                        const Monitor& monitor = {});
+                        const Monitor& monitor = {}, Destination& destination = file_system());
 
 }  // namespace sikku

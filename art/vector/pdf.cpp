@@ -152,7 +152,7 @@ struct Layer : VectorLayer {
 
 class Writer final : public VectorWriter<Layer> {
 public:
-    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file), edge_(press_edge(print.press)) {
+    Writer(const Print& print, Output& file) : VectorWriter(print, file), edge_(press_edge(print.press)) {
         const double longest =
             (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
@@ -615,7 +615,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PrintWriter> write_pdf(const Print& print, OutputFile& file) {
+std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file) {
     return std::make_unique<Writer>(print, file);
 }
 

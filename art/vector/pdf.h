@@ -2,7 +2,7 @@
 #pragma once
 
 #include "art/print/print.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 
 #include <memory>
 
@@ -12,6 +12,6 @@ namespace sikku {
 /// finish() the file is complete, but not committed.
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written or memory
 /// is short
-std::unique_ptr<PrintWriter> write_pdf(const Print& print, OutputFile& file);
+std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file);
 
 }  // namespace sikku

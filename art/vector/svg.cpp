@@ -117,7 +117,7 @@ struct Layer : VectorLayer {
 
 class Writer final : public VectorWriter<Layer> {
 public:
-    Writer(const Print& print, OutputFile& file) : VectorWriter(print, file) {
+    Writer(const Print& print, Output& file) : VectorWriter(print, file) {
         write_head();
         body_begin_ = written_ = file_.size();
     }
@@ -429,7 +429,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PrintWriter> write_svg(const Print& print, OutputFile& file) {
+std::unique_ptr<PrintWriter> write_svg(const Print& print, Output& file) {
     return std::make_unique<Writer>(print, file);
 }
 

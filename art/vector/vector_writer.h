@@ -4,7 +4,7 @@
 
 #include "art/print/micrometres.h"
 #include "art/print/print.h"
-#include "engine/base/output_file.h"
+#include "engine/base/output.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -73,7 +73,7 @@ public:
 protected:
     static constexpr std::size_t block_points = 1024;
 
-    VectorWriter(const Print& print, OutputFile& file)
+    VectorWriter(const Print& print, Output& file)
         : print_(print),
           file_(file),
           part_(&print),
@@ -103,7 +103,7 @@ protected:
     }
 
     const Print& print_;  ///< the whole sheet
-    OutputFile& file_;
+    Output& file_;
     const Print* part_;  ///< what is being drawn: the sheet itself, or what begin_part() told
     Window window_;      ///< of the part
     MicrometrePlacement place_;

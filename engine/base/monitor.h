@@ -25,15 +25,21 @@ class Monitor {
 public:
     using StopRequested = bool (*)(void* context);
     using Advanced = void (*)(void* context, std::uint64_t units);
+    using Expected = void (*)(void* context, double units);
 
     Monitor() = default;
-    explicit Monitor(StopRequested stop, Advanced advanced = nullptr, void* context = nullptr)
-        : stop_requested_(stop), advanced_(advanced), context_(context) {}
+    explicit Monitor(StopRequested stop, Advanced advanced = nullptr, void* context = nullptr,
+                     Expected expected = nullptr)
+        : stop_requested_(stop), advanced_(advanced), expected_(expected), context_(context) {}
 
     bool stop_requested() const { return stop_requested_ && stop_requested_(context_); }
     /// Checks for a stop request. Cost: a few nanoseconds plus the callback. @throws Stopped
     void check() const {
         if (stop_requested()) throw Stopped();
+    }
+    /// Announces work: the number of units that advance() will report from now on, 0 if it is unknown.
+    void expect(double units) const {
+        if (expected_) expected_(context_, units);
     }
     /// Reports units of work (symbols, lines, bands) completed since the last call. @throws Stopped
     void advance(std::uint64_t units) const {
@@ -44,6 +50,7 @@ public:
 private:
     StopRequested stop_requested_ = nullptr;
     Advanced advanced_ = nullptr;
+    Expected expected_ = nullptr;
     void* context_ = nullptr;
 };
 

@@ -1,6 +1,8 @@
 // engine/base/output_file.h: a file that appears whole or not at all.
 #pragma once
 
+#include "engine/base/output.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -16,30 +18,28 @@ struct UnfinishedFile;
 /// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
 /// and /dev/stdout are written directly. In a folder named by its descriptor, `/proc/PID/fd/N/NAME`, links, devices
 /// and pipes are themselves replaced.
-class OutputFile {
+class OutputFile final : public Output {
 public:
     explicit OutputFile(std::filesystem::path target);
-    ~OutputFile();
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
+    ~OutputFile() override;
 
     /// Buffered (1 MB).
-    void write(std::string_view bytes);
+    void write(std::string_view bytes) override;
     /// Bytes handed over so far.
-    std::uint64_t size() const { return written_; }
+    std::uint64_t size() const override { return written_; }
     /// Whether insert() may be used: false for devices and pipes.
-    bool can_insert() const { return !direct_; }
+    bool can_insert() const override { return !direct_; }
     /// Puts `bytes` before the byte at `position` (at most size()); what was there moves up. Cost: what moves.
-    void insert(std::uint64_t position, std::string_view bytes);
+    void insert(std::uint64_t position, std::string_view bytes) override;
     /// Replaces bytes that were written, where insert() may be used.
-    void overwrite(std::uint64_t position, std::string_view bytes);
+    void overwrite(std::uint64_t position, std::string_view bytes) override;
     /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
     /// not write() after that.
-    const std::filesystem::path& temporary();
+    const std::filesystem::path& temporary() override;
     /// Synchronises the file, renames it and synchronises the folder: after a crash of the machine the file has the
     /// old or the new content and is never empty. Devices and pipes are not synchronised. Call once, last. Cost on a
     /// solid-state disk: about 9 ms (5 for the file, 3 for the folder), 70 ms for 100 MB.
-    void commit();
+    void commit() override;
 
 private:
     void create();

@@ -133,4 +133,16 @@ std::string json_string(std::string_view text) {
     return plain_json(result + '"');
 }
 
+std::string counted(std::string_view digits, std::string_view what) {
+    std::string text(digits);
+    text += ' ';
+    text += what;
+    if (digits != "1") text += 's';
+    return text;
+}
+
+std::string counted(std::uint64_t count, std::string_view what) {
+    return counted(std::to_string(count), what);
+}
+
 }  // namespace sikku

@@ -27,6 +27,11 @@ std::string json_string(std::string_view text);
 /// Appends a code point (up to U+10FFFF) in UTF-8.
 void append_utf8(std::uint32_t code, std::string& text);
 
+/// `1 note`, `2 notes`.
+std::string counted(std::uint64_t count, std::string_view what);
+/// The same of a number in decimal digits.
+std::string counted(std::string_view digits, std::string_view what);
+
 /// Two small digits for each byte.
 std::string to_hex(std::string_view bytes);
 

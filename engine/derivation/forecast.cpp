@@ -382,4 +382,32 @@ Grammar shorten(const Grammar& grammar) {
     return grammar.with_map(all);
 }
 
+double expected_symbols(const Grammar& grammar, bool interpreted) {
+    try {
+        const auto known = grammar.steps() <= most_steps ? estimate(grammar, interpreted) : std::nullopt;
+        return known ? std::pow(10.0, known->log10_length) : 0.0;
+    } catch (const BudgetError&) {
+        return 0.0;  // too much to forecast is not too much to stream
+    }
+}
+
+double matching_seconds(const Grammar& grammar, double budget) {
+    constexpr double seconds_a_symbol = 2e-9;
+    if (grammar.whole_word_steps() == 0) return 0;
+    double compared = 0;
+    for (const Table& table : grammar.tables()) {
+        if (table.context_free()) continue;
+        std::vector<double> lengths(grammar.symbols().size(), 0);
+        for (const Production& production : table.productions()) {
+            lengths[production.predecessor.front()] +=
+                static_cast<double>(production.left.size() + production.predecessor.size() + production.right.size());
+        }
+        double sum = 0;
+        for (const Symbol symbol : grammar.axiom()) sum += lengths[symbol];
+        compared = std::max(compared, sum);
+    }
+    compared *= static_cast<double>(grammar.whole_word_steps());
+    return std::min(compared, budget / 4) * seconds_a_symbol;
+}
+
 }  // namespace sikku

@@ -42,6 +42,13 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 /// The same without exact counts, at a cost that does not grow with the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
+/// Symbols of the word, for progress reports; 0 if nothing short of deriving tells.
+double expected_symbols(const Grammar& grammar, bool interpreted);
+
+/// Upper bound of the seconds for matching contexts: as if every candidate were compared in full at every symbol of
+/// the first word, in every step with contexts. The budget ends it before that.
+double matching_seconds(const Grammar& grammar, double budget);
+
 /// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget);
 

@@ -1,7 +1,10 @@
 #include "engine/language/document.h"
 
+#include "engine/base/keys.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
@@ -32,11 +35,37 @@ std::string contents(const std::filesystem::path& file, const std::string& name)
 Document Document::compile(std::string name, std::string text, const Overrides& overrides, Diagnostics& diagnostics) {
     auto content = std::make_shared<Content>();
     content->pattern = parse_pattern(std::move(name), std::move(text), diagnostics);
+    content->overrides = overrides;
     apply_overrides(content->pattern, overrides.variant, overrides.settings, diagnostics);
+    Grammar grammar;
     if (!diagnostics.is_unreadable()) {
         check_keys(content->pattern, diagnostics);
-        content->grammar = compile_grammar(content->pattern, diagnostics);
+        grammar = compile_grammar(content->pattern, diagnostics);
     }
+    content->grammar = std::make_shared<const Grammar>(std::move(grammar));
+    if (!diagnostics.has_errors()) content->warnings = diagnostics.sorted();
+    return Document(std::move(content));
+}
+
+bool Document::has_override(std::string_view key) const {
+    return std::any_of(content_->overrides.settings.begin(), content_->overrides.settings.end(),
+                       [&](const Setting& setting) { return setting.key == key; });
+}
+
+Document Document::with(const std::vector<Setting>& settings) const {
+    auto content = std::make_shared<Content>(*content_);
+    content->overrides.settings.insert(content->overrides.settings.end(), settings.begin(), settings.end());
+    Diagnostics diagnostics;
+    apply_overrides(content->pattern, {}, settings, diagnostics);
+    check_keys(content->pattern, diagnostics);
+    const auto concerns_grammar = [](const Setting& setting) {
+        const KeyInfo* key = find_language_key(setting.key);
+        return !key || key->owner == KeyOwner::engine;
+    };
+    if (std::any_of(settings.begin(), settings.end(), concerns_grammar)) {
+        content->grammar = std::make_shared<const Grammar>(compile_grammar(content->pattern, diagnostics));
+    }
+    diagnostics.throw_if_errors();
     return Document(std::move(content));
 }
 

@@ -32,14 +32,27 @@ public:
     const Source& source() const { return *content_->pattern.source; }
     /// Keys, defines and productions as the text states them, overrides applied.
     const Pattern& pattern() const { return content_->pattern; }
-    const Grammar& grammar() const { return content_->grammar; }
+    const Grammar& grammar() const { return *content_->grammar; }
+    const std::shared_ptr<const Grammar>& shared_grammar() const { return content_->grammar; }
+    /// What was overridden when the document was made.
+    const Overrides& overrides() const { return content_->overrides; }
+    /// Whether a setting replaced the value of that key. @param key  folded
+    bool has_override(std::string_view key) const;
+    /// Warnings of the language, sorted by place.
+    const std::vector<Diagnostic>& warnings() const { return content_->warnings; }
     /// The value of a free-text key (`title`, `source`, `description`), or empty.
     std::string text(std::string_view key) const { return content_->pattern.text(key); }
+
+    /// The same document with further settings, applied after its own. The grammar is compiled again only if a
+    /// setting concerns it. @throws PatternError with every error
+    Document with(const std::vector<Setting>& settings) const;
 
 private:
     struct Content {
         Pattern pattern;
-        Grammar grammar;
+        std::shared_ptr<const Grammar> grammar;
+        Overrides overrides;
+        std::vector<Diagnostic> warnings;
     };
     explicit Document(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
     std::shared_ptr<const Content> content_;

@@ -216,7 +216,7 @@ std::string key_name(const KeySignature& key) {
 
 class Writer {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, ByteSink& sink)
+    Writer(const Notation& notation, const ScoreHead& head, Output& sink)
         : notation_(notation), head_(head), sink_(sink) {}
 
     void write() {
@@ -328,13 +328,13 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    ByteSink& sink_;
+    Output& sink_;
     fmt::memory_buffer text_;
 };
 
 }  // namespace
 
-void write_lilypond(const Notation& notation, const ScoreHead& head, ByteSink& sink) {
+void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink) {
     Writer(notation, head, sink).write();
 }
 

@@ -19,6 +19,6 @@ std::string lilypond_string(std::string_view text);
 /// exact to the quarter tone, the tempo is to a whole number.
 /// Texts are written with lilypond_string().
 /// Throws what `sink` throws.
-void write_lilypond(const Notation& notation, const ScoreHead& head, ByteSink& sink);
+void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink);
 
 }  // namespace sikku

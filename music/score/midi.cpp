@@ -208,7 +208,7 @@ private:
 
 class MidiWriter final : public NoteSink {
 public:
-    MidiWriter(const ScoreHead& head, ByteSink& sink, const MidiOptions& options)
+    MidiWriter(const ScoreHead& head, Output& sink, const MidiOptions& options)
         : head_(head), sink_(sink), options_(options) {
         check_options();
         std::size_t voices = 0;
@@ -545,7 +545,7 @@ private:
     }
 
     const ScoreHead& head_;
-    ByteSink& sink_;
+    Output& sink_;
     const MidiOptions options_;
     std::vector<std::unique_ptr<Voice>> voices_;  // by number; null while they are silent
     std::size_t sounding_ = 0;
@@ -558,7 +558,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, ByteSink& sink, const MidiOptions& options) {
+std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options) {
     return std::make_unique<MidiWriter>(head, sink, options);
 }
 

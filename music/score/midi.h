@@ -33,7 +33,7 @@ struct MidiOptions {
 /// file can hold) and then by notes() and finish(): more than 15 voices with notes, a voice of no part, notes that
 /// overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above 2^28 - 1 ticks,
 /// a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
-std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, ByteSink& sink, const MidiOptions& options = {});
+std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});
 
 /// No file of so many notes is larger, in bytes.
 std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head = {}, const MidiOptions& options = {});

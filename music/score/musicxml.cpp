@@ -46,7 +46,7 @@ std::string_view accidental_name(int quarters) {
 
 class Writer {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, ByteSink& sink)
+    Writer(const Notation& notation, const ScoreHead& head, Output& sink)
         : notation_(notation), head_(head), sink_(sink) {}
 
     void write() {
@@ -200,7 +200,7 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    ByteSink& sink_;
+    Output& sink_;
     fmt::memory_buffer text_;
     std::int64_t here_ = 0;  ///< where the reader is, in 64ths
     std::size_t staff_ = 0;  ///< from 1; 0 if there is but one
@@ -209,7 +209,7 @@ private:
 
 }  // namespace
 
-void write_musicxml(const Notation& notation, const ScoreHead& head, ByteSink& sink) {
+void write_musicxml(const Notation& notation, const ScoreHead& head, Output& sink) {
     Writer(notation, head, sink).write();
 }
 

@@ -15,6 +15,6 @@ constexpr double lowest_in_musicxml = 12.0;
 /// In texts, what XML cannot hold becomes U+FFFD.
 /// Throws ScoreError for a note below C0, which MusicXML cannot tell, and what `sink` throws.
 /// Source: MusicXML 4.0, W3C Music Notation Community Group.
-void write_musicxml(const Notation& notation, const ScoreHead& head, ByteSink& sink);
+void write_musicxml(const Notation& notation, const ScoreHead& head, Output& sink);
 
 }  // namespace sikku

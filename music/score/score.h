@@ -2,6 +2,8 @@
 // meets here.
 #pragma once
 
+#include "engine/base/output.h"
+
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -80,15 +82,6 @@ struct ScoreHead {
     double tempo = 120.0;  ///< quarters a minute
     Meter meter;
     std::vector<Part> parts;
-};
-
-/// Where a writer puts its bytes: a file that appears whole or not at all, or memory. Failures are thrown.
-class ByteSink {
-public:
-    virtual ~ByteSink() = default;
-    virtual void write(std::string_view bytes) = 0;
-    /// Replaces bytes that were written before; `position` counts from the first.
-    virtual void overwrite(std::uint64_t position, std::string_view bytes) = 0;
 };
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
-// cli/music_page.h: a melody to look at: the curve coloured by its notes beside a piano roll, as an SVG to print and
-// as a page that plays.
+// music/score/music_page.h: a melody to look at: the curve coloured by its notes beside a piano roll, as an SVG to
+// print and as a page that plays.
 #pragma once
 
 #include "music/score/score.h"
@@ -37,7 +37,7 @@ private:
 /// `end`: of the score, in ticks; where notes sound longer, they count. Notes in any order. Each note is a `line` in
 /// the group `curve` and a `rect` in the group `roll`, both ordered by onset, then by voice. Memory: a copy of the
 /// notes. Throws what `out` throws.
-void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& out);
+void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out);
 
 /// One HTML page that needs nothing but a browser, no network either: it draws the curve while it plays the notes.
 /// Notes are in the file with their ticks as they are and keys to 4 decimals. Tests and other scripts find in
@@ -45,6 +45,6 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
 /// then by voice) and `state()`: whether it is `playing`, `tick` and the sound's `time` in seconds, `tempo`, how many
 /// notes have `sounded`, and `recent`, the indices of the last of them. Arguments, memory and errors as of
 /// write_music_svg.
-void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& out);
+void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out);
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-#include "cli/music_page.h"
+#include "music/score/music_page.h"
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -48,7 +48,7 @@ std::string shortened(std::string_view text, std::size_t most) {
 /// Hands its text on in pieces.
 class Pieces {
 public:
-    explicit Pieces(ByteSink& out) : out_(out) {}
+    explicit Pieces(Output& out) : out_(out) {}
     std::string& text() {
         if (text_.size() >= flush_bytes) flush();
         return text_;
@@ -60,7 +60,7 @@ public:
 
 private:
     static constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-    ByteSink& out_;
+    Output& out_;
     std::string text_;
 };
 
@@ -813,7 +813,7 @@ void NoteCollector::notes(std::span<const Note> notes) {
     notes_.insert(notes_.end(), notes.begin(), notes.end());
 }
 
-void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& sink) {
+void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink) {
     const Melody melody = survey(notes, end);
     Pieces out(sink);
     const std::string title = title_of(head);
@@ -858,7 +858,7 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
     out.flush();
 }
 
-void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, ByteSink& sink) {
+void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink) {
     const Melody melody = survey(notes, end);
     Pieces out(sink);
     const std::string title = xml_escaped(title_of(head));

@@ -1,0 +1,525 @@
+#include "art/draw_settings.h"
+
+#include "art/raster/raster.h"
+#include "art/style/length.h"
+#include "engine/base/diagnostic.h"
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+constexpr double longest = 10'000;  // millimetres: wider than any press or plotter
+
+[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& message) {
+    throw SettingError(option, value, message);
+}
+
+double to_number(const std::string& text) {
+    double value = 0;
+    read_number(text, value);  // the table has checked it
+    return value;
+}
+
+int to_int(const std::string& text) {
+    return static_cast<int>(to_number(text));
+}
+
+bool is_true(const std::string& text) {
+    return text == "true";
+}
+
+double length(const char* option, const std::string& text, double dpi) {
+    const auto value = parse_length(text, dpi);
+    if (!value) refuse(option, text, "expected a length such as 5mm, 1.5cm, 2in, 12pt or 300px");
+    return *value;
+}
+
+Page sheet(const char* option, const std::string& text, double dpi) {
+    const auto size = parse_size(text, dpi);
+    if (!size) {
+        refuse(option, text, "expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm");
+    }
+    if (!(size->x >= 1 && size->y >= 1 && size->x <= longest && size->y <= longest)) {
+        refuse(option, text, "expected a page between 1 mm and 10 m wide and high");
+    }
+    return {size->x, size->y, 10.0};
+}
+
+void set_step(DrawSettings& settings, const std::string& text) {
+    settings.step = length("step", text, settings.dpi);
+    if (!(*settings.step >= 1e-9 && *settings.step <= longest)) {
+        refuse("step", text, "expected a step of at least 10^-9 mm and at most 10 m");
+    }
+}
+
+void set_window(DrawSettings& settings, const std::string& text) {
+    settings.window = parse_window(text);
+    settings.window_text = text;
+    if (!settings.window) {
+        refuse("window", text,
+               "expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 and Y0 below Y1");
+    }
+}
+
+/// `only`, `only` and how the dots look, or how they look.
+void set_dots(DrawSettings& settings, const std::string& text) {
+    settings.only_dots = text == "only" || text.starts_with("only ");
+    settings.dots = settings.only_dots ? text.substr(std::min<std::size_t>(text.size(), 5)) : text;
+}
+
+void set_dot_spacing(DrawSettings& settings, const std::string& text) {
+    settings.dot_spacing = length("dot-spacing", text, settings.dpi);
+    if (!(*settings.dot_spacing > 0 && *settings.dot_spacing <= longest)) {
+        refuse("dot-spacing", text, "expected a length above 0 and at most 10 m");
+    }
+}
+
+/// `A:B`, or `A` alone.
+void set_generations(DrawSettings& settings, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto whole = [&](std::string_view part) -> std::int64_t {
+        std::int64_t value = -1;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc() || end != part.data() + part.size() || value < 0) {
+            refuse("generations", text, "expected two derivation lengths such as 0:4");
+        }
+        return value;
+    };
+    const std::int64_t first = whole(std::string_view(text).substr(0, colon));
+    const std::int64_t last = colon == std::string::npos ? first : whole(std::string_view(text).substr(colon + 1));
+    if (last > most_steps) {
+        refuse("generations", text, fmt::format("expected derivation lengths up to {}", most_steps));
+    }
+    settings.generations = {first, last};
+}
+
+void set_animation(DrawSettings& settings, const std::string& text) {
+    double seconds = 20;
+    if ((!text.empty() && !read_number(text, seconds)) || !(seconds > 0 && seconds <= 86'400)) {
+        refuse("animate", text, "expected seconds, above 0 and at most a day");
+    }
+    settings.animation = seconds;
+}
+
+void set_profile(DrawSettings& settings, const std::string& text) {
+    const auto profile = gcode_profile(text);
+    if (!profile) refuse("profile", text, "expected grbl or z");
+    settings.gcode = *profile;
+}
+
+/// Passes on what a parser of a printer's term says.
+template <typename Parse>
+void parse_press(const char* option, const std::string& text, const Parse& parse) {
+    try {
+        parse();
+    } catch (const SettingError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        refuse(option, text, error.what());
+    }
+}
+
+void set_word(const char* option, std::string_view word, const std::string& text, bool& value) {
+    if (text != word) refuse(option, text, fmt::format("expected {}", word));
+    value = true;
+}
+
+using S = DrawSettings;
+using Text = const std::string&;
+using enum OptionKind;
+
+constexpr const char* kolams = "Kolams and growth";
+constexpr const char* plotters = "Plotters";
+constexpr const char* presses = "Press";
+constexpr const char* pictures = "Pictures";
+
+const std::array table = {
+    Option<S>{{.name = "size",
+               .help = "page size: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm (A4)",
+               .value = "SIZE"},
+              [](S& s, Text t) {
+                  const Page page = sheet("size", t, s.dpi);
+                  s.page.width = page.width;
+                  s.page.height = page.height;
+              }},
+    Option<S>{{.name = "landscape", .help = "landscape page", .kind = flag},
+              [](S& s, Text t) { s.landscape = is_true(t); }},
+    Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH"},
+              [](S& s, Text t) {
+                  s.page.margin = length("margin", t, s.dpi);
+                  if (s.page.margin < 0) refuse("margin", t, "expected 0 or more");
+              }},
+    Option<S>{{.name = "fit", .help = "fill the page within its margins (default)", .kind = flag},
+              [](S& s, Text t) { s.fit = is_true(t); }},
+    Option<S>{{.name = "step",
+               .help = "length of one turtle step on paper, instead of fitting the page",
+               .value = "LENGTH"},
+              set_step},
+    Option<S>{{.name = "window",
+               .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
+                       "derivation length",
+               .value = "X0,Y0,X1,Y1"},
+              set_window},
+    Option<S>{{.name = "rotate", .help = "rotation in degrees anticlockwise (0)", .value = "DEGREES", .kind = number},
+              [](S& s, Text t) { s.rotate = to_number(t); }},
+    Option<S>{{.name = "mirror", .help = "mirror left and right, before rotating", .kind = flag},
+              [](S& s, Text t) { s.mirror = is_true(t); }},
+    Option<S>{{.name = "view",
+               .help = "camera of drawings in space: degrees around and up, or front, side or top; then, for a "
+                       "perspective, its distance in radii of the drawing (4)",
+               .value = "AZIMUTH,ELEVATION[,perspective[,DISTANCE]]",
+               .is_key = true},
+              [](S& s, Text t) { s.view = t; }},
+    Option<S>{{.name = "dots",
+               .help = "draw the dots of a kolam, in a size and colour such as 2mm white; or only the dots, to "
+                       "practise on",
+               .value = "[SIZE COLOUR|only]",
+               .group = kolams,
+               .is_key = true},
+              set_dots},
+    Option<S>{{.name = "dot-spacing",
+               .help = "distance between neighbouring dots of a kolam on paper, instead of fitting the page",
+               .value = "LENGTH",
+               .group = kolams},
+              set_dot_spacing},
+    Option<S>{{.name = "border", .help = "kaavi: a frame of red earth lines", .value = "kaavi", .group = kolams},
+              [](S& s, Text t) { set_word("border", "kaavi", t, s.border); }},
+    Option<S>{
+        {.name = "colour-by", .help = "strand: each line in its own colour", .value = "strand", .group = kolams},
+        [](S& s, Text t) { set_word("colour-by", "strand", t, s.colours_strokes); }},
+    Option<S>{{.name = "generations",
+               .help = "derivation lengths A to B: side by side on one sheet, or one after the other in a .gif",
+               .value = "A:B",
+               .group = kolams,
+               .is_alone = true},
+              set_generations},
+    Option<S>{{.name = "frames",
+               .help = "write each generation to its own file, such as growth-07.png",
+               .group = kolams,
+               .kind = flag,
+               .is_alone = true},
+              [](S& s, Text t) { s.frames = is_true(t); }},
+    Option<S>{{.name = "frame-time",
+               .help = "seconds per generation of a .gif, 0.01 to 600 (0.5)",
+               .value = "SECONDS",
+               .group = kolams,
+               .kind = number,
+               .least = 0.01,
+               .most = 600,
+               .is_alone = true},
+              [](S& s, Text t) { s.frame_time = to_number(t); }},
+    Option<S>{{.name = "hold",
+               .help = "minimum seconds for the last generation of a .gif, 0.01 to 600 (2)",
+               .value = "SECONDS",
+               .group = kolams,
+               .kind = number,
+               .least = 0.01,
+               .most = 600,
+               .is_alone = true},
+              [](S& s, Text t) { s.hold = to_number(t); }},
+    Option<S>{{.name = "fit-frames",
+               .help = "fit each generation to the page separately; by default all share one scale and position, "
+                       "which shows growth",
+               .group = kolams,
+               .kind = flag,
+               .is_alone = true},
+              [](S& s, Text t) { s.fit_frames = is_true(t); }},
+    Option<S>{{.name = "animate",
+               .help = "SVG that draws itself, line by line, in this many seconds (20)",
+               .value = "[SECONDS]",
+               .group = kolams},
+              set_animation},
+    Option<S>{{.name = "tile",
+               .help = "cut the print into sheets of this size, to be glued together; one file each",
+               .value = "SIZE",
+               .group = kolams,
+               .is_alone = true},
+              [](S& s, Text t) { s.tile = sheet("tile", t, s.dpi); }},
+    Option<S>{{.name = "overlap",
+               .help = "overlap of neighbouring sheets (10mm)",
+               .value = "LENGTH",
+               .group = kolams,
+               .is_alone = true},
+              [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
+    Option<S>{{.name = "plotter",
+               .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL and G-code always do",
+               .group = plotters,
+               .kind = flag},
+              [](S& s, Text t) { s.plotter = is_true(t); }},
+    Option<S>{{.name = "split",
+               .help = "length of the longest stroke, for controllers that stutter",
+               .value = "LENGTH",
+               .group = plotters},
+              [](S& s, Text t) {
+                  s.split = length("split", t, s.dpi);
+                  if (!(s.split > 0)) refuse("split", t, "expected a length above 0");
+              }},
+    Option<S>{{.name = "travel", .help = "show pen-up travel in a layer of its own", .group = plotters, .kind = flag},
+              [](S& s, Text t) { s.travel = is_true(t); }},
+    Option<S>{{.name = "pen-speed",
+               .help = "drawing speed in mm/s, for the time estimate and G-code (40)",
+               .value = "SPEED",
+               .group = plotters,
+               .kind = number},
+              [](S& s, Text t) { s.speeds.drawing = to_number(t); }},
+    Option<S>{{.name = "travel-speed",
+               .help = "pen-up speed in mm/s (80)",
+               .value = "SPEED",
+               .group = plotters,
+               .kind = number},
+              [](S& s, Text t) { s.speeds.travelling = to_number(t); }},
+    Option<S>{{.name = "lift-time",
+               .help = "seconds for lifting and lowering the pen (0.3)",
+               .value = "SECONDS",
+               .group = plotters,
+               .kind = number},
+              [](S& s, Text t) { s.speeds.lift = to_number(t); }},
+    Option<S>{{.name = "profile",
+               .help = "kind of G-code machine: grbl (M3 and M5 move the pen) or z (grbl)",
+               .value = "grbl|z",
+               .group = plotters},
+              set_profile},
+    Option<S>{
+        {.name = "gcode-start", .help = "G-code lines before the first stroke", .value = "LINES", .group = plotters},
+        [](S& s, Text t) { s.gcode.start = t; }},
+    Option<S>{
+        {.name = "gcode-end", .help = "G-code lines after the last stroke", .value = "LINES", .group = plotters},
+        [](S& s, Text t) { s.gcode.end = t; }},
+    Option<S>{{.name = "bleed",
+               .help = "extension of the ground beyond the page, up to 100mm (0mm)",
+               .value = "LENGTH",
+               .group = presses},
+              [](S& s, Text t) { s.press.bleed = length("bleed", t, s.dpi); }},
+    Option<S>{{.name = "marks", .help = "crop marks outside the bleed; PDF", .group = presses, .kind = flag},
+              [](S& s, Text t) { s.press.marks = is_true(t); }},
+    Option<S>{{.name = "spot",
+               .help = "separate ink for a colour of the drawing, such as Kaavi=#b3452c; PDF; may be repeated",
+               .value = "NAME=COLOUR",
+               .group = presses,
+               .is_list = true},
+              [](S& s, Text t) { parse_press("spot", t, [&] { add_spot(s.press.spots, parse_spot(t)); }); }},
+    Option<S>{{.name = "cmyk",
+               .help = "convert pixels to the inks of this ICC profile; TIFF",
+               .value = "FILE.icc",
+               .group = presses},
+              [](S& s, Text t) { s.press.cmyk = t; }},
+    Option<S>{{.name = "bits",
+               .help = "bits per channel: 8, or 1 for line art, best at 600 dpi and more; TIFF (8)",
+               .value = "1|8",
+               .group = presses,
+               .kind = whole},
+              [](S& s, Text t) {
+                  s.press.bits = to_int(t);
+                  if (s.press.bits != 1 && s.press.bits != 8) refuse("bits", t, "expected 1 or 8");
+              }},
+    Option<S>{
+        {.name = "screen",
+         .help = "screening of 1-bit pictures: threshold (default), diffusion, or a halftone with LPI lines per "
+                 "inch (a twelfth of the dpi) at 45 degrees",
+         .value = "threshold|diffusion|halftone[,LPI]",
+         .group = presses},
+        [](S& s, Text t) {
+            parse_press("screen", t, [&] {
+                s.press.screen = parse_screen(t);
+                if (s.press.screen.kind == Screen::Kind::halftone) Screener(s.press.screen, 1, s.dpi);
+            });
+        }},
+    Option<S>{{.name = "icc",
+               .help = "embed the ICC profile of the colours in pictures (default)",
+               .group = presses,
+               .kind = flag,
+               .is_on = true},
+              [](S& s, Text t) { s.press.icc = is_true(t); }},
+    Option<S>{{.name = "dpi",
+               .help = "pixels per inch of pictures, and of px in lengths, 1 to 10,000 (300)",
+               .value = "DPI",
+               .group = pictures,
+               .kind = number,
+               .least = 1,
+               .most = 10'000},
+              [](S& s, Text t) { s.dpi = to_number(t); }},
+    Option<S>{{.name = "compression",
+               .help = "PNG compression, 1 (fast) to 9 (small) (6)",
+               .value = "LEVEL",
+               .group = pictures,
+               .kind = whole,
+               .least = 1,
+               .most = 9},
+              [](S& s, Text t) { s.compression = to_int(t); }},
+    Option<S>{{.name = "jobs",
+               .help = "threads for pictures; 0: one per core (0)",
+               .value = "N",
+               .group = pictures,
+               .kind = whole,
+               .most = 1024,
+               .is_alone = true,
+               .letter = 'j'},
+              [](S& s, Text t) { s.threads = to_int(t); }},
+    Option<S>{{.name = "budget",
+               .help = "maximum number of derivation nodes visited (2e8)",
+               .value = "NODES",
+               .kind = number},
+              [](S& s, Text t) {
+                  s.budget = to_number(t);
+                  if (!(s.budget > 0)) refuse("budget", t, "expected a number above 0");
+              }},
+};
+
+}  // namespace
+
+std::span<const Option<DrawSettings>> draw_options() {
+    return table;
+}
+
+DrawSettings read_draw_settings(const OptionValues& values) {
+    DrawSettings settings;
+    // Lengths in px and halftone screens depend on it.
+    for (const OptionValue& value : values) {
+        if (value.name == "dpi") apply_options(draw_options(), {value}, settings);
+    }
+    apply_options(draw_options(), values, settings);
+    settings.gcode.drawing_feed = 60 * settings.speeds.drawing;
+    settings.gcode.travel_feed = 60 * settings.speeds.travelling;
+    Page& page = settings.page;
+    if (settings.landscape && page.height > page.width) std::swap(page.width, page.height);
+    if (!(2 * page.margin < std::min(page.width, page.height))) {
+        refuse("margin", fmt::format("{:g}mm", page.margin),
+               fmt::format("the margins leave nothing of a page of {:g} x {:g} mm", page.width, page.height));
+    }
+    return settings;
+}
+
+namespace {
+
+/// Why an option cannot be combined with what else was asked for.
+struct Conflict {
+    bool is_given;
+    const char* option;
+    const char* reason;
+};
+
+void refuse_first(std::initializer_list<Conflict> conflicts) {
+    for (const Conflict& conflict : conflicts) {
+        if (conflict.is_given) refuse(conflict.option, "", conflict.reason);
+    }
+}
+
+void check_model(const DrawSettings& settings) {
+    constexpr const char* reason = "a model has no page and no camera; this option is for prints";
+    refuse_first({{settings.window.has_value(), "window", reason},
+                  {!settings.view.empty(), "view", reason},
+                  {settings.plotter, "plotter", reason},
+                  {settings.tile.has_value(), "tile", reason},
+                  {settings.dots.has_value(), "dots", reason},
+                  {settings.dot_spacing.has_value(), "dot-spacing", reason},
+                  {settings.animation.has_value(), "animate", reason},
+                  {settings.generations.has_value(), "generations", reason},
+                  {settings.border, "border", reason},
+                  {settings.colours_strokes, "colour-by", reason},
+                  {settings.press.marks, "marks", reason},
+                  {!settings.press.spots.empty(), "spot", reason},
+                  {settings.press.bleed != 0, "bleed", reason}});
+}
+
+void check_placement(const DrawSettings& settings) {
+    constexpr const char* both = "cannot be combined with 'fit', which sets the step length, too";
+    refuse_first({{settings.fit && settings.step, "step", both},
+                  {settings.fit && settings.window, "window", both},
+                  {settings.fit && settings.dot_spacing, "dot-spacing", both},
+                  {settings.step && settings.dot_spacing, "dot-spacing",
+                   "cannot be combined with 'step': both set the step length"}});
+}
+
+void check_plot(const DrawSettings& settings, PrintFormat format) {
+    const bool is_plot = settings.plotter || is_for_plotters(format);
+    const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
+    refuse_first({{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
+                  {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
+                  {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
+                  {settings.tile && is_plot, "tile", "a plot cannot be cut into sheets"}});
+    plot_seconds({}, settings.speeds);
+}
+
+void check_growth(const DrawSettings& settings, PrintFormat format) {
+    const bool is_gif = format == PrintFormat::gif;
+    const bool is_sheet = settings.generations && !is_gif && !settings.frames;
+    const Press& press = settings.press;
+    refuse_first(
+        {{is_gif && !settings.generations, "generations", "needed for a .gif, an animation of growth: A:B"},
+         {settings.frames && !settings.generations, "frames", "needs 'generations'"},
+         {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
+         {settings.frame_time && !is_gif, "frame-time", "applies only to a .gif"},
+         {settings.hold && !is_gif, "hold", "applies only to a .gif"},
+         {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
+    if (!settings.generations) return;
+    const auto [first, last] = *settings.generations;
+    const std::int64_t most = is_sheet ? 100 : most_frames;
+    if (last < first || last - first >= most) {
+        refuse("generations", fmt::format("{}:{}", first, last),
+               fmt::format("expected up to {} derivation lengths, the lowest first", most));
+    }
+    constexpr const char* trimmed = "not available for a sheet or frames of several drawings";
+    refuse_first({{press.bleed > 0, "bleed", trimmed},
+                  {press.marks, "marks", trimmed},
+                  {!press.spots.empty(), "spot", trimmed},
+                  {!press.cmyk.empty(), "cmyk", trimmed},
+                  {press.bits != 8, "bits", trimmed},
+                  {settings.tile.has_value(), "tile", "cannot be combined with 'generations'"},
+                  {settings.window.has_value(), "window", "cannot be combined with 'generations'"}});
+    if (is_sheet) {
+        constexpr const char* reason = "not available for a sheet of 'generations'";
+        refuse_first({{settings.plotter || is_for_plotters(format), "generations", "a plot is a single drawing"},
+                      {settings.step.has_value(), "step", reason},
+                      {settings.dots || settings.dot_spacing, "dots", reason},
+                      {settings.border, "border", reason},
+                      {settings.colours_strokes, "colour-by", reason}});
+    }
+    if (!is_gif) return;
+    constexpr const char* reason = "not available for a .gif";
+    refuse_first({{settings.border, "border", reason},
+                  {settings.colours_strokes, "colour-by", reason},
+                  {settings.dots || settings.dot_spacing, "dots", reason}});
+    const PixelSize size = pixel_size(settings.page, settings.dpi);
+    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
+        refuse("dpi", fmt::format("{:g}", settings.dpi),
+               "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
+    }
+}
+
+}  // namespace
+
+void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
+    if (info(format).kind == FormatKind::model) return check_model(settings);
+    check_placement(settings);
+    if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
+        refuse("dpi", fmt::format("{:g}", settings.dpi),
+               "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
+    }
+    try {
+        check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
+        if (settings.tile) tiles_of(settings.page, {*settings.tile, settings.overlap});
+        check_plot(settings, format);
+    } catch (const SettingError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        refuse("", "", error.what());
+    }
+    constexpr const char* trimmed = "only for a print that is trimmed, not for plots and tiles";
+    const bool is_untrimmed = settings.plotter || settings.tile;
+    refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
+                  {is_untrimmed && settings.press.marks, "marks", trimmed},
+                  {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
+    check_growth(settings, format);
+}
+
+}  // namespace sikku

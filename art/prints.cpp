@@ -1,0 +1,344 @@
+#include "art/prints.h"
+
+#include "art/draw_settings.h"
+#include "art/drawing/draw.h"
+#include "art/drawing/draw_view.h"
+#include "art/drawing/growth.h"
+#include "art/image/image_file.h"
+#include "art/raster/raster.h"
+#include "art/sheet/sheet.h"
+#include "engine/base/text.h"
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+std::string time_text(double seconds) {
+    if (!(seconds < 1e12)) return "forever";
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
+    const auto line = [&](const PlotTally& tally) {
+        return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel, {}, about {}", tally.drawn / 1000,
+                           tally.travelled / 1000, counted(tally.lifts, "lift"),
+                           time_text(plot_seconds(tally, speeds)));
+    };
+    made.fact("before: " + line(plot.before));
+    made.fact("plot:   " + line(plot.after));
+    if (plot.duplicates > 0) {
+        made.fact(fmt::format("{} drawn twice in the pattern, once here", counted(plot.duplicates, "segment")));
+    }
+}
+
+/// The document with options that set keys of the pattern.
+Document with_keys(const Document& document, const DrawSettings& settings) {
+    Document result = document;
+    const auto set = [&](const char* key, const std::string& value) {
+        try {
+            result = result.with({{key, key, value}});
+        } catch (const PatternError& error) {
+            throw SettingError(key, value, error.diagnostics().front().message);
+        }
+    };
+    // Dots in their default size and colour have no words in the language.
+    if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
+    if (!settings.view.empty()) set("view", settings.view);
+    return result;
+}
+
+/// A print or model, planned.
+class PrintWork : public Work {
+public:
+    /// @throws SettingError, PatternError
+    PrintWork(const Document& document, PrintFormat format, DrawSettings settings)
+        : document_(document), format_(format), settings_(std::move(settings)) {
+        const Document drawn = with_keys(document, settings_);
+        Diagnostics diagnostics;
+        print_.style = read_style(drawn.pattern(), settings_.dpi, diagnostics);
+        diagnostics.throw_if_errors();
+        if ((settings_.dots || settings_.dot_spacing) && !print_.style.dots) print_.style.dots.emplace();
+        print_.page = settings_.page;
+        print_.dpi = settings_.dpi;
+        print_.title = document.text("title");
+        print_.pattern = document.source().text();
+        print_.made = made_with(document.grammar());
+        print_.press = settings_.press;
+        print_.animation = settings_.animation;
+        plan_drawing();
+        check_drawing();
+    }
+
+    Cost forecast() const override;
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) override;
+
+private:
+    bool is_model() const { return info(format_).kind == FormatKind::model; }
+    bool is_growth() const { return format_ == PrintFormat::gif || settings_.frames; }
+
+    std::string made_with(const Grammar& grammar) const {
+        std::string own;
+        if (!settings_.window_text.empty()) own += " --window " + settings_.window_text;
+        if (!settings_.view.empty()) own += " --view " + settings_.view;
+        return recipe(document_, grammar, own);
+    }
+
+    void plan_drawing() {
+        drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
+        drawing_.placement.rotate = settings_.rotate;
+        drawing_.placement.mirror = settings_.mirror;
+        drawing_.placement.step = settings_.step;
+        drawing_.window = settings_.window;
+        drawing_.only_dots = settings_.only_dots;
+        drawing_.dot_spacing = settings_.dot_spacing;
+        drawing_.colours_strokes = settings_.colours_strokes;
+        drawing_.border = settings_.border;
+        drawing_.threads = settings_.threads;
+        drawing_.compression = settings_.compression;
+        drawing_.budget = settings_.budget;
+        if (settings_.tile) drawing_.tiles = TileOptions{*settings_.tile, settings_.overlap};
+        if (!settings_.plotter && !is_for_plotters(format_)) return;
+        drawing_.plot.emplace().split = settings_.split;
+        drawing_.shows_travel = settings_.travel;
+        drawing_.gcode = settings_.gcode;
+    }
+
+    /// Refuses what this drawing cannot have. @throws SettingError, PatternError
+    void check_drawing() const {
+        const bool is_spatial = document_.grammar().is_spatial();
+        if (is_model()) require_straight("models have straight lines, not splines");
+        if (settings_.generations && document_.has_override("derivation length")) {
+            throw SettingError("generations", "", "cannot be combined with a derivation length");
+        }
+        if (!is_spatial) return;
+        require_straight("drawings that pitch, roll or bend have straight lines, not splines");
+        constexpr const char* plane = "only for drawings in the plane; this one pitches, rolls or bends";
+        const auto refuse = [](const char* option, const char* why) { throw SettingError(option, "", why); };
+        if (settings_.window) refuse("window", plane);
+        if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
+        if (settings_.border) refuse("border", plane);
+        if (settings_.colours_strokes) refuse("colour-by", plane);
+        if (settings_.animation) refuse("animate", plane);
+        if (settings_.tile && !is_vector(format_))
+            refuse("tile", "drawings in space are cut into sheets as SVG or PDF");
+        if (!settings_.press.spots.empty() && !drawing_.plot) {
+            refuse("spot", "drawings in space are lit, in more shades than there are inks");
+        }
+    }
+
+    void require_straight(const std::string& message) const {
+        const Key* key = document_.pattern().find("line");
+        if (print_.style.line != Line::spline || !key) return;
+        Diagnostics diagnostics;
+        diagnostics.error(key->value, message);
+        diagnostics.throw_if_errors();
+    }
+
+    void make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
+    void make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
+    void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options);
+    void make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                    Made& made);
+
+    Document document_;
+    PrintFormat format_;
+    DrawSettings settings_;
+    Print print_;
+    DrawOptions drawing_;
+};
+
+void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+                           Made& made) {
+    const ModelReport report = draw_model(document_.grammar(), print_, options, format_, name, destination);
+    made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
+}
+
+/// Derivation lengths one after the other, as an animation or as files of their own.
+void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+                            Made& made) {
+    GrowthOptions growth;
+    std::tie(growth.first, growth.last) = *settings_.generations;
+    growth.seconds = settings_.frame_time.value_or(growth.seconds);
+    growth.hold = settings_.hold.value_or(growth.hold);
+    growth.fits_each = settings_.fit_frames;
+    growth.is_animation = format_ == PrintFormat::gif;
+    growth.made = [this](const Grammar& generation) { return made_with(generation); };
+    const DrawReport report = draw_growth(document_.grammar(), print_, options, growth, name, destination);
+    if (report.overflows) {
+        made.warn("the largest generation is larger than the page within its margins and is cut off");
+    }
+}
+
+/// Derivation lengths side by side, as books show them.
+void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
+    const auto [first, last] = *settings_.generations;
+    SheetCell cell;
+    cell.grammar = document_.shared_grammar();
+    cell.style = print_.style;
+    cell.placement.rotate = settings_.rotate;
+    cell.placement.mirror = settings_.mirror;
+    cell.title = print_.title;
+    cell.budget = options.budget;
+    SheetOptions sheet;
+    sheet.format = options.format;
+    sheet.page = print_.page;
+    sheet.dpi = print_.dpi;
+    sheet.title = print_.title;
+    sheet.animation = print_.animation;
+    // Captions are short, and are read from as far as the drawings.
+    sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
+    sheet.pattern = print_.pattern;
+    sheet.made = print_.made;
+    sheet.threads = options.threads;
+    sheet.compression = options.compression;
+    sheet.watch = options.watch;
+    draw_sheet(generations(cell, first, last), sheet, name, destination);
+}
+
+void PrintWork::make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                           Made& made) {
+    // Before the drawing, which may take long.
+    if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
+    const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
+    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
+        made.warn("'view' has no effect: this drawing lies in the plane");
+    }
+    if (report.leaves_pattern_out) {
+        made.warn(fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes",
+                              name.string()));
+    }
+    if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
+        made.warn("there are no dots: the lines enclose none");
+    }
+    if (report.is_empty) {
+        made.warn("the window contains no part of the drawing");
+    } else if (report.is_blank) {
+        made.warn(fmt::format(
+            "the picture looks empty: lines {:.2g} mm wide leave too little ink on pixels of {:.2g} mm; use {} or a "
+            "shorter derivation",
+            print_.style.line_width({}, report.step), 25.4 / print_.dpi,
+            print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
+    }
+    if (report.plot) report_plot(*report.plot, settings_.speeds, made);
+    if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
+    if (report.overflows && report.sheets == 0) {
+        made.warn(fmt::format(
+            "the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: the rest is cut off",
+            report.size.x, report.size.y, report.room.x, report.room.y));
+    }
+}
+
+Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
+    Made made;
+    DrawOptions options = drawing_;
+    options.monitor = monitor;
+    options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
+    options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
+    if (is_model()) {
+        make_model(destination, name, options, made);
+    } else if (is_growth()) {
+        make_growth(destination, name, options, made);
+    } else if (settings_.generations) {
+        make_sheet(destination, name, options);
+    } else {
+        make_print(destination, name, options, made);
+    }
+    return made;
+}
+
+Cost PrintWork::forecast() const {
+    Cost result;
+    const Grammar grammar = shorten(document_.grammar());
+    DrawingCost cost;
+    {
+        // The parts of large words are large, too: not several at a time.
+        static std::mutex mutex;
+        std::unique_lock lock(mutex, std::defer_lock);
+        if (!is_vector(drawing_.format)) lock.lock();
+        const auto parts = seen_parts(grammar, print_.style, drawing_);
+        if (!parts) require_affordable(grammar, true, drawing_.budget);
+        cost = drawing_cost(grammar, parts ? &*parts : nullptr, print_, drawing_);
+    }
+    const auto text = static_cast<double>(print_.pattern.size());
+    const bool spline = print_.style.line == Line::spline;
+    result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
+    result.memory = cost.memory + text;
+    switch (drawing_.format) {
+        case PrintFormat::svg:
+            result.seconds += cost.lines * (spline ? 60e-9 : 12e-9);
+            result.bytes = 700 + text + cost.lines * (spline ? 30 : 5);
+            return result;
+        case PrintFormat::pdf:
+            result.seconds += 0.002 + cost.lines * (spline ? 250e-9 : 80e-9);
+            result.bytes = 2000 + text + cost.lines * (spline ? 12 : 3);
+            return result;
+        case PrintFormat::hpgl:
+        case PrintFormat::gcode:
+            result.seconds += cost.lines * 3e-6;
+            result.bytes = 500 + cost.lines * (spline ? 60 : 12);
+            result.memory += cost.lines * 250;
+            return result;
+        default:
+            break;
+    }
+    const PixelSize size = pixel_size(print_.page, print_.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    result.seconds += 0.004 + pixels * 22e-9 + cost.lines * (spline ? 6 : 1) * 40e-9;
+    result.bytes = 1000 + text + std::min(pixels * 3, pixels * 0.03 + cost.lines * 4);
+    result.band = cost.thread_memory;
+    return result;
+}
+
+class Prints : public Interpreter {
+public:
+    Prints() {
+        for (const FormatInfo& row : print_formats()) formats_.push_back({row.extension, row.label, row.alias});
+        for (const Option<DrawSettings>& row : draw_options()) options_.push_back(&row.info);
+    }
+    std::span<const FormatName> formats() const override { return formats_; }
+    std::span<const OptionInfo* const> options() const override { return options_; }
+    void check(std::string_view format, const OptionValues& values) const override {
+        check_draw_settings(read_draw_settings(values), known(format));
+    }
+    std::unique_ptr<Work> plan(const Document& document, std::string_view format, const OptionValues& values,
+                               const std::filesystem::path& folder) const override {
+        DrawSettings settings = read_draw_settings(values);
+        if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
+        check_draw_settings(settings, known(format));
+        return std::make_unique<PrintWork>(document, known(format), std::move(settings));
+    }
+
+private:
+    static PrintFormat known(std::string_view format) {
+        if (const auto found = named_format(format)) return *found;
+        throw SettingError("format", std::string(format), "unknown format");
+    }
+    std::vector<FormatName> formats_;
+    std::vector<const OptionInfo*> options_;
+};
+
+}  // namespace
+
+const Interpreter& prints() {
+    static const Prints interpreter;
+    return interpreter;
+}
+
+std::string draw(const Document& document, std::string_view format, const OptionValues& values) {
+    return make_in_memory(prints(), document, format, values);
+}
+
+}  // namespace sikku

@@ -1,0 +1,20 @@
+// art/prints.h: prints and models of a document: the public interface of art.
+#pragma once
+
+#include "engine/interpreter.h"
+
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+/// Draws documents: SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, OBJ and glTF.
+const Interpreter& prints();
+
+/// Returns the bytes of a print. Names in `values` are options of prints() or keys and defines of the pattern:
+/// `draw(koch, "svg", {{"size", "A3"}, {"stroke", "0.3mm navy"}})`.
+/// @param format  a name from prints().formats() whose print is a single file
+/// @throws SettingError, PatternError, BudgetError, WordError; std::runtime_error if nothing is drawn
+std::string draw(const Document& document, std::string_view format, const OptionValues& values = {});
+
+}  // namespace sikku

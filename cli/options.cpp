@@ -1,0 +1,56 @@
+#include "cli/options.h"
+
+#include "engine/base/diagnostic.h"
+
+#include <fmt/format.h>
+
+namespace sikku {
+
+void TableOptions::add(CLI::App& command, std::span<const OptionInfo* const> table) {
+    for (const OptionInfo* info : table) {
+        const std::string name(info->name);
+        if (command.get_option_no_throw("--" + name)) continue;
+        auto one = std::make_unique<One>();
+        one->info = info;
+        std::string names = "--" + name;
+        if (info->letter != 0) names = std::string("-") + info->letter + "," + names;
+        if (info->kind == OptionKind::flag) {
+            if (info->is_on) names += ",!--no-" + name;
+            one->option = command.add_flag(names, one->flag, std::string(info->help));
+        } else {
+            one->option = command.add_option(names, one->texts, std::string(info->help));
+            // Brackets around the value: it may be left out.
+            one->option->expected(info->value.starts_with('[') ? 0 : 1, info->is_list ? 1'000 : 1);
+            one->option->allow_extra_args(false);
+            one->option->multi_option_policy(info->is_list ? CLI::MultiOptionPolicy::TakeAll
+                                                           : CLI::MultiOptionPolicy::Throw);
+            one->option->type_name(std::string(info->value));
+        }
+        if (!info->group.empty()) one->option->group(std::string(info->group));
+        given_->push_back(std::move(one));
+    }
+}
+
+OptionValues TableOptions::values() const {
+    OptionValues values;
+    for (const auto& one : *given_) {
+        if (one->option->count() == 0) continue;
+        const std::string name(one->info->name);
+        if (one->info->kind == OptionKind::flag) {
+            values.push_back({name, one->flag ? "true" : "false"});
+        } else if (one->texts.empty()) {
+            values.push_back({name, ""});
+        } else {
+            for (const std::string& text : one->texts) values.push_back({name, text});
+        }
+    }
+    return values;
+}
+
+std::string option_message(const SettingError& error) {
+    if (error.option().empty()) return error.what();
+    const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
+    return fmt::format("--{}{}: {}", error.option(), value, error.what());
+}
+
+}  // namespace sikku

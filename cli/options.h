@@ -1,0 +1,38 @@
+// cli/options.h: the option tables of the interpreters as options of the command line.
+#pragma once
+
+#include "engine/base/option.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Options of a command that come from a table.
+class TableOptions {
+public:
+    TableOptions() : given_(std::make_shared<Given>()) {}
+    /// Adds `--name` for each row that the command does not have by itself.
+    void add(CLI::App& command, std::span<const OptionInfo* const> table);
+    /// What was given, after parsing, in the order of the table.
+    OptionValues values() const;
+
+private:
+    struct One {
+        const OptionInfo* info = nullptr;
+        CLI::Option* option = nullptr;
+        std::vector<std::string> texts;
+        bool flag = false;
+    };
+    using Given = std::vector<std::unique_ptr<One>>;
+    std::shared_ptr<Given> given_;
+};
+
+/// How users of the command line write what a SettingError says: `--size 3x: expected …`.
+std::string option_message(const SettingError& error);
+
+}  // namespace sikku

@@ -1,0 +1,62 @@
+#include "engine/base/option.h"
+
+#include "engine/base/diagnostic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+bool is_whole(std::string_view text) {
+    std::uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && stop == text.data() + text.size();
+}
+
+}  // namespace
+
+void check_option(const OptionInfo& option, const std::string& text) {
+    const auto refuse = [&](const std::string& message) {
+        throw SettingError(std::string(option.name), text, message);
+    };
+    if (option.kind == OptionKind::text) return;
+    if (option.kind == OptionKind::flag) {
+        if (text != "true" && text != "false") refuse("expected true or false");
+        return;
+    }
+    double number = 0;
+    if (!read_number(text, number)) refuse("expected a number");
+    if (option.kind == OptionKind::whole && !is_whole(text)) refuse("expected a whole number, 0 or more");
+    const bool has_least = option.least > -1e300;
+    const bool has_most = option.most < 1e300;
+    if (number >= option.least && number <= option.most) return;
+    if (has_least && has_most) refuse(fmt::format("expected {:g} to {:g}", option.least, option.most));
+    refuse(has_least ? fmt::format("expected {:g} or more", option.least)
+                     : fmt::format("expected at most {:g}", option.most));
+}
+
+void check_names(std::span<const OptionInfo* const> table, const OptionValues& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::string& name = values[i].name;
+        const auto row =
+            std::find_if(table.begin(), table.end(), [&](const OptionInfo* one) { return one->name == name; });
+        if (row == table.end()) {
+            std::vector<std::string_view> names;
+            for (const OptionInfo* one : table) names.push_back(one->name);
+            const std::string_view near = nearest(name, names);
+            throw SettingError(name, "",
+                               near.empty() ? std::string("unknown option")
+                                            : fmt::format("unknown option; did you mean '{}'?", near));
+        }
+        if ((*row)->is_list) continue;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (values[j].name == name) throw SettingError(name, "", "given twice");
+        }
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,103 @@
+// engine/base/option.h: options of an interpreter as rows of a table. The command line, gallery files, JSON and other
+// languages all read the same rows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// What the value of an option may be before the option reads it.
+enum class OptionKind : std::uint8_t { text, number, whole, flag };
+
+/// One row without its setter.
+struct OptionInfo {
+    std::string_view name;     ///< lower case, words joined by hyphens
+    std::string_view help;     ///< a noun phrase or an imperative, with range and default
+    std::string_view value{};  ///< stands for the value in help, `SIZE`; in brackets if it may be left out
+    std::string_view group{};  ///< heading in help; empty: the first
+    OptionKind kind = OptionKind::text;
+    double least = -1e300;  ///< of numbers
+    double most = 1e300;
+    bool is_list = false;   ///< may be given several times
+    bool is_alone = false;  ///< not in galleries, whose jobs are one file of one derivation length each
+    bool is_on = false;     ///< a flag that holds unless it is set to false
+    char letter = 0;        ///< short form on the command line; 0: none
+    bool is_key = false;    ///< also a key of the language, which the option overrides
+};
+
+/// `set` reads the text of a value; numbers are in range, flags are `true` or `false`.
+/// @throws SettingError (through refuse()) for a value that cannot be read
+template <typename Settings>
+struct Option {
+    OptionInfo info;
+    void (*set)(Settings& settings, const std::string& text);
+    /// Instead of `set`, for rows that share one setter.
+    void (*set_named)(Settings& settings, std::string_view name, const std::string& text) = nullptr;
+};
+
+/// An option by name and the text of its value.
+struct OptionValue {
+    std::string name;
+    std::string text;
+};
+using OptionValues = std::vector<OptionValue>;
+
+/// A value, or a combination of values, that is not possible. what() is the whole message without the name of the
+/// option, so that each caller can name the option as its users write it.
+class SettingError : public std::runtime_error {
+public:
+    SettingError(std::string option, std::string value, const std::string& message)
+        : std::runtime_error(message), option_(std::move(option)), value_(std::move(value)) {}
+    const std::string& option() const { return option_; }  ///< as in the table
+    const std::string& value() const { return value_; }    ///< empty where the combination is at fault
+
+private:
+    std::string option_;
+    std::string value_;
+};
+
+/// Checks a value against kind and range of its option. @throws SettingError
+void check_option(const OptionInfo& option, const std::string& text);
+
+/// The row of that name, or null.
+template <typename Settings>
+const Option<Settings>* find_option(std::span<const Option<Settings>> table, std::string_view name) {
+    for (const Option<Settings>& row : table) {
+        if (row.info.name == name) return &row;
+    }
+    return nullptr;
+}
+
+/// Applies values in the order of the table, so that rows may build on those before them (lengths in px on `dpi`).
+/// @throws SettingError for an unknown name, a repeated one that is no list, and for what a row refuses
+template <typename Settings>
+void apply_options(std::span<const Option<Settings>> table, const OptionValues& values, Settings& settings);
+
+/// Throws SettingError for unknown and repeated names.
+void check_names(std::span<const OptionInfo* const> table, const OptionValues& values);
+
+template <typename Settings>
+void apply_options(std::span<const Option<Settings>> table, const OptionValues& values, Settings& settings) {
+    std::vector<const OptionInfo*> known;
+    for (const Option<Settings>& row : table) known.push_back(&row.info);
+    check_names(known, values);
+    for (const Option<Settings>& row : table) {
+        for (const OptionValue& value : values) {
+            if (value.name != row.info.name) continue;
+            check_option(row.info, value.text);
+            if (row.set_named) {
+                row.set_named(settings, row.info.name, value.text);
+            } else {
+                row.set(settings, value.text);
+            }
+        }
+    }
+}
+
+}  // namespace sikku

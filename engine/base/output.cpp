@@ -1,0 +1,76 @@
+#include "engine/base/output.h"
+
+#include "engine/base/output_file.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+class FileSystem : public Destination {
+public:
+    std::unique_ptr<Output> open(const std::filesystem::path& name) override {
+        return std::make_unique<OutputFile>(name);
+    }
+};
+
+/// Appears in its place on commit().
+class NamedMemory : public MemoryOutput {
+public:
+    explicit NamedMemory(std::string& place) : place_(place) {}
+    void commit() override {
+        MemoryOutput::commit();
+        place_ = std::move(bytes_);
+    }
+
+private:
+    std::string& place_;
+};
+
+}  // namespace
+
+MemoryOutput::MemoryOutput() = default;
+MemoryOutput::~MemoryOutput() = default;
+
+void MemoryOutput::insert(std::uint64_t position, std::string_view bytes) {
+    bytes_.insert(static_cast<std::size_t>(position), bytes);
+}
+
+void MemoryOutput::overwrite(std::uint64_t position, std::string_view bytes) {
+    bytes_.replace(static_cast<std::size_t>(position), bytes.size(), bytes);
+}
+
+const std::filesystem::path& MemoryOutput::temporary() {
+    if (!file_) {
+        file_ = std::make_unique<OutputFile>(std::filesystem::temp_directory_path() / "sikku");
+        file_->write(bytes_);
+    }
+    return file_->temporary();
+}
+
+void MemoryOutput::commit() {
+    if (!file_) return;
+    std::ifstream stream(file_->temporary(), std::ios::binary);
+    bytes_.assign(std::istreambuf_iterator<char>(stream), {});
+    if (!stream) throw std::runtime_error("cannot read the temporary file " + file_->temporary().string());
+    file_.reset();
+}
+
+Destination& file_system() {
+    static FileSystem files;
+    return files;
+}
+
+std::unique_ptr<Output> MemoryDestination::open(const std::filesystem::path& name) {
+    // References to the elements of a map stay valid.
+    return std::make_unique<NamedMemory>(outputs_[name.string()]);
+}
+
+std::string MemoryDestination::take(const std::string& name) {
+    return std::move(outputs_.at(name));
+}
+
+}  // namespace sikku

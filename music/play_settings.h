@@ -1,0 +1,33 @@
+// music/play_settings.h: the options of a score, typed, and the one table that reads them.
+#pragma once
+
+#include "engine/base/option.h"
+#include "engine/language/pattern.h"
+#include "music/score/midi.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+struct PlaySettings {
+    std::vector<Setting> keys;  ///< of the language, in the order of its table: `scale`, `tempo`, …
+    std::int64_t from_bar = 1;  ///< counted from 1
+    std::int64_t bars = 0;      ///< 0: all
+    double seconds = 0;         ///< 0: all
+    double transpose = 0;       ///< semitones, -127 to 127
+    double humanise = 0;        ///< 0 to 1
+    std::uint64_t seed = 0;     ///< of humanise
+    int format = 1;             ///< of MIDI, 0 or 1
+    Tuning tuning = Tuning::bend;
+    double budget = 200e6;  ///< maximum number of derivation nodes visited
+};
+
+/// The table: every option of a score, in the order of help; first the keys of the language that music reads.
+std::span<const Option<PlaySettings>> play_options();
+
+/// Reads options. @throws SettingError
+PlaySettings read_play_settings(const OptionValues& values);
+
+}  // namespace sikku
