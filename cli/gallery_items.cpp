@@ -90,10 +90,19 @@ bool is_whole(const std::string& text) {
     return error == std::errc() && stop == text.data() + text.size();
 }
 
+bool has_control(std::string_view text) {
+    return std::any_of(text.begin(), text.end(), [](char byte) {
+        return static_cast<unsigned char>(byte) < ' ' && byte != '\t' && byte != '\n' && byte != '\r';
+    });
+}
+
 /// @param facts  null: of a key of the pattern's own
 void check_value(const std::string& key, const GalleryKeyFacts* facts, const std::string& value,
                  const std::string& place) {
-    if (!fits_xml(value)) fail(place, fmt::format("{}: '{}' is no UTF-8 text", key, printable(value, 80)));
+    if (!fits_xml(value)) {
+        fail(place, fmt::format("{}: '{}' contains {}", key, printable(value, 80),
+                                has_control(value) ? "a control character" : "invalid UTF-8"));
+    }
     if (!facts) return;
     const OptionKind kind = facts->kind;
     double number = 0;
@@ -140,7 +149,7 @@ void check_format(const std::string& format, const std::string& place) {
     if (std::find(known.begin(), known.end(), format) != known.end()) return;
     const std::string_view near = nearest(format, known);
     fail(place, fmt::format("unknown format '{}'{}", printable(format, 80),
-                            near.empty() ? fmt::format("; expected {}", fmt::join(known, ", "))
+                            near.empty() ? fmt::format("; expected one of {}", fmt::join(known, ", "))
                                          : fmt::format("; did you mean '{}'?", near)));
 }
 
@@ -341,6 +350,7 @@ void read_gallery_key(const std::string& written, const GalleryValue& value, Gal
     } else if (key == "set") {
         if (value.type != GalleryValue::Type::table) fail(value.place, "set: expected a table such as { r = 0.5 }");
         for (const auto& [name, element] : value.table) {
+            if (name.empty()) fail(element.place, "set: a key is empty; expected the name of a key or define");
             item.take(std::make_shared<const GalleryAxis>(axis_of(name, element, nullptr)));
         }
     } else if (const GalleryKeyFacts* facts = find_gallery_key(key)) {

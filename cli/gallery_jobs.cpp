@@ -138,7 +138,7 @@ public:
 
     /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items.
     /// @throws UsageError if they are too many
-    void require_few() const {
+    void require_few(double most_jobs) const {
         double sum = 0;
         double settings = 0;
         for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -152,11 +152,10 @@ public:
                     settings += jobs * static_cast<double>(items_[i].axes.size());
                 }
             }
-            if (sum > most_gallery_jobs) {
+            if (sum > most_jobs) {
                 fail(items_[i].place,
                      fmt::format("this would make {} jobs; at most {:.0f} fit in one run",
-                                 sum < 1e15 ? fmt::format("{:.0f}", sum) : fmt::format("{:.0e}", sum),
-                                 most_gallery_jobs));
+                                 sum < 1e15 ? fmt::format("{:.0f}", sum) : fmt::format("{:.0e}", sum), most_jobs));
             }
             if (settings > most_gallery_settings) {
                 fail(items_[i].place,
@@ -629,7 +628,7 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     }
     take_request(request, items.list);
     Expansion expansion(std::move(items.list), request.bundled_only);
-    expansion.require_few();
+    expansion.require_few(request.most_jobs);
     std::vector<GalleryJob> jobs = expansion.jobs();
     if (request.title.empty()) request.title = title_of(jobs);
     return jobs;

@@ -63,6 +63,7 @@ struct GalleryRequest {
     std::optional<std::string> gallery_text;   ///< replaces the gallery file, whose name is for messages
     std::optional<std::string> manifest_text;  ///< likewise
     bool bundled_only = false;                 ///< do not search files for patterns
+    double most_jobs = most_gallery_jobs;      ///< more are refused; at most most_gallery_jobs
     std::map<std::string, std::string> keys;   ///< these override the files
     std::vector<std::string> overrides;        ///< KEY=VALUE
     std::string poster, contact;               ///< sizes of sheets; empty: taken from the gallery file

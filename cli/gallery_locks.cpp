@@ -11,6 +11,7 @@
 #include <climits>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 namespace sikku {
 namespace {
@@ -86,6 +87,17 @@ GalleryLocks::Result GalleryLocks::lock(short type, std::int64_t byte, bool wait
     return Result::locked;
 }
 
+/// Locks where locks have worked before.
+GalleryLocks::Result GalleryLocks::require_lock(short type, std::int64_t byte, bool waits) const {
+    const Result result = lock(type, byte, waits);
+    if (result == Result::unsupported) {
+        const int error = errno;
+        throw std::runtime_error(fmt::format("cannot lock '{}': {}; start the run again to resume it",
+                                             folder_.shown(lock_name), std::generic_category().message(error)));
+    }
+    return result;
+}
+
 /// Is it still the file of that name?
 bool GalleryLocks::is_named() const {
     struct stat opened {};
@@ -95,7 +107,7 @@ bool GalleryLocks::is_named() const {
 }
 
 bool GalleryLocks::take(const std::string& file) {
-    return !file_ || lock(F_WRLCK, byte_of(file), false) != Result::busy;
+    return !file_ || require_lock(F_WRLCK, byte_of(file), false) == Result::locked;
 }
 
 void GalleryLocks::release(const std::string& file) {
@@ -119,7 +131,7 @@ std::uint64_t GalleryLocks::arrivals() {
 }
 
 GalleryLocks::Turn::Turn(GalleryLocks& locks, bool exclusive) : locks_(locks) {
-    if (locks_.file_) locks_.lock(exclusive ? F_WRLCK : F_RDLCK, turn, true);
+    if (locks_.file_) locks_.require_lock(exclusive ? F_WRLCK : F_RDLCK, turn, true);
 }
 
 GalleryLocks::Turn::~Turn() {

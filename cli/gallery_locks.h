@@ -12,7 +12,9 @@ namespace sikku {
 /// `.gallery.lock` (one line per run: host and process), which the last run removes. The system drops the locks of a
 /// process however it ends, so a file whose lock is free has no living owner, and its unfinished remains may be
 /// removed. Network file systems pass the locks on to other hosts; without lock support, other runs cannot be
-/// detected.
+/// detected. Whether locks are supported is found out once, at the start. A lock that fails later, as when a server
+/// has no memory for more locks, ends the run with an error: without the lock, another run could remove the
+/// unfinished file as that of a dead owner. Finished files stay, and the run can be started again.
 class GalleryLocks {
 public:
     /// @throws std::runtime_error if the file cannot be written or has the wrong type or contents
@@ -23,7 +25,8 @@ public:
 
     /// Does the file system support locks?
     bool work() const { return static_cast<bool>(file_); }
-    /// Locks a file of the gallery; false if another run has it. Without locks, always true.
+    /// Locks a file of the gallery; false if another run has it. Without lock support, always true.
+    /// @throws std::runtime_error if locks are supported and this one fails
     bool take(const std::string& file);
     void release(const std::string& file);
 
@@ -36,6 +39,7 @@ public:
     /// turn. One at a time in a process.
     class Turn {
     public:
+        /// @throws std::runtime_error if locks are supported and this one fails
         Turn(GalleryLocks& locks, bool exclusive);
         ~Turn();
         Turn(const Turn&) = delete;
@@ -48,6 +52,7 @@ public:
 private:
     enum class Result { locked, busy, unsupported };
     Result lock(short type, std::int64_t byte, bool waits) const;
+    Result require_lock(short type, std::int64_t byte, bool waits) const;
     bool is_named() const;
 
     const GalleryFolder& folder_;

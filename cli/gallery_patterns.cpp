@@ -220,8 +220,8 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     const std::string_view near = PatternLibrary::bundled().nearest(word);
-    fail(place, fmt::format("there is no file and no pattern '{}'{}", printable(word, 80),
-                            near.empty() ? "; `sikku patterns` lists those that come along"
+    fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80),
+                            near.empty() ? "; `sikku patterns` lists the bundled ones"
                                          : fmt::format("; did you mean '{}'?", near)));
 }
 

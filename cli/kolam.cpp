@@ -145,7 +145,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
             }
             grid->as_json = *as_json;
             grid->seed = seed_of(*options);
-            return kolam_grid(*grid, {.quiet = quiet, .listener = {}, .watch = {}});
+            return kolam_grid(*grid, quiet);
         }
         if (options->pattern.empty()) throw UsageError("expected PATTERN, or --grid");
         const Document loaded = load(*options, quiet);

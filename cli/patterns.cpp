@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 
 namespace sikku {
@@ -68,6 +69,7 @@ void show(const std::string& what, bool quiet) {
         return;
     }
     PatternText text = read_pattern_text(what);
+    if (text.text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", text.name));
     if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
     Diagnostics diagnostics;
     const auto source = read_source(std::move(text.name), std::move(text.text), diagnostics);

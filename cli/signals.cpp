@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <ctime>
 #include <string_view>
@@ -29,9 +30,11 @@ extern "C" void stop_signal(int signal) {
     int none = 0;
     if (!signal_seen.compare_exchange_strong(none, signal)) end_at_once();
     if (!has_patience) return;
+    const int error = errno;  // of the interrupted code
     itimerspec time{};
     time.it_value.tv_nsec = patience_milliseconds * 1'000'000;
     timer_settime(patience, 0, &time, nullptr);
+    errno = error;
 }
 
 /// The work did not check for the request in time.

@@ -96,17 +96,17 @@ TEST(BadInput, Binary) {
     for (int i = 0; i < 10; ++i) {
         std::string bytes;
         for (int k = 0; k < 3000; ++k) bytes += static_cast<char>(random());
-        expect_mistake(bytes, "no pattern file");
+        expect_mistake(bytes, "a pattern file is UTF-8 text");
     }
     expect_mistake(std::string("axiom: F\0F\n", 11), "-:1:9: a NUL byte");
     expect_mistake(std::string(100'000, '\0'), "-:1:1: a NUL byte");
-    expect_mistake("axiom: F\xC0\x80", "-:1:9: a byte that is no UTF-8");
-    expect_mistake("axiom: F\xED\xA0\x80", "-:1:9: a byte that is no UTF-8");
-    expect_mistake("axiom: F\xF5\x80\x80\x80", "-:1:9: a byte that is no UTF-8");
+    expect_mistake("axiom: F\xC0\x80", "-:1:9: invalid UTF-8");
+    expect_mistake("axiom: F\xED\xA0\x80", "-:1:9: invalid UTF-8");
+    expect_mistake("axiom: F\xF5\x80\x80\x80", "-:1:9: invalid UTF-8");
     expect_mistake(std::string("\xFF\xFE"
                                "a\0x\0",
                                6),
-                   "-:1:1: a byte that is no UTF-8");
+                   "-:1:1: invalid UTF-8");
 }
 
 TEST(BadInput, MessagesAreUtf8WhateverTheFileIs) {

@@ -476,6 +476,9 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
         EXPECT_EQ(run({"show", "--quiet", folder.file(name)}).errors, "");
     }
     // A missing file is said to be missing.
+    for (const char* empty : {"empty.png", "empty.lsys"}) {
+        expect_failure(run({"show", folder.write(empty, "")}), 1, std::string(empty) + ": this file is empty");
+    }
     EXPECT_TRUE(has(run({"show", folder.file("missing.svg")}).errors, "No such file"));
     EXPECT_TRUE(has(run({"show", folder.file("missing.png")}).errors, "No such file"));
     EXPECT_TRUE(has(run({"show", folder.file("missing.pdf")}).errors, "No such file"));

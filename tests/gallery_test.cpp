@@ -108,9 +108,10 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: n: the range 5:1 holds nothing");
     refused("pattern = 'hilbert'\nn = []\n", "bad.toml:2:1: n: this list is empty");
     refused("[[item]]\nn = 3\n", "bad.toml:1:1: this item has no pattern");
-    refused("pattern = 'hilbrt'\n",
-            "bad.toml:1:1: there is no file and no pattern 'hilbrt'; did you mean 'hilbert'?");
-    refused("format = 'sgv'\n", "bad.toml:1:1: there is no format 'sgv'; did you mean 'svg'?");
+    refused("pattern = 'hilbrt'\n", "bad.toml:1:1: no file or pattern named 'hilbrt'; did you mean 'hilbert'?");
+    refused("format = 'sgv'\n", "bad.toml:1:1: unknown format 'sgv'; did you mean 'svg'?");
+    refused("set = { '' = 1 }\n", "bad.toml:1:9: set: a key is empty");
+    refused("set = { title = \"a\\u001Bb\" }\n", "bad.toml:1:9: title: 'a?b' contains a control character");
     refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: --size 3x");
     refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: unknown placeholder {m}");
     refused("pattern = 'hilbert'\nname = '../x'\n", "bad.toml:2:1: name: '../x' cannot be");

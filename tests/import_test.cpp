@@ -880,7 +880,7 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("#if x > 1\n#endif\n" + head + "endlsystem\n", {{{1, 6}, "more than one word"}, {{2, 1}, "has no #if"}});
     expect("#ifdef x\n" + head + "endlsystem\n",
            {{{1, 1}, "has no #endif"}, {{1, 1}, "there is no line 'Lsystem:'"}});
-    expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "nobody knows this directive"}});
+    expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "unknown preprocessor directive"}});
     std::string laughs = "#define l0 FF\n";
     for (int i = 1; i < 40; ++i) laughs += fmt::format("#define l{0} l{1} l{1}\n", i, i - 1);
     expect(laughs + "Lsystem: 1\nAxiom: l39\nendlsystem\n", {{{42, 8}, "expand to more than 16 MB"}});

@@ -3,6 +3,7 @@
 #include "tests/print_tools.h"
 
 #include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -159,6 +160,49 @@ TEST(OutputFile, SymbolicLinksAreFollowed) {
     }
     fs::create_symlink("self", folder / "self");
     EXPECT_NE(complaint_of_writing(folder / "self").find("symbolic links"), std::string::npos);
+}
+
+TEST(OutputFile, LinksThatAppearLaterAreNotFollowed) {
+    const ScratchFolder folder;
+    std::ofstream(folder / "precious") << "mine";
+    ASSERT_EQ(::chmod((folder / "precious").c_str(), 0600), 0);
+    {
+        OutputFile file(folder / "target");
+        file.write("new");
+        fs::create_symlink("precious", folder / "target");
+        file.commit();
+        EXPECT_FALSE(fs::is_symlink(folder / "target"));
+        EXPECT_EQ(contents(folder / "target"), "new");
+    }
+    {
+        OutputFile file(folder / "target");
+        ASSERT_EQ(::chmod((folder / "target").c_str(), 0644), 0);
+        const fs::path temporary = file.temporary();
+        fs::remove(temporary);
+        fs::create_symlink("precious", temporary);
+        EXPECT_NE(complaint([&] { file.commit(); }).find("symbolic links"), std::string::npos);
+    }
+    EXPECT_EQ(contents(folder / "target"), "new");
+    EXPECT_EQ(contents(folder / "precious"), "mine");
+    EXPECT_EQ(mode_of(folder / "precious"), 0600u);
+    EXPECT_EQ(folder.names().size(), 2u);
+}
+
+TEST(OutputFile, CommitSynchronisesTheDescriptorThatWasWritten) {
+    const ScratchFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        OutputFile file(folder / "a");
+        file.write("whole");
+        // No other file can be opened any more.
+        const rlimit none{0, 0};
+        if (::setrlimit(RLIMIT_NOFILE, &none) != 0) ::_exit(3);
+        ::_exit(complaint([&] { file.commit(); }).empty() ? 0 : 4);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(contents(folder / "a"), "whole");
 }
 
 TEST(OutputFile, FailuresNameTheTargetAndTheCause) {

@@ -66,7 +66,7 @@ TEST(Spot, SaysWhatIsWrong) {
         {"None=red", "the name None is taken"},
         {std::string("a\0b=red", 7), "control characters"},
         {"a\nb=red", "control characters"},
-        {"\xC3=red", "no UTF-8"},
+        {"\xC3=red", "invalid UTF-8"},
     };
     for (const auto& [text, part] : cases) {
         EXPECT_TRUE(says(complaint([&, &given = text] { parse_spot(given); }), part)) << text;

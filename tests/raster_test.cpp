@@ -785,6 +785,18 @@ TEST(Raster, AWatcherMayStopItWithinABand) {
                  Stop);
 }
 
+TEST(ImageFile, APictureThatIsGivenUpReportsNothing) {
+    const ScratchFolder folder;
+    testing::internal::CaptureStderr();
+    for (const char* format : {"png", "tif", "jpg", "exr"}) {
+        for (const int rows : {0, 32}) {
+            const auto writer = open_image(folder / "x", image_spec(format, 64, 64, 3));
+            if (rows > 0) writer->rows(0, rows, std::vector<std::uint8_t>(std::size_t{3} * 64 * 32, 0));
+        }
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ImageFile, WhatCannotBeWrittenIsAnError) {
     const ScratchFolder folder;
     EXPECT_THROW(open_image(folder / "none" / "x.png", image_spec("png", 8, 8, 1)), std::runtime_error);

@@ -269,7 +269,9 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
 }
 
 FileWriter::~FileWriter() {
-    // Not closed: the file is given up, and what closing it would complain of does not matter.
+    // Not closed: the file is given up. Without its proxy the library does not complete a PNG, for which libpng would
+    // report missing pixels on standard error.
+    if (output_ && spec_.format == "png") output_->set_ioproxy(nullptr);
     output_.reset();
 }
 

@@ -63,7 +63,7 @@ Spot parse_spot(std::string_view text) {
     for (const char* reserved : {"All", "None", "Cyan", "Magenta", "Yellow", "Black"}) {
         if (lower_case(name) == lower_case(reserved)) refuse(fmt::format("the name {} is taken", reserved));
     }
-    if (!is_printable(name)) refuse("its name holds control characters or is no UTF-8");
+    if (!is_printable(name)) refuse("its name contains control characters or invalid UTF-8");
     if (colour_text.empty()) refuse("its colour is missing");
     const auto colour = parse_colour(colour_text);
     if (!colour) refuse(fmt::format("'{}' is no colour: write #rrggbb or a CSS name", printable(colour_text)));

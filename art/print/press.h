@@ -38,7 +38,7 @@ struct Press {
 
 /// `Kaavi=#b3452c`: a name and a colour as parse_colour() takes it. Blanks around both do not count.
 /// @throws std::runtime_error if there is no name or no opaque colour, if the name is over 127 bytes, is All or None,
-/// which PDF reserves, or holds control characters or what is no UTF-8
+/// which PDF reserves, or contains control characters or invalid UTF-8
 Spot parse_spot(std::string_view text);
 /// Adds a spot colour. @throws std::runtime_error if its name or its colour is there already
 void add_spot(std::vector<Spot>& spots, Spot spot);

@@ -11,8 +11,8 @@
 namespace sikku {
 namespace {
 
-/// A pattern is at most 64 MB long, and UTF-16 in hexadecimal digits four times as long; the title may be as long.
-constexpr std::uint64_t most_dictionary_bytes = std::uint64_t{640} << 20;
+/// A pattern is at most 64 MB long, UTF-16 in hexadecimal digits four times as long; 64 MB are left for the title.
+constexpr std::uint64_t most_dictionary_bytes = std::uint64_t{320} << 20;
 /// The writer has four.
 constexpr int most_entries = 64;
 constexpr std::uint64_t entry_bytes = 20;  // of the table of objects
@@ -80,6 +80,10 @@ private:
     bool is_utf16_ = false, is_wrong_ = false;
 };
 
+bool is_delimiter(char byte) {
+    return byte == '(' || byte == ')' || byte == '\\';
+}
+
 /// Hands the bytes of the string in parentheses that comes next to `take`. False if it does not end.
 template <typename Take>
 bool read_literal(InputStream& in, Take take) {
@@ -91,8 +95,13 @@ bool read_literal(InputStream& in, Take take) {
         if (bytes.empty()) return false;
         std::size_t plain = 0;
         for (; plain < bytes.size(); ++plain) {
-            const char byte = bytes[plain];
-            if (byte == '\\' || byte == '(' || byte == ')') break;
+            char byte = bytes[plain];
+            if (byte == '(' || byte == ')') break;
+            if (byte == '\\') {
+                // What the writer escapes; the rest is handled below.
+                if (plain + 1 == bytes.size() || !is_delimiter(bytes[plain + 1])) break;
+                byte = bytes[++plain];
+            }
             take(static_cast<unsigned char>(byte));
         }
         in.skip(plain);
@@ -151,22 +160,25 @@ bool read_hexadecimal(InputStream& in, Take take) {
     }
 }
 
+/// Reads a string in either notation. False if none comes next, or if it does not end.
+template <typename Take>
+bool read_string(InputStream& in, Take take) {
+    const std::string_view next = in.ahead();
+    if (next.starts_with('(')) return read_literal(in, take);
+    return next.starts_with('<') && read_hexadecimal(in, take);
+}
+
 /// The text that comes next, or nullopt if it is malformed.
 std::optional<std::string> read_text(InputStream& in) {
     TextString text;
-    const auto take = [&text](unsigned char byte) { text.take(byte); };
-    const std::string_view next = in.ahead();
-    const bool is_whole = next.starts_with('(')   ? read_literal(in, take)
-                          : next.starts_with('<') ? read_hexadecimal(in, take)
-                                                  : false;
+    const bool is_whole = read_string(in, [&text](unsigned char byte) { text.take(byte); });
     return is_whole ? text.finish() : std::nullopt;
 }
 
 /// Moves behind the text that comes next. False if it does not end.
 bool skip_text(InputStream& in) {
-    const std::string_view next = in.ahead();
-    if (next.starts_with('<')) return in.skip_past(">");
-    return next.starts_with('(') && read_literal(in, [](unsigned char) {});
+    std::uint64_t count = 0;
+    return read_string(in, [&count](unsigned char) { require_length(++count); });
 }
 
 /// The texts of the object in the writer's layout: a dictionary of strings.

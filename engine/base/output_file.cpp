@@ -32,7 +32,8 @@ struct UnfinishedFile {
 namespace {
 
 std::atomic<UnfinishedFile*> unfinished{nullptr};
-/// A signal handler reads the paths: they must not be freed while it does.
+/// A signal handler reads the paths: from then on they are not freed. Another handler may still be reading when the
+/// first one is done, so it is never reset.
 std::atomic<bool> is_removing{false};
 static_assert(std::atomic<UnfinishedFile*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "a signal handler must not wait for a lock");
@@ -298,7 +299,8 @@ void OutputFile::commit() {
         struct stat named {};
         const bool is_own = ::fstat(descriptor_, &own) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
                             own.st_ino == named.st_ino && own.st_dev == named.st_dev;
-        const int whole = is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+        const int whole =
+            is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
         if (whole < 0) fail(errno);
         int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
         if (error == 0) error = synchronise(whole);
@@ -328,7 +330,6 @@ void remove_unfinished_files() noexcept {
             if (const char* path = entry->path.load()) ::unlink(path);
         }
     }
-    is_removing = false;
 }
 
 }  // namespace sikku

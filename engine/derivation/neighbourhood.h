@@ -1,4 +1,4 @@
-// engine/derivation/neighbourhood.h: matches contexts around a place of a word and counts the cost.
+// engine/derivation/neighbourhood.h: matches contexts around a symbol of a word and counts the cost.
 #pragma once
 
 #include "engine/derivation/derivation.h"
@@ -54,9 +54,9 @@ private:
     std::int64_t step_ = 0;
 };
 
-/// Looks at the neighbours of a place of a word, across branches, as the pfg program does.
-/// For each place it knows the next symbol to the left and to the right that contexts see, so that a long stretch of
-/// ignored symbols, or a large branch, is passed in one step.
+/// Finds the neighbours of a symbol in a word, across branches, as the pfg program does.
+/// Stores for each position the nearest symbols to the left and right that contexts can see, so that a long run of
+/// ignored symbols, or a large branch, is skipped in one step.
 /// Source: Prusinkiewicz & Hanan 1989, section 3.4 and appendix A.
 class Neighbourhood {
 public:
@@ -72,7 +72,7 @@ public:
             const Symbol symbol = word[i];
             before_[i + 1] = i;
             if (grammar.is_push(symbol)) open.push_back(before_[i]);
-            // What came before a branch is seen after it; its end closes it even where brackets are ignored.
+            // After a branch, the symbol before it is visible; `]` closes it even where brackets are ignored.
             std::uint32_t opened = nothing;
             if (grammar.is_pop(symbol) && !open.empty()) {
                 opened = open.back();
@@ -103,7 +103,8 @@ public:
         }
     }
 
-    /// Where the symbols of a context were seen, from left to right, is written to `seen` if there is one.
+    /// Does `context` match to the left of position `at`? Writes the positions of its symbols, from left to right, to
+    /// `seen_at` unless it is null.
     bool left_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) const {
         std::size_t k = context.size();
         for (; k > 0; --k) {
@@ -129,7 +130,7 @@ private:
         for (std::size_t k = 0; k < context.size(); ++k) {
             const Symbol wanted = context[k];
             if (!branch_.empty() && grammar_.is_push(wanted)) {
-                // Nothing but what is ignored may lie before the branch.
+                // Only ignored symbols may precede the branch.
                 const std::size_t begin =
                     at < word_.size() && !grammar_.is_push(word_[at]) ? std::size_t{branch_[at]} : at;
                 if (begin >= word_.size()) return k;
@@ -150,7 +151,7 @@ private:
         return context.size();
     }
 
-    /// Of a '[', its ']'; of another place, the '[' that follows with nothing but what is ignored before it.
+    /// Stores for each '[' its ']', and for each other position the next '[' if only ignored symbols precede it.
     void find_branches() {
         branch_.assign(word_.size(), nothing);
         std::vector<std::uint32_t> closed;
@@ -173,10 +174,10 @@ private:
     const Grammar& grammar_;
     const Word& word_;
     MatchingWork& work_;
-    std::vector<std::uint32_t> before_;  // the place seen from the left end of each symbol
-    std::vector<std::uint32_t> after_;   // the place seen from there to the right, its own included
+    std::vector<std::uint32_t> before_;  // position visible to the left of each symbol
+    std::vector<std::uint32_t> after_;   // position visible to the right, its own included
     std::vector<std::uint32_t> branch_;  // empty if no context looks into branches
-    std::vector<std::uint32_t> ends_;    // of the branches of a context being matched
+    std::vector<std::uint32_t> ends_;    // ends of the branches in the context being matched
 };
 
 }  // namespace sikku

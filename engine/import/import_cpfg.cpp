@@ -451,7 +451,7 @@ private:
         } else if (what == "include") {
             losses_.add(begin, "what #include would bring");
         } else if (what.empty() ? !is_empty(at, end) : what != "pragma" && what != "line" && !is_digit(what[0])) {
-            mistake(begin, "nobody knows this directive of the preprocessor; a production cannot begin with '#'");
+            mistake(begin, "unknown preprocessor directive; a production cannot begin with '#'");
         }
     }
 

@@ -378,8 +378,8 @@ SourcePointer read_source(std::string name, std::string text, Diagnostics& diagn
     auto source = std::make_shared<const Source>(std::move(name), std::move(text));
     if (bad != std::string::npos) {
         diagnostics.unreadable({source, bad, 1}, source->text()[bad] == 0
-                                                     ? "a NUL byte: this is no pattern file"
-                                                     : "a byte that is no UTF-8: this is no pattern file");
+                                                     ? "a NUL byte; a pattern file is UTF-8 text"
+                                                     : "invalid UTF-8; a pattern file is UTF-8 text");
     } else if (source->open_comment() != std::string::npos) {
         diagnostics.unreadable({source, source->open_comment(), 2}, open_comment_message);
     }

@@ -71,7 +71,7 @@ struct Pattern {
     std::string text(std::string_view name) const;
 };
 
-/// A longer text is no pattern file.
+/// Longer pattern texts are refused.
 constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 
 /// Takes the text of a pattern file without parsing it. Refuses (as unreadable) more than 64 MB, NUL bytes, invalid
@@ -79,7 +79,7 @@ constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
-/// Refuses over 64 MB, NUL bytes and what is no UTF-8. Cost: linear.
+/// Refuses more than 64 MB, NUL bytes and invalid UTF-8. Cost: linear.
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
