@@ -1,7 +1,6 @@
-#include "cli/gallery_values.h"
+#include "art/gallery/values.h"
 
-#include "cli/command.h"
-#include "cli/json.h"
+#include "art/gallery/json.h"
 
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
@@ -213,7 +212,7 @@ private:
 }  // namespace
 
 void fail(const std::string& place, const std::string& message) {
-    throw UsageError(place.empty() ? message : place + ": " + message);
+    throw GalleryError(place.empty() ? message : place + ": " + message);
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
