@@ -57,12 +57,6 @@ std::vector<std::string> words_of(const GalleryValue& value, std::string_view ke
     return words;
 }
 
-bool is_whole(const std::string& text) {
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && stop == text.data() + text.size();
-}
-
 bool has_control(std::string_view text) {
     return std::any_of(text.begin(), text.end(), [](char byte) {
         return static_cast<unsigned char>(byte) < ' ' && byte != '\t' && byte != '\n' && byte != '\r';

@@ -2,6 +2,7 @@
 
 #include "art/gallery/values.h"
 
+#include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
 

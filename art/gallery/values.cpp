@@ -5,6 +5,8 @@
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
+#include "engine/base/diagnostic.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
