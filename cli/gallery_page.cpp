@@ -3,8 +3,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
+#include <embedded/gallery_page.h>
 #include <fmt/format.h>
-#include <gallery_page_files.h>
 
 #include <map>
 

@@ -2,7 +2,7 @@
 
 #include "engine/base/text.h"
 
-#include <scales_data.h>
+#include <embedded/scales.h>
 
 #include <fmt/format.h>
 

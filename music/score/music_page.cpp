@@ -3,8 +3,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
+#include <embedded/music_page.h>
 #include <fmt/format.h>
-#include <music_page_files.h>
 
 #include <algorithm>
 #include <array>
@@ -372,7 +372,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
         "style-src 'unsafe-inline'; img-src data:\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<meta name=\"generator\" content=\"{}\"/>\n<link rel=\"icon\" href=\"data:,\"/>\n<title>{}</title>\n<style>\n",
+        "<meta name=\"generator\" content=\"{}\"/>\n<link rel=\"icon\" "
+        "href=\"data:,\"/>\n<title>{}</title>\n<style>\n",
         xml_escaped(head.made), title);
     out.text() += page_css;
     out.text() += fmt::format(
