@@ -178,6 +178,7 @@ const std::array table = {
                .help = "camera of drawings in space: degrees around and up, or front, side or top; then, for a "
                        "perspective, its distance in radii of the drawing (4)",
                .value = "AZIMUTH,ELEVATION[,perspective[,DISTANCE]]",
+               .sets_more = true,
                .is_key = true},
               [](S& s, Text t) { s.view = t; }},
     Option<S>{{.name = "dots",
@@ -185,6 +186,7 @@ const std::array table = {
                        "practise on",
                .value = "[SIZE COLOUR|only]",
                .group = kolams,
+               .sets_more = true,
                .is_key = true},
               set_dots},
     Option<S>{{.name = "dot-spacing",

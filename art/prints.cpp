@@ -305,8 +305,15 @@ Cost PrintWork::forecast() const {
 class Prints : public Interpreter {
 public:
     Prints() {
-        for (const FormatInfo& row : print_formats()) formats_.push_back({row.extension, row.label, row.alias});
+        for (const FormatInfo& row : print_formats()) {
+            const bool is_several = row.kind == FormatKind::animation || row.kind == FormatKind::model;
+            formats_.push_back({row.extension, row.label, row.alias, is_several});
+        }
         for (const Option<DrawSettings>& row : draw_options()) options_.push_back(&row.info);
+    }
+    KeyOwner owner() const override { return KeyOwner::art; }
+    void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const override {
+        read_style(pattern, 96, diagnostics);  // errors do not depend on the resolution
     }
     std::span<const FormatName> formats() const override { return formats_; }
     std::span<const OptionInfo* const> options() const override { return options_; }

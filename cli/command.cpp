@@ -20,29 +20,8 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_bytes = most_pattern_bytes + 1;  // enough to see that it is too long
-
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Waiting for input ends with a signal; one that interrupts the program is no mistake in what is read.
-std::string read_stream(std::FILE* stream, const std::string& name) {
-    std::string text;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (text.size() < most_bytes) {
-        const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most_bytes - text.size()), stream);
-        const int error = errno;
-        text.append(block.data(), got);
-        if (interrupted()) throw Interrupted();
-        if (std::ferror(stream) != 0) {
-            if (error != EINTR) throw UsageError(fmt::format("{}: {}", name, std::strerror(error)));
-            std::clearerr(stream);
-        } else if (got == 0) {
-            break;
-        }
-    }
-    return text;
 }
 
 }  // namespace
@@ -90,25 +69,17 @@ std::string known_gallery(const std::string& name) {
     return std::filesystem::exists(known, error) ? known.string() : name;
 }
 
-PatternText read_pattern_text(const std::string& pattern) {
-    if (pattern == "-") return {"-", read_stream(stdin, "standard input")};
-    PatternFile found;
+NamedText read_pattern_text(const std::string& pattern) {
     try {
-        found = find_pattern(pattern);
+        if (pattern == "-") return {"-", read_pattern(stdin, "standard input", stop_monitor())};
+        const PatternFile found = find_pattern(pattern);
+        return {found.name, read_pattern({pattern, found.path}, stop_monitor())};
     } catch (const NotFound& error) {
         throw UsageError(std::string(error.what()) +
                          (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
+    } catch (const std::runtime_error& error) {
+        throw UsageError(error.what());
     }
-    std::error_code error;
-    if (std::filesystem::is_directory(found.path, error)) throw UsageError(fmt::format("{} is a folder", pattern));
-    std::FILE* file = nullptr;
-    // Opening a named pipe waits for its writer.
-    while (!(file = std::fopen(found.path.c_str(), "rb"))) {
-        if (interrupted()) throw Interrupted();
-        if (errno != EINTR) throw UsageError(fmt::format("{}: {}", pattern, std::strerror(errno)));
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(file, &std::fclose);
-    return {found.name, read_stream(file, pattern)};
 }
 
 void check_values(const Pattern& pattern, Diagnostics& diagnostics) {
@@ -144,8 +115,7 @@ Document load(const PatternOptions& options, bool quiet) {
         settings.push_back({"-n", "derivation length", options.steps});
     }
     if (!options.seed.empty()) settings.push_back({"--seed", "seed", options.seed});
-    settings.insert(settings.end(), options.more.begin(), options.more.end());
-    PatternText text = options.text ? *options.text : read_pattern_text(options.pattern);
+    NamedText text = read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     if (interrupted()) throw Interrupted();
     Document document = Document::compile(std::move(text.name), std::move(text.text),

@@ -45,21 +45,21 @@ void tell_unless(bool quiet, fmt::format_string<Arguments...> format, Arguments&
     if (!quiet) tell(format, std::forward<Arguments>(arguments)...);
 }
 
-/// Path, name of a pattern that comes along, or `-`: its text and the name to call it by in messages.
-struct PatternText {
+/// A text and what messages call it.
+struct NamedText {
     std::string name;
     std::string text;
 };
-PatternText read_pattern_text(const std::string& pattern);
+/// Reads what PATTERN means: a path, the name of a bundled pattern, or `-` for standard input.
+/// @throws UsageError, Stopped
+NamedText read_pattern_text(const std::string& pattern);
 
 /// Options of every command that takes a pattern.
 struct PatternOptions {
     std::string pattern;
-    std::shared_ptr<const PatternText> text;  ///< of the pattern, if it was read already
     std::string steps;
     std::vector<std::string> settings;
     std::string variant;
-    std::vector<Setting> more;  ///< settings of options of their own; they come last
     std::string seed;
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);

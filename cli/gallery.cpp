@@ -1,15 +1,14 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
-#include "art/drawing/draw.h"
-#include "art/image/image_file.h"
-#include "cli/gallery_batch.h"
-#include "cli/gallery_shards.h"
-#include "cli/gallery_summary.h"
+#include "art/gallery/gallery.h"
+
+#include "art/prints.h"
+#include "cli/command.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
-#include "engine/base/threads.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,9 +17,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
-#include <numeric>
-#include <set>
+#include <map>
+#include <mutex>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -42,6 +41,11 @@ struct Options {
     std::string shard;
     std::size_t slurm = 0;
 };
+
+const GalleryKeys& gallery_keys() {
+    static const GalleryKeys keys({&prints(), &scores()});
+    return keys;
+}
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,60 +70,6 @@ double read_memory(const std::string& text) {
     return value * unit->second;
 }
 
-/// Bytes that a job takes in the list of all.
-constexpr double job_bytes = 700;
-
-/// Calls `work` with every number below `count`, on several threads.
-template <typename Work>
-void for_each_number(std::size_t count, int threads, const Work& work) {
-    on_threads(threads, [&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-            if (interrupted()) throw Interrupted();
-            work(i);
-        });
-    });
-}
-
-/// By the numbers of the jobs.
-using Forecasts = std::vector<std::optional<JobForecast>>;
-
-void forecast_all(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& wanted, const Options& options,
-                  Forecasts& forecasts) {
-    for_each_number(wanted.size(), options.threads, [&](std::size_t i) {
-        std::optional<JobForecast>& forecast = forecasts[wanted[i]];
-        if (!forecast) forecast = forecast_job(jobs[wanted[i]], options.dry_run);
-    });
-}
-
-/// Numbers of the jobs of this shard, of those of `--only`. Fills in the forecasts that it takes.
-std::vector<std::size_t> select(const std::vector<GalleryJob>& jobs, const Shard& shard, const Options& options,
-                                Forecasts& forecasts) {
-    std::vector<std::size_t> chosen(jobs.size());
-    std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-    if (shard.count > 1) {
-        std::vector<double> costs;
-        forecast_all(jobs, chosen, options, forecasts);
-        for (const auto& forecast : forecasts) costs.push_back(forecast->cost());
-        const std::vector<std::size_t> shards = balance(costs, shard.count);
-        std::erase_if(chosen, [&](std::size_t job) { return shards[job] + 1 != shard.index; });
-    }
-    if (options.only.empty()) return chosen;
-    for (const std::string& name : options.only) {
-        const auto is_named = [&](const GalleryJob& job) { return job.name == name || job.file() == name; };
-        if (std::any_of(jobs.begin(), jobs.end(), is_named)) continue;
-        std::vector<std::string_view> names;
-        for (const GalleryJob& job : jobs) names.push_back(job.name);
-        const std::string_view near = nearest(name, names);
-        throw UsageError(
-            fmt::format("--only {}: there is no such job{}", printable(name, 80),
-                        near.empty() ? "; --list shows them" : fmt::format("; did you mean '{}'?", near)));
-    }
-    const std::set<std::string> only(options.only.begin(), options.only.end());
-    std::erase_if(
-        chosen, [&](std::size_t job) { return !only.contains(jobs[job].name) && !only.contains(jobs[job].file()); });
-    return chosen;
-}
-
 void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen, bool json) {
     std::size_t width = 0;
     for (const std::size_t i : chosen) width = std::max(width, jobs[i].file().size());
@@ -137,68 +87,43 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-/// Requested sheets.
-std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
-    std::vector<SheetRequest> sheets;
-    if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
-    if (!request.poster.empty()) sheets.push_back({"poster", request.poster, true, threads, memory});
-    return sheets;
+/// Prints a problem's first line. @returns true, to be counted
+bool print_problem(const std::string& file, const std::string& problem) {
+    fmt::print("{:<40} {}\n", printable(file, 2000), printable(problem.substr(0, problem.find('\n')), 200));
+    return true;
 }
 
-/// @param jobs  those that can be made
-/// @returns false if a sheet cannot be made
-bool tell_sheet_forecast(const std::vector<const GalleryJob*>& jobs, const Options& options, double memory) {
-    bool can_be_made = true;
-    for (const SheetRequest& sheet : sheets_of(options.request, options.threads, memory)) {
-        for (const std::string& file : sheet_files(sheet)) {
-            std::string problem;
-            JobForecast forecast;
-            try {
-                forecast.memory = gallery_sheet_memory(jobs, sheet, file);
-                problem = too_much_memory(forecast, memory);
-            } catch (const std::exception& error) {
-                problem = error.what();
-            }
-            can_be_made = can_be_made && problem.empty();
-            if (problem.empty() && forecast.memory == 0) continue;
-            if (problem.empty())
-                problem = fmt::format("{:>24} {:>12} {:>10} {:>10}", "", "", "", bytes_text(forecast.memory));
-            fmt::print("{:<40} {}\n", file, printable(problem.substr(0, problem.find('\n')), 200));
-        }
-    }
-    return can_be_made;
-}
-
-/// @param memory  bytes for jobs
-/// @returns false if one cannot be made
-bool tell_forecast(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen,
-                   const Options& options, double memory, Forecasts& forecasts) {
-    forecast_all(jobs, chosen, options, forecasts);
+/// @returns false if a job or a sheet cannot be made
+bool print_forecast(Gallery& gallery) {
     JobForecast sum;
     std::size_t impossible = 0;
     std::vector<const GalleryJob*> possible;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
-    for (const std::size_t job : chosen) {
-        const JobForecast& each = *forecasts[job];
-        const std::string problem = each.problem.empty() ? too_much_memory(each, memory) : each.problem;
+    for (const std::size_t job : gallery.chosen()) {
+        const JobForecast& each = gallery.forecast(job);
+        const std::string problem = each.problem.empty() ? too_much_memory(each, gallery.memory()) : each.problem;
         if (!problem.empty()) {
-            ++impossible;
-            fmt::print("{:<40} {}\n", printable(jobs[job].file(), 2000),
-                       printable(problem.substr(0, problem.find('\n')), 200));
+            impossible += print_problem(gallery.jobs()[job].file(), problem);
             continue;
         }
-        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(jobs[job].file(), 2000), each.symbols,
+        fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(gallery.jobs()[job].file(), 2000), each.symbols,
                    time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
-        possible.push_back(&jobs[job]);
+        possible.push_back(&gallery.jobs()[job]);
         sum.seconds += each.seconds;
         sum.bytes += each.bytes;
         sum.memory = std::max(sum.memory, each.memory);
     }
-    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(chosen.size() - impossible, "job"), "",
+    fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(gallery.chosen().size() - impossible, "job"), "",
                time_text(sum.seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
     if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
-    const bool is_whole = chosen.size() == jobs.size();
-    return (!is_whole || tell_sheet_forecast(possible, options, memory)) && impossible == 0;
+    for (const auto& [file, forecast] : gallery.sheet_forecasts(possible)) {
+        if (!forecast.problem.empty()) {
+            impossible += print_problem(file, forecast.problem);
+        } else if (forecast.memory > 0) {
+            fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", file, "", "", "", bytes_text(forecast.memory));
+        }
+    }
+    return impossible == 0;
 }
 
 /// The words that this program was started with, without `--slurm`.
@@ -295,81 +220,102 @@ void submit(const Options& options, std::size_t jobs) {
                counted(tasks, "task"), end, script);
 }
 
-/// The page and the sheets: made anew where what they show has changed.
-class Summaries {
+/// Reports on standard error: if that is a terminal, a bar with jobs per second and the time left.
+class Reporter : public GalleryListener {
 public:
-    Summaries(const std::vector<GalleryJob>& jobs, const std::map<std::size_t, FinishedJob>& finished,
-              const GalleryFolder& folder, GalleryRecord& record, const Options& options, bool quiet)
-        : folder_(folder), record_(record), options_(options), shown_(!quiet && isatty(STDERR_FILENO) == 1) {
-        for (const auto& [job, result] : finished) {
-            jobs_.push_back(&jobs[job]);
-            held_.add_piece(result.file);
-            held_.add_piece(result.hash);
-        }
-    }
+    explicit Reporter(bool quiet)
+        : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
 
-    /// @param order     gets what is there in the end
-    /// @param troubles  why others are not
-    void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order,
-              std::vector<std::string>& troubles) {
-        const auto draw = [&](bool posters) {
-            for (const SheetRequest& sheet : sheets_of(request, options_.threads, memory)) {
-                if (sheet.is_poster != posters) continue;
-                for (const std::string& file : sheet_files(sheet)) {
-                    make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
-                        draw_gallery_sheet(jobs_, sheet, path, [](std::uint64_t) {
-                            if (interrupted()) throw Interrupted();
-                        });
-                    });
-                }
-            }
-        };
-        draw(false);
-        make("index.html", request.title, order, troubles,
-             [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path); });
-        draw(true);
+    void begin(std::size_t jobs, double cost) override {
+        jobs_ = jobs;
+        cost_ = cost;
+        started_ = last_ = now();
+    }
+    void end() override {
+        if (std::exchange(visible_, false)) tell("\r\033[K");
+    }
+    void sheet(const std::string& name) override {
+        if (!shown_) return;
+        visible_ = true;
+        tell("\r{} …\033[K", name);
+    }
+    void wait_for_jobs(std::size_t jobs) override {
+        tell_unless(quiet_, "sikku: another run is making {}; waiting for it\n", counted(jobs, "job"));
+    }
+    void wait_for_record(const std::string& record) override {
+        tell_unless(quiet_, "sikku: another run is using '{}'; waiting for it\n", record);
+    }
+    void finish(double cost) override {
+        const std::lock_guard guard(mutex_);
+        ++done_;
+        done_cost_ += cost;
+        show();
+    }
+    void watch() override {
+        if (!shown_) return;
+        const std::unique_lock guard(mutex_, std::try_to_lock);
+        if (guard) show();
     }
 
 private:
-    template <typename Make>
-    void make(const std::string& name, const std::string& setting, std::vector<FinishedJob>& order,
-              std::vector<std::string>& troubles, const Make& make_it) {
-        FinishedJob file;
-        file.file = name;
-        TextHash hash = held_;
-        hash.add_piece(SIKKU_VERSION);
-        hash.add_piece(name);
-        hash.add_piece(setting);
-        file.hash = hash.digits();
-        file.job = fmt::format("{{\"summary\":{}}}", json_string(setting));
-        if (!options_.force) {
-            if (auto known = record_.finished(name, file.hash)) {
-                order.push_back(std::move(*known));
-                return;
-            }
+    void show() {
+        if (!shown_) return;
+        const double time = now();
+        if (time - started_ < 0.5 || time - last_ < 0.1) return;
+        last_ = time;
+        visible_ = true;
+        std::string line = fmt::format("{} of {}", done_, jobs_);
+        const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
+        if (done_ > 0) {
+            line += fmt::format(", {:.1f} a second, {} left", static_cast<double>(done_) / (time - started_),
+                                time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
         }
-        if (shown_) tell("\r{} …\033[K", name);
-        try {
-            const bool is_ours =
-                name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
-            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
-                                              [&](const std::filesystem::path& path, auto&) { make_it(path); }));
-        } catch (const Stopped&) {
-            if (shown_) tell("\r\033[K");
-            throw;
-        } catch (const std::exception& error) {
-            troubles.push_back(fmt::format("{} failed: {}", name, error.what()));
+        winsize size{};
+        const std::size_t columns =
+            ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+        constexpr std::size_t most = 30;
+        const std::size_t bar = std::min(most, columns - std::min(columns, line.size() + 4));
+        if (bar >= 5) {
+            const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
+            line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar - filled, ' '), line);
         }
-        if (shown_) tell("\r\033[K");
+        tell("\r{}\033[K", line.substr(0, columns - 1));
     }
 
-    std::vector<const GalleryJob*> jobs_;  ///< that are there
-    TextHash held_;
-    const GalleryFolder& folder_;
-    GalleryRecord& record_;
-    const Options& options_;
+    std::size_t jobs_ = 0;
+    double cost_ = 0;
+    bool quiet_;
     bool shown_;
+    bool visible_ = false;
+    std::size_t done_ = 0;
+    double done_cost_ = 0;
+    double started_;
+    double last_;
+    std::mutex mutex_;
 };
+
+/// Prints warnings, at most 20, and one line about the run.
+void print_result(const Gallery& gallery, const GalleryResult& result, const Options& options, const Shard& shard,
+                  double seconds) {
+    std::size_t told = 0;
+    for (const std::size_t job : result.made) {
+        const FinishedJob& made = result.finished.at(job);
+        for (const std::string& text : made.told) {
+            if (text.find("warning:") == std::string::npos) continue;
+            if (++told <= 20) tell("{}: {}\n", printable(made.file, 2000), printable(text, 2000));
+        }
+    }
+    if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, result.record);
+    const std::size_t made = result.made.size();
+    const std::size_t skipped = result.finished.size() - made;
+    tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
+         counted(gallery.chosen().size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
+    if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
+    if (skipped > 0) tell(", {} there already", skipped);
+    if (!result.failures.empty()) tell(", {} failed", result.failures.size());
+    if (result.left > 0) tell(", {} not begun", result.left);
+    tell("\n");
+}
 
 void run(Options& options, bool quiet) {
     for (const auto& [key, text] : options.texts) {
@@ -378,126 +324,45 @@ void run(Options& options, bool quiet) {
     for (const auto& [key, is_set] : options.flags) {
         if (is_set) options.request.keys[key] = "true";
     }
-    const double memory = read_memory(options.memory);
     options.request.gallery_file = known_gallery(options.request.gallery_file);
-    const std::vector<GalleryJob> jobs = gallery_jobs(options.request);
-    if (options.slurm > 0) return submit(options, jobs.size());
-    const Shard shard = read_shard(options.shard, [](const char* name) { return std::getenv(name); });
-    Forecasts forecasts(jobs.size());
-    const std::vector<std::size_t> chosen = select(jobs, shard, options, forecasts);
-    if (options.list) return list_jobs(jobs, chosen, options.json);
-    const GalleryRequest& request = options.request;
-    const bool pictures = !request.poster.empty() || !request.contact.empty() ||
-                          std::any_of(chosen.begin(), chosen.end(), [&](std::size_t job) {
-                              return !jobs[job].is_score() && jobs[job].format != "svg" && jobs[job].format != "pdf";
-                          });
-    const double base = base_memory(pictures) + static_cast<double>(jobs.size()) * job_bytes;
-    const double for_jobs = std::max(memory - base, memory / 8);
+    const Shard shard =
+        options.slurm > 0 ? Shard{} : read_shard(options.shard, [](const char* name) { return std::getenv(name); });
+    Gallery gallery(options.request,
+                    {.folder = options.output,
+                     .only = options.only,
+                     .force = options.force,
+                     .keep_going = options.keep_going,
+                     .memory = read_memory(options.memory),
+                     .threads = options.threads,
+                     .shard = shard,
+                     .exact = options.dry_run},
+                    gallery_keys(), stop_monitor());
+    if (options.slurm > 0) return submit(options, gallery.jobs().size());
+    if (options.list) return list_jobs(gallery.jobs(), gallery.chosen(), options.json);
     if (options.dry_run) {
-        if (!tell_forecast(jobs, chosen, options, for_jobs, forecasts)) throw CLI::RuntimeError(1);
+        if (!print_forecast(gallery)) throw CLI::RuntimeError(1);
         return;
     }
-
     const double started = now();
     if (!options.names_folder && std::filesystem::is_symlink(options.output)) {
         throw UsageError(fmt::format("'{}' is a symbolic link; -o names the folder to write to", options.output));
     }
-    const GalleryFolder folder(options.output);
-    bool told_waiting = false;
-    GalleryRecord record(folder, shard.record_name(), options.force, [&] {
-        if (interrupted()) throw Interrupted("interrupted while waiting for another run; nothing was made");
-        if (std::exchange(told_waiting, true) || quiet) return;
-        tell("sikku: another run is using '{}'; waiting for it\n", folder.shown(shard.record_name()));
-    });
-    std::vector<std::string> hashes(jobs.size());
-    for_each_number(chosen.size(), options.threads,
-                    [&](std::size_t i) { hashes[chosen[i]] = jobs[chosen[i]].hash(); });
-    std::map<std::size_t, FinishedJob> finished;
-    std::vector<std::size_t> pending;
-    const bool redo = options.force || !options.only.empty();
-    for (const std::size_t job : chosen) {
-        auto known = redo ? std::nullopt : record.finished(jobs[job].file(), hashes[job]);
-        if (known) {
-            finished.emplace(job, std::move(*known));
-        } else {
-            pending.push_back(job);
-        }
-    }
-    forecast_all(jobs, pending, options, forecasts);
-    std::vector<Task> tasks;
-    for (const std::size_t job : pending) tasks.push_back({job, *forecasts[job], false});
-    const bool makes_pictures = std::any_of(pending.begin(), pending.end(), [&](std::size_t job) {
-        const auto format = print_format(jobs[job].file());
-        return !jobs[job].is_score() && format && !is_vector(*format);
-    });
-    if (makes_pictures) prepare_images(thread_count(options.threads));
-    Batch batch(jobs, hashes, folder, record,
-                {.threads = options.threads,
-                 .replaces = options.force,
-                 .redoes = redo,
-                 .keep_going = options.keep_going,
-                 .quiet = quiet});
-    if (!tasks.empty()) batch.run(std::move(tasks), for_jobs);
-    finished.insert(batch.found.begin(), batch.found.end());
-    const std::size_t skipped = finished.size();
-    finished.insert(batch.finished.begin(), batch.finished.end());
-
-    std::vector<FinishedJob> order;
-    std::set<std::size_t> is_chosen(chosen.begin(), chosen.end());
-    for (std::size_t job = 0; job < jobs.size(); ++job) {
-        if (const auto found = finished.find(job); found != finished.end()) {
-            order.push_back(found->second);
-        } else if (shard.count == 1 && !is_chosen.contains(job)) {
-            if (auto known = record.present(jobs[job].file())) order.push_back(std::move(*known));
-        }
-    }
-    const std::size_t made = batch.finished.size();
-    const double seconds = now() - started;
-    std::vector<std::string> troubles;
-    const bool is_whole = shard.count == 1 && options.only.empty();
-    if (is_whole && !finished.empty() && (batch.failures.empty() || options.keep_going)) {
-        try {
-            Summaries summaries(jobs, finished, folder, record, options, quiet);
-            summaries.make(request, for_jobs, order, troubles);
-        } catch (const Stopped&) {
-        }
-    }
-    try {
-        record.complete(order, batch.begun, shard.count == 1);
-    } catch (const std::exception& error) {
-        troubles.push_back(error.what());  // the lines appended so far hold all the same
-    }
-    if (!quiet) {
-        std::size_t told = 0;
-        for (const auto& [job, result] : batch.finished) {
-            for (const std::string& text : result.told) {
-                if (text.find("warning:") == std::string::npos) continue;
-                if (++told <= 20) tell("{}: {}\n", printable(result.file, 2000), printable(text, 2000));
-            }
-        }
-        if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, folder.shown(shard.record_name()));
-        tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
-             counted(chosen.size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
-        if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
-        if (skipped > 0) tell(", {} there already", skipped);
-        if (!batch.failures.empty()) tell(", {} failed", batch.failures.size());
-        if (batch.left() > 0) tell(", {} not begun", batch.left());
-        tell("\n");
-    }
+    Reporter reporter(quiet);
+    const GalleryResult result = gallery.make(reporter);
+    if (!quiet) print_result(gallery, result, options, shard, now() - started);
     if (interrupted()) {
-        throw Interrupted(
-            fmt::format("interrupted; {} of {} are there, the same command goes on", finished.size(), chosen.size())
-                .c_str());
+        throw Interrupted(fmt::format("interrupted; {} of {} are there, the same command resumes",
+                                      result.finished.size(), gallery.chosen().size()));
     }
-    for (const Failure& failure : batch.failures) {
-        const GalleryJob& job = jobs[failure.job];
+    for (const Failure& failure : result.failures) {
+        const GalleryJob& job = gallery.jobs()[failure.job];
         std::string message = failure.message;
         while (message.ends_with('\n')) message.pop_back();
         tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", printable(job.file(), 2000),
              printable(message, 2000));
     }
-    for (const std::string& trouble : troubles) tell("sikku: {}\n", printable(trouble, 2000));
-    if (!batch.failures.empty() || !troubles.empty()) throw CLI::RuntimeError(1);
+    for (const std::string& trouble : result.troubles) tell("sikku: {}\n", printable(trouble, 2000));
+    if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
 }  // namespace
@@ -539,10 +404,10 @@ void add_gallery(CLI::App& app, bool& quiet) {
     command->add_option("--set", options->request.overrides, "KEY=VALUE of the pattern; 60:90:5 makes several")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    for (const GalleryKey& key : gallery_keys()) {
+    for (const GalleryKey& key : gallery_keys().list()) {
         if (!key.is_option) continue;
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
-        if (key.is_flag) {
+        if (key.kind == OptionKind::flag) {
             command->add_flag(names, options->flags[key.name], key.help);
         } else {
             command->add_option(names, options->texts[key.name], key.help)->type_name("VALUE");

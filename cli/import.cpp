@@ -27,7 +27,7 @@ SourcePointer read_source(const std::string& file) {
     if (file != "-" && !std::filesystem::exists(file, error)) {
         throw UsageError(file + ": No such file or directory");
     }
-    PatternText text = read_pattern_text(file);
+    NamedText text = read_pattern_text(file);
     return std::make_shared<const Source>(std::move(text.name), std::move(text.text));
 }
 

@@ -1,4 +1,5 @@
 // cli/main.cpp: the program: its commands and its errors.
+#include "art/gallery/values.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/signals.h"
@@ -78,6 +79,8 @@ int run(int argc, char** argv) {
     } catch (const SettingError& error) {
         return fail(2, option_message(error));
     } catch (const UsageError& error) {
+        return fail(2, error.what());
+    } catch (const GalleryError& error) {
         return fail(2, error.what());
     } catch (const Stopped& stopped) {
         return fail(interruption_status(), stopped.what());

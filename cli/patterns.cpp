@@ -68,7 +68,7 @@ void show(const std::string& what, bool quiet) {
         if (!found->made.empty() && !quiet) tell("made with {}\n", printable(found->made, std::string::npos));
         return;
     }
-    PatternText text = read_pattern_text(what);
+    NamedText text = read_pattern_text(what);
     if (text.text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", text.name));
     if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
     Diagnostics diagnostics;
@@ -79,7 +79,7 @@ void show(const std::string& what, bool quiet) {
 
 /// True if the file is without mistakes.
 bool check_scale_file(const std::string& file) {
-    const PatternText text = read_pattern_text(file);
+    const NamedText text = read_pattern_text(file);
     const Source source(text.name, text.text);
     Diagnostics diagnostics;
     if (lower_case(file).ends_with(".scl")) {
@@ -113,7 +113,7 @@ void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
     Diagnostics diagnostics;
-    PatternText text = read_pattern_text(file);
+    NamedText text = read_pattern_text(file);
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     if (!diagnostics.is_unreadable()) {
         compile(pattern, diagnostics);

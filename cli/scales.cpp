@@ -197,7 +197,7 @@ Scale read_scale_file(const std::string& path) {
     if (std::error_code error; !std::filesystem::exists(path, error)) {
         throw UsageError(path + ": No such file or directory");
     }
-    PatternText text = read_pattern_text(path);
+    NamedText text = read_pattern_text(path);
     Diagnostics diagnostics;
     const Source source(std::move(text.name), std::move(text.text));
     std::optional<Scale> scale = read_scl(source, diagnostics);

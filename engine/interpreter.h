@@ -1,6 +1,7 @@
 // engine/interpreter.h: what turns a document into files: prints in art, scores in music.
 #pragma once
 
+#include "engine/base/keys.h"
 #include "engine/base/monitor.h"
 #include "engine/base/option.h"
 #include "engine/base/output.h"
@@ -54,12 +55,17 @@ struct FormatName {
     std::string_view extension;  ///< without the dot; also what the format is called
     std::string_view label;      ///< `HP-GL`
     std::string_view alias{};    ///< another extension, or empty
+    bool is_several = false;     ///< needs several derivation lengths, or has several files
 };
 
 /// Makes works. Stateless; there is one of each kind.
 class Interpreter {
 public:
     virtual ~Interpreter() = default;
+    /// Whose keys of the language it reads.
+    virtual KeyOwner owner() const = 0;
+    /// Reports errors in the values of these keys.
+    virtual void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const = 0;
     virtual std::span<const FormatName> formats() const = 0;
     /// The table of options, in the order of help.
     virtual std::span<const OptionInfo* const> options() const = 0;
@@ -79,8 +85,7 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
                    const std::string& after = {});
 
 /// Plans and makes a work whose output is a single one. Names in `values` that are no options of the interpreter are
-/// keys or defines of the pattern. @throws as plan() and make(); SettingError for other names; std::runtime_error if the
-/// work has several outputs
+/// keys or defines of the pattern. @throws as plan() and make(); SettingError for other names
 std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
                            const OptionValues& values);
 

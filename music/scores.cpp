@@ -44,10 +44,10 @@ struct ScoreFormatInfo {
 constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
                                                           {{"musicxml", "MusicXML", "xml"}, ScoreFormat::musicxml},
                                                           {{"ly", "LilyPond"}, ScoreFormat::lilypond},
-                                                          {{"wav", "WAV"}, ScoreFormat::wav},
-                                                          {{"flac", "FLAC"}, ScoreFormat::flac},
-                                                          {{"notes.svg", "SVG of notes", "svg"}, ScoreFormat::svg},
-                                                          {{"html", "page that plays"}, ScoreFormat::html}}};
+                                                          {{"wav", "sound"}, ScoreFormat::wav},
+                                                          {{"flac", "sound"}, ScoreFormat::flac},
+                                                          {{"notes.svg", "the notes", "svg"}, ScoreFormat::svg},
+                                                          {{"html", "play"}, ScoreFormat::html}}};
 
 std::optional<ScoreFormat> score_format(std::string_view extension) {
     const std::string name = lower_case(extension);
@@ -594,6 +594,10 @@ public:
     Scores() {
         for (const ScoreFormatInfo& row : format_table) formats_.push_back(row.name);
         for (const Option<PlaySettings>& row : play_options()) options_.push_back(&row.info);
+    }
+    KeyOwner owner() const override { return KeyOwner::music; }
+    void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const override {
+        read_melody(pattern, {}, diagnostics);
     }
     std::span<const FormatName> formats() const override { return formats_; }
     std::span<const OptionInfo* const> options() const override { return options_; }

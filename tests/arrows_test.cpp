@@ -51,7 +51,7 @@ struct Room {
 /// The one table of arrows. Each room sees only rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "tbb posix"},
+        {"engine/base", "", "boost tbb posix"},
         {"engine/language", "engine/base", ""},
         {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
@@ -71,6 +71,7 @@ const std::vector<Room>& rooms() {
          "engine/* art/style art/print art/kolam art/vector art/raster art/plotter art/space art/image", "tbb"},
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing", "tbb"},
         {"art", "engine engine/* art/*", ""},
+        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet", "tbb json toml posix"},
         {"music/scale", "engine/*", ""},
         {"music/score", "engine/* music/scale", "posix"},
         {"music/melody", "engine/* music/scale music/score", ""},

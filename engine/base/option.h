@@ -24,11 +24,12 @@ struct OptionInfo {
     OptionKind kind = OptionKind::text;
     double least = -1e300;  ///< of numbers
     double most = 1e300;
-    bool is_list = false;   ///< may be given several times
-    bool is_alone = false;  ///< not in galleries, whose jobs are one file of one derivation length each
-    bool is_on = false;     ///< a flag that holds unless it is set to false
-    char letter = 0;        ///< short form on the command line; 0: none
-    bool is_key = false;    ///< also a key of the language, which the option overrides
+    bool is_list = false;    ///< may be given several times
+    bool is_alone = false;   ///< not in galleries, whose jobs are one file of one derivation length each
+    bool is_on = false;      ///< a flag that holds unless it is set to false
+    char letter = 0;         ///< short form on the command line; 0: none
+    bool sets_more = false;  ///< of `is_key`: accepts values that the key does not
+    bool is_key = false;     ///< also a key of the language, which the option overrides
 };
 
 /// `set` reads the text of a value; numbers are in range, flags are `true` or `false`.

@@ -6,28 +6,17 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
+#include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
 
-/// At most one byte more than a pattern may have, which is enough to see that a file is too long.
-std::string contents(const std::filesystem::path& file, const std::string& name) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error)) throw std::runtime_error(fmt::format("{} is a folder", name));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error(fmt::format("{}: {}", name, std::generic_category().message(errno)));
-    std::string text;
-    std::string block(std::size_t{1} << 16, '\0');
-    while (stream && text.size() <= most_pattern_bytes) {
-        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-        text.append(block, 0, static_cast<std::size_t>(stream.gcount()));
-    }
-    if (stream.bad()) throw std::runtime_error(fmt::format("{}: {}", name, std::generic_category().message(errno)));
-    return text;
+[[noreturn]] void fail_reading(const std::string& name, int error) {
+    throw std::runtime_error(fmt::format("{}: {}", name, std::generic_category().message(error)));
 }
 
 }  // namespace
@@ -90,9 +79,45 @@ PatternFile find_pattern(const std::string& pattern, const PatternLibrary& libra
                    !near.empty());
 }
 
+std::string read_pattern(std::FILE* stream, const std::string& name, const Monitor& monitor) {
+    std::string text;
+    std::vector<char> block(std::size_t{1} << 16);
+    while (text.size() <= most_pattern_bytes) {
+        const std::size_t wanted = std::min(block.size(), most_pattern_bytes + 1 - text.size());
+        const std::size_t got = std::fread(block.data(), 1, wanted, stream);
+        const int cause = errno;
+        text.append(block.data(), got);
+        monitor.check();
+        if (std::ferror(stream) != 0) {
+            if (cause != EINTR) fail_reading(name, cause);
+            std::clearerr(stream);
+        } else if (got == 0) {
+            break;
+        }
+    }
+    return text;
+}
+
+std::string read_pattern(const PatternFile& file, const Monitor& monitor) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file.path, error)) {
+        throw std::runtime_error(fmt::format("{} is a folder", file.name));
+    }
+    std::FILE* stream = nullptr;
+    // Opening a named pipe waits for its writer, and a signal ends the wait.
+    while (!(stream = std::fopen(file.path.c_str(), "rb"))) {
+        const int cause = errno;
+        monitor.check();
+        if (cause != EINTR) fail_reading(file.name, cause);
+    }
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(stream, &std::fclose);
+    return read_pattern(stream, file.name, monitor);
+}
+
 Document load(const std::string& pattern, const Overrides& overrides, const PatternLibrary& library) {
-    PatternFile found = find_pattern(pattern, library);
-    return parse(std::move(found.name), contents(found.path, pattern), overrides);
+    const PatternFile found = find_pattern(pattern, library);
+    // Messages about the file name it as the caller did.
+    return parse(found.name, read_pattern({pattern, found.path}), overrides);
 }
 
 }  // namespace sikku

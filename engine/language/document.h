@@ -1,10 +1,12 @@
 // engine/language/document.h: a pattern that was read, checked and compiled: what every interpreter starts from.
 #pragma once
 
+#include "engine/base/monitor.h"
 #include "engine/language/grammar.h"
 #include "engine/language/pattern.h"
 #include "engine/language/pattern_library.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -82,6 +84,12 @@ private:
 /// Finds a pattern: a file by its path, or a pattern of the library by its name. What holds a `/` or ends in .lsys is
 /// a path, and need not exist. @throws NotFound, which names the nearest pattern
 PatternFile find_pattern(const std::string& pattern, const PatternLibrary& library = PatternLibrary::bundled());
+
+/// Reads the text of a pattern file: at most one byte more than a pattern may have, which compiling then refuses.
+/// Waits for the writer of a named pipe. @throws std::runtime_error that names the file and the cause; Stopped
+std::string read_pattern(const PatternFile& file, const Monitor& monitor = {});
+/// The same from an open stream. @param name  for messages
+std::string read_pattern(std::FILE* stream, const std::string& name, const Monitor& monitor = {});
 
 /// Finds, reads and compiles a pattern. @throws NotFound; PatternError with every error and its place;
 /// std::runtime_error if the file cannot be read

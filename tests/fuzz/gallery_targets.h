@@ -1,7 +1,10 @@
 // tests/fuzz/gallery_targets.h: what the fuzzers do with any bytes as a gallery file or a manifest.
 #pragma once
 
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
+#include "art/gallery/values.h"
+#include "art/prints.h"
+#include "music/scores.h"
 #include "tests/fuzz/targets.h"
 
 #include <set>
@@ -10,14 +13,15 @@
 
 namespace sikku {
 
-/// Reads up to the list of jobs, with bundled patterns only. A mistake is a UsageError; jobs have files of their own
-/// below the gallery's folder, and read back from their texts as the same jobs.
+/// Reads up to the list of jobs, with bundled patterns only. A mistake is a GalleryError; jobs have files of their
+/// own below the gallery's folder, and read back from their texts as the same jobs.
 inline void try_gallery(GalleryRequest request) {
+    static const GalleryKeys keys({&prints(), &scores()});
     constexpr std::size_t most_read_back = 50;
     request.bundled_only = true;
     request.most_jobs = 20'000;  // a million take 11 s under sanitizers, longer than a fuzzer may wait
     try {
-        const std::vector<GalleryJob> jobs = gallery_jobs(request);
+        const std::vector<GalleryJob> jobs = gallery_jobs(request, keys);
         require(static_cast<double>(jobs.size()) <= request.most_jobs, "more jobs than are allowed");
         std::set<std::string> files;
         std::string manifest;
@@ -33,12 +37,12 @@ inline void try_gallery(GalleryRequest request) {
         again.manifest = "again.jsonl";
         again.manifest_text = manifest;
         again.bundled_only = true;
-        const std::vector<GalleryJob> same = gallery_jobs(again);
+        const std::vector<GalleryJob> same = gallery_jobs(again, keys);
         require(same.size() == jobs.size(), "a manifest of the jobs has another number of them");
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             require(same[i].file() == jobs[i].file(), "a job reads back with another file: " + jobs[i].text());
         }
-    } catch (const UsageError& error) {
+    } catch (const GalleryError& error) {
         require(is_utf8(error.what()), "a message is not valid UTF-8");
     }
 }

@@ -1,9 +1,10 @@
-// cli/gallery_items.h: the requests of a gallery file, a manifest and the command line as items: each a list of
+// art/gallery/items.h: the requests of a gallery file, a manifest and the command line as items: each a list of
 // patterns, formats, and keys with the values they take in turn. Nothing is expanded yet.
 #pragma once
 
-#include "cli/gallery_jobs.h"
-#include "cli/gallery_values.h"
+#include "art/gallery/jobs.h"
+#include "art/gallery/keys.h"
+#include "art/gallery/values.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,27 +17,6 @@
 #include <vector>
 
 namespace sikku {
-
-enum class GalleryUse { any, print, score };
-
-/// Properties of a gallery key.
-struct GalleryKeyFacts {
-    GalleryKey shown;
-    GalleryUse use = GalleryUse::any;
-    OptionKind kind = OptionKind::text;
-    bool overrides = false;  ///< it is a key of the pattern, not an option
-    double least = -1e300;
-    double most = 1e300;
-};
-const std::vector<GalleryKeyFacts>& all_gallery_keys();
-/// Null if the name is unknown.
-const GalleryKeyFacts* find_gallery_key(std::string_view name);
-/// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
-std::string folded_key(std::string key);
-
-bool is_score_format(std::string_view format);
-/// What makes files of that format.
-const Interpreter& interpreter_of(std::string_view format);
 
 /// `60:90:5`, not written out.
 struct GalleryRange {
@@ -101,7 +81,7 @@ struct GalleryItem {
 /// A list of items, counted as it grows: each makes at least one job.
 class GalleryItems {
 public:
-    /// @throws UsageError if there are too many items, or too many settings in all of them
+    /// @throws GalleryError if there are too many items, or too many settings in all of them
     void add(GalleryItem item);
     std::vector<GalleryItem> list;
 
@@ -112,18 +92,20 @@ private:
 /// Longest name, or form of a name; longer ones are rejected.
 constexpr std::size_t longest_job_name = 1000;
 
-/// Sets a key of an item to the value in a file. @throws UsageError
-void read_gallery_key(const std::string& written, const GalleryValue& value, GalleryItem& item);
-/// The axis of a key; of one of the pattern's own where `facts` is null. @throws UsageError
-GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKeyFacts* facts);
+/// Sets a key of an item to the value in a file. @throws GalleryError
+void read_gallery_key(const GalleryKeys& keys, const std::string& written, const GalleryValue& value,
+                      GalleryItem& item);
+/// The axis of a key; of one of the pattern's own where `known` is null. @throws GalleryError
+GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKey* known);
 
-/// @throws UsageError if the value is not a sheet size
+/// @throws GalleryError if the value is not a sheet size
 void check_sheet_size(const std::string& key, const std::string& size, const std::string& place);
 
 /// The defaults go into `defaults`; title and sizes of sheets into `request`, unless it has them already.
-void read_gallery(const std::string& file, const std::string& text, GalleryItem& defaults, GalleryRequest& request,
-                  GalleryItems& items);
+void read_gallery(const GalleryKeys& keys, const std::string& file, const std::string& text, GalleryItem& defaults,
+                  GalleryRequest& request, GalleryItems& items);
 /// Reads line by line.
-void read_manifest(const std::string& file, std::istream& stream, const GalleryItem& defaults, GalleryItems& items);
+void read_manifest(const GalleryRequest& request, const GalleryKeys& keys, std::istream& stream,
+                   const GalleryItem& defaults, GalleryItems& items);
 
 }  // namespace sikku

@@ -1,6 +1,6 @@
-#include "cli/gallery_patterns.h"
+#include "art/gallery/patterns.h"
 
-#include "cli/gallery_values.h"
+#include "art/gallery/values.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -59,7 +59,8 @@ std::size_t fit_one(std::string_view form, std::size_t at, char byte) {
 /// `*/../*/..` costs no more than `*`.
 class Walk {
 public:
-    Walk(std::size_t& entries, const std::string& place) : entries_(entries), place_(place) {}
+    Walk(std::size_t& entries, const std::string& place, const Monitor& monitor)
+        : entries_(entries), place_(place), monitor_(monitor) {}
 
     /// Files that end in `.lsys`, sorted.
     std::vector<std::filesystem::path> find(const std::filesystem::path& folder, const std::string& word) {
@@ -93,7 +94,7 @@ public:
 
 private:
     void count() {
-        if (++entries_ % 256 == 0 && interrupted()) throw Interrupted();
+        if (++entries_ % 256 == 0) monitor_.check();
         if (entries_ > most_entries) {
             fail(place_, fmt::format("too many files and folders to search: at most {}", most_entries));
         }
@@ -144,6 +145,7 @@ private:
 
     std::size_t& entries_;
     const std::string& place_;
+    const Monitor& monitor_;
 };
 
 }  // namespace
@@ -185,11 +187,11 @@ std::vector<PatternShelf::Pointer> PatternShelf::find_files(const std::string& w
     std::error_code error;
     is_folder = std::filesystem::is_directory(path, error);
     if (is_folder) {
-        for (const auto& file : Walk(entries_, place).below(path)) found.push_back(of_file(file));
+        for (const auto& file : Walk(entries_, place, monitor_).below(path)) found.push_back(of_file(file));
     } else if (std::filesystem::exists(path, error)) {
         found.push_back(of_file(path));
     } else if (has_wildcards(word)) {
-        for (const auto& file : Walk(entries_, place).find(folder, word)) found.push_back(of_file(file));
+        for (const auto& file : Walk(entries_, place, monitor_).find(folder, word)) found.push_back(of_file(file));
     }
     return found;
 }
@@ -198,7 +200,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
                                       const std::string& place) {
     List& list = found_[{folder, word}];
     if (list) return list;
-    if (interrupted()) throw Interrupted();
+    monitor_.check();
     if (word == "-") fail(place, "a gallery reads no pattern from standard input");
     if (word.size() > longest_word) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     bool is_folder = false;
@@ -221,8 +223,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     const std::string_view near = PatternLibrary::bundled().nearest(word);
     fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80),
-                            near.empty() ? "; `sikku patterns` lists the bundled ones"
-                                         : fmt::format("; did you mean '{}'?", near)));
+                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 PatternShelf::List PatternShelf::all() {
@@ -230,7 +231,7 @@ PatternShelf::List PatternShelf::all() {
     for (const LibraryPattern& pattern : known()) {
         if (pattern.kind != "words") found.push_back(of_known(pattern));
     }
-    if (found.empty()) throw UsageError("no patterns were found");
+    if (found.empty()) throw GalleryError("no patterns were found");
     return std::make_shared<const std::vector<Pointer>>(std::move(found));
 }
 
@@ -238,19 +239,20 @@ PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, cons
                                          const std::string& called) {
     Pointer& known = read_[file.string()];
     if (known) return known;
-    if (interrupted()) throw Interrupted();
+    monitor_.check();
     GalleryPattern pattern;
     pattern.name = file.stem().string();
     pattern.kind = file.parent_path().filename().string();
     pattern.path = file.string();
     pattern.shown = shown;
     try {
-        pattern.text = std::make_shared<PatternText>(PatternText{called, read_pattern_text(file.string()).text});
+        pattern.text =
+            std::make_shared<PatternText>(PatternText{called, read_pattern({file.string(), file}, monitor_)});
         bytes_ += pattern.text->text.size();
-    } catch (const UsageError& error) {
+    } catch (const std::runtime_error& error) {
         pattern.problem = error.what();
     }
-    if (bytes_ > most_bytes) throw UsageError("the patterns of this gallery exceed 1 GB in total");
+    if (bytes_ > most_bytes) throw GalleryError("the patterns of this gallery exceed 1 GB in total");
     known = std::make_shared<const GalleryPattern>(std::move(pattern));
     return known;
 }

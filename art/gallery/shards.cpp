@@ -1,6 +1,8 @@
-#include "cli/gallery_shards.h"
+#include "art/gallery/shards.h"
 
-#include "cli/command.h"
+#include "art/gallery/values.h"
+
+#include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +27,7 @@ std::optional<std::size_t> variable(const Environment& environment, const char* 
     const char* text = environment(name);
     if (!text || *text == '\0') return std::nullopt;
     const auto value = whole(text);
-    if (!value) throw UsageError(fmt::format("{}={}: expected a whole number", name, printable(text, 80)));
+    if (!value) throw GalleryError(fmt::format("{}={}: expected a whole number", name, printable(text, 80)));
     return value;
 }
 
@@ -44,7 +46,7 @@ Shard read_shard(const std::string& text, const Environment& environment) {
         const auto index =
             slash == 0 ? std::optional<std::size_t>(1) : whole(std::string_view(text).substr(0, slash));
         if (!count || !index || *index < 1 || *index > *count || *count > most_shards) {
-            throw UsageError(
+            throw GalleryError(
                 fmt::format("--shard {}: expected a part such as 3/8, from 1/8 to 8/8, or /8", printable(text, 80)));
         }
         shard = {*index, *count};
@@ -56,7 +58,7 @@ Shard read_shard(const std::string& text, const Environment& environment) {
     if (const auto id = variable(environment, "SLURM_ARRAY_TASK_ID")) {
         const std::size_t first = variable(environment, "SLURM_ARRAY_TASK_MIN").value_or(0);
         const std::size_t step = std::max<std::size_t>(1, variable(environment, "SLURM_ARRAY_TASK_STEP").value_or(1));
-        if (*id < first) throw UsageError("SLURM_ARRAY_TASK_ID is below SLURM_ARRAY_TASK_MIN");
+        if (*id < first) throw GalleryError("SLURM_ARRAY_TASK_ID is below SLURM_ARRAY_TASK_MIN");
         index = (*id - first) / step;
         told = variable(environment, "SLURM_ARRAY_TASK_COUNT");
     } else if (const auto rank = variable(environment, "OMPI_COMM_WORLD_RANK")) {
@@ -70,14 +72,15 @@ Shard read_shard(const std::string& text, const Environment& environment) {
     }
     if (!index) {
         if (count) {
-            throw UsageError(fmt::format("--shard {}: no batch system says which part this is", printable(text, 80)));
+            throw GalleryError(
+                fmt::format("--shard {}: no batch system says which part this is", printable(text, 80)));
         }
         return shard;
     }
     if (!count) count = told;
-    if (!count) throw UsageError(fmt::format("{} is set, but not of how many: --shard /N tells it", source));
+    if (!count) throw GalleryError(fmt::format("{} is set, but not of how many: --shard /N tells it", source));
     if (*index >= *count || *count > most_shards) {
-        throw UsageError(fmt::format("{} says part {} of {}", source, *index + 1, *count));
+        throw GalleryError(fmt::format("{} says part {} of {}", source, *index + 1, *count));
     }
     return {*index + 1, *count};
 }

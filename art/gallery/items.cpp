@@ -1,11 +1,7 @@
-#include "cli/gallery_items.h"
+#include "art/gallery/items.h"
 
 #include "art/draw_settings.h"
-#include "art/prints.h"
-#include "art/style/style.h"
-#include "engine/base/keys.h"
 #include "engine/base/text.h"
-#include "music/scores.h"
 
 #include <fmt/format.h>
 
@@ -22,29 +18,6 @@ namespace {
 /// Keys with values of all items together.
 constexpr std::size_t most_settings = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{16} << 20;
-
-bool is_format(const FormatName& row, std::string_view format) {
-    return format == row.extension || (!row.alias.empty() && format == row.alias);
-}
-
-/// GIF needs a range of derivation lengths, which are jobs of their own here; models have several files.
-bool is_gallery_format(std::string_view format) {
-    return format != "gif" && format != "obj" && format != "glb";
-}
-
-/// Names and aliases of all formats: prints, then scores. `svg` is a print.
-std::vector<std::string_view> known_formats() {
-    std::vector<std::string_view> known;
-    for (const Interpreter* interpreter : {&prints(), &scores()}) {
-        for (const FormatName& row : interpreter->formats()) {
-            for (const std::string_view name : {row.extension, row.alias}) {
-                const bool is_new = std::find(known.begin(), known.end(), name) == known.end();
-                if (!name.empty() && is_new && is_gallery_format(name)) known.push_back(name);
-            }
-        }
-    }
-    return known;
-}
 
 /// `A:B` or `A:B:STEP`; nullopt for what is none.
 std::optional<GalleryRange> read_range(const std::string& key, const std::string& text, const std::string& place) {
@@ -84,53 +57,36 @@ std::vector<std::string> words_of(const GalleryValue& value, std::string_view ke
     return words;
 }
 
-bool is_whole(const std::string& text) {
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && stop == text.data() + text.size();
-}
-
 bool has_control(std::string_view text) {
     return std::any_of(text.begin(), text.end(), [](char byte) {
         return static_cast<unsigned char>(byte) < ' ' && byte != '\t' && byte != '\n' && byte != '\r';
     });
 }
 
-/// @param facts  null: of a key of the pattern's own
-void check_value(const std::string& key, const GalleryKeyFacts* facts, const std::string& value,
+/// @param known  null: of a key of the pattern's own
+void check_value(const std::string& key, const GalleryKey* known, const std::string& value,
                  const std::string& place) {
     if (!fits_xml(value)) {
         fail(place, fmt::format("{}: '{}' contains {}", key, printable(value, 80),
                                 has_control(value) ? "a control character" : "invalid UTF-8"));
     }
-    if (!facts) return;
-    const OptionKind kind = facts->kind;
-    double number = 0;
-    const bool is_number = read_number(value, number);
-    if (kind == OptionKind::number && !is_number) {
-        fail(place, fmt::format("{}: expected a number, not '{}'", key, printable(value, 80)));
-    }
-    if (kind == OptionKind::whole && !is_whole(value)) {
-        fail(place, fmt::format("{}: expected a whole number, 0 or more, not '{}'", key, printable(value, 80)));
-    }
-    if (kind == OptionKind::flag && value != "true" && value != "false") {
-        fail(place, fmt::format("{}: expected true or false, not '{}'", key, printable(value, 80)));
-    }
-    if ((kind == OptionKind::number || kind == OptionKind::whole) && number < facts->least) {
-        fail(place, fmt::format("{}: expected {:g} or more, not '{}'", key, facts->least, printable(value, 80)));
-    }
-    if ((kind == OptionKind::number || kind == OptionKind::whole) && number > facts->most) {
-        fail(place, fmt::format("{}: expected {:g} at most, not '{}'", key, facts->most, printable(value, 80)));
+    if (!known) return;
+    try {
+        check_option(
+            {.name = known->name, .help = "", .kind = known->kind, .least = known->least, .most = known->most},
+            value);
+    } catch (const SettingError& error) {
+        fail(place, fmt::format("{}: {}, not '{}'", key, error.what(), printable(value, 80)));
     }
 }
 
-/// @param facts  null: of a key of the pattern's own
-void check_range(const std::string& key, const GalleryRange& range, const std::string& word,
-                 const GalleryKeyFacts* facts, const std::string& place) {
-    if (!facts) return;
-    if (facts->kind == OptionKind::flag) check_value(key, facts, word, place);
+/// @param known  null: of a key of the pattern's own
+void check_range(const std::string& key, const GalleryRange& range, const std::string& word, const GalleryKey* known,
+                 const std::string& place) {
+    if (!known) return;
+    if (known->kind == OptionKind::flag) check_value(key, known, word, place);
     const bool is_countable = range.count <= most_gallery_jobs;
-    if (facts->kind == OptionKind::whole) {
+    if (known->kind == OptionKind::whole) {
         const auto is_whole_number = [](double value) {
             return value >= 0 && value == std::floor(value) && value < 1e11;
         };
@@ -140,12 +96,12 @@ void check_range(const std::string& key, const GalleryRange& range, const std::s
             fail(place, fmt::format("{}: expected whole numbers, 0 or more", key));
         }
     }
-    check_value(key, facts, range.value(0), place);
-    if (is_countable) check_value(key, facts, range.value(static_cast<std::uint64_t>(range.count) - 1), place);
+    check_value(key, known, range.value(0), place);
+    if (is_countable) check_value(key, known, range.value(static_cast<std::uint64_t>(range.count) - 1), place);
 }
 
-void check_format(const std::string& format, const std::string& place) {
-    const std::vector<std::string_view> known = known_formats();
+void check_format(const GalleryKeys& keys, const std::string& format, const std::string& place) {
+    const std::vector<std::string_view>& known = keys.formats();
     if (std::find(known.begin(), known.end(), format) != known.end()) return;
     const std::string_view near = nearest(format, known);
     fail(place, fmt::format("unknown format '{}'{}", printable(format, 80),
@@ -154,7 +110,8 @@ void check_format(const std::string& format, const std::string& place) {
 }
 
 /// Commas part several, on the command line as in a file.
-std::vector<std::string> read_formats(const std::vector<std::string>& words, const std::string& place) {
+std::vector<std::string> read_formats(const GalleryKeys& keys, const std::vector<std::string>& words,
+                                      const std::string& place) {
     std::vector<std::string> formats;
     for (const std::string& word : words) {
         for (std::size_t at = 0; at <= word.size();) {
@@ -162,7 +119,7 @@ std::vector<std::string> read_formats(const std::vector<std::string>& words, con
             std::string format = lower_case(word.substr(at, comma - at));
             while (format.starts_with(' ') || format.starts_with('.')) format.erase(0, 1);
             while (format.ends_with(' ')) format.pop_back();
-            check_format(format, place);
+            check_format(keys, format, place);
             if (std::find(formats.begin(), formats.end(), format) != formats.end())
                 fail(place, fmt::format("format: '{}' is listed twice", format));
             formats.push_back(format);
@@ -187,85 +144,6 @@ bool next_line(std::istream& stream, std::string& line, const std::string& place
 }
 
 }  // namespace
-
-const std::vector<GalleryKeyFacts>& all_gallery_keys() {
-    static const std::vector<GalleryKeyFacts> keys = [] {
-        using enum OptionKind;
-        std::vector<GalleryKeyFacts> list = {
-            {{"n", "derivation length, or a range of them: 1:6", false, true}, GalleryUse::any, whole},
-            {{"variant", "one of the pattern's variants", false, true}, GalleryUse::any, text},
-            {{"seed", "random seed", false, true}, GalleryUse::any, whole},
-            {{"budget", "maximum number of derivation nodes visited", false, true},
-             GalleryUse::any,
-             number,
-             false,
-             1}};
-        const auto has = [&](std::string_view name) {
-            return std::any_of(list.begin(), list.end(), [&](const auto& key) { return key.shown.name == name; });
-        };
-        const auto add = [&](const Interpreter& interpreter, GalleryUse use) {
-            for (const OptionInfo* info : interpreter.options()) {
-                if (info->is_alone || info->is_key || has(info->name)) continue;
-                const bool is_flag = info->kind == flag;
-                const std::string name = (info->is_on ? "no-" : "") + std::string(info->name);
-                list.push_back({{name, std::string(info->help), is_flag, true},
-                                use,
-                                info->kind,
-                                false,
-                                info->least,
-                                info->most});
-            }
-        };
-        add(prints(), GalleryUse::print);
-        list.push_back(
-            {{"angle", "the pattern's angle: its define of that name, or its angle increment", false, true},
-             GalleryUse::any,
-             text,
-             true});
-        for (const char* key : {"angle-increment", "angle-factor", "heading", "turn"}) {
-            list.push_back({{key, "", false, false}, GalleryUse::any, text, true});
-        }
-        list.push_back({{"scale-factor", "", false, false}, GalleryUse::print, text, true});
-        for (const KeyInfo& key : language_keys()) {
-            if (key.owner == KeyOwner::engine) continue;
-            const bool is_art = key.owner == KeyOwner::art;
-            list.push_back({{std::string(key.name), std::string(key.help), false, true},
-                            is_art ? GalleryUse::print : GalleryUse::score,
-                            text,
-                            is_art});
-        }
-        add(scores(), GalleryUse::score);
-        return list;
-    }();
-    return keys;
-}
-
-const GalleryKeyFacts* find_gallery_key(std::string_view name) {
-    for (const GalleryKeyFacts& key : all_gallery_keys()) {
-        if (key.shown.name == name) return &key;
-    }
-    return nullptr;
-}
-
-std::string folded_key(std::string key) {
-    for (char& letter : key) {
-        if (letter == '_' || letter == ' ') letter = '-';
-    }
-    if (key == "generations" || key == "steps") return "n";
-    if (key == "seeds" || key == "formats" || key == "patterns") key.pop_back();
-    return key;
-}
-
-const Interpreter& interpreter_of(std::string_view format) {
-    const auto formats = prints().formats();
-    const bool is_print =
-        std::any_of(formats.begin(), formats.end(), [&](const FormatName& row) { return is_format(row, format); });
-    return is_print ? prints() : scores();
-}
-
-bool is_score_format(std::string_view format) {
-    return &interpreter_of(format) == &scores();
-}
 
 std::string GalleryRange::value(std::uint64_t index) const {
     // Twelve digits, so that 0.1 + 0.2 is 0.3.
@@ -315,30 +193,31 @@ void GalleryItems::add(GalleryItem item) {
     list.push_back(std::move(item));
 }
 
-GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKeyFacts* facts) {
-    GalleryAxis axis(key, value.place, facts == nullptr);
+GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKey* known) {
+    GalleryAxis axis(key, value.place, known == nullptr);
     // These may hold a colon.
-    const bool is_prose = !facts && (key == "title" || key == "source" || key == "description");
+    const bool is_prose = !known && (key == "title" || key == "source" || key == "description");
     for (const std::string& word : words_of(value, key)) {
         const auto range = is_prose ? std::nullopt : read_range(key, word, value.place);
         if (!range) {
-            check_value(key, facts, word, value.place);
+            check_value(key, known, word, value.place);
             axis.add(word);
             continue;
         }
-        check_range(key, *range, word, facts, value.place);
+        check_range(key, *range, word, known, value.place);
         axis.add(*range);
     }
     return axis;
 }
 
-void read_gallery_key(const std::string& written, const GalleryValue& value, GalleryItem& item) {
+void read_gallery_key(const GalleryKeys& keys, const std::string& written, const GalleryValue& value,
+                      GalleryItem& item) {
     const std::string key = folded_key(written);
     if (key == "pattern") {
         item.patterns = std::make_shared<const std::vector<std::string>>(words_of(value, key));
         item.patterns_place = value.place;
     } else if (key == "format") {
-        item.formats = read_formats(words_of(value, key), value.place);
+        item.formats = read_formats(keys, words_of(value, key), value.place);
     } else if (key == "name") {
         if (value.type != GalleryValue::Type::text) fail(value.place, "name: expected a string");
         if (value.text.size() > longest_job_name) {
@@ -353,12 +232,12 @@ void read_gallery_key(const std::string& written, const GalleryValue& value, Gal
             if (name.empty()) fail(element.place, "set: a key is empty; expected the name of a key or define");
             item.take(std::make_shared<const GalleryAxis>(axis_of(name, element, nullptr)));
         }
-    } else if (const GalleryKeyFacts* facts = find_gallery_key(key)) {
-        item.take(std::make_shared<const GalleryAxis>(axis_of(key, value, facts)));
+    } else if (const GalleryKey* row = keys.find(key)) {
+        item.take(std::make_shared<const GalleryAxis>(axis_of(key, value, row)));
     } else {
         std::vector<std::string_view> known = {"pattern", "format", "name",    "set",  "generations",
                                                "item",    "poster", "contact", "title"};
-        for (const GalleryKeyFacts& each : all_gallery_keys()) known.push_back(each.shown.name);
+        for (const GalleryKey& each : keys.list()) known.push_back(each.name);
         const std::string_view near = nearest(key, known);
         fail(value.place, fmt::format("unknown key '{}'{}", printable(written, 80),
                                       near.empty() ? "; keys and defines of patterns go into `set = { … }`"
@@ -374,8 +253,8 @@ void check_sheet_size(const std::string& key, const std::string& size, const std
     }
 }
 
-void read_gallery(const std::string& file, const std::string& text, GalleryItem& defaults, GalleryRequest& request,
-                  GalleryItems& items) {
+void read_gallery(const GalleryKeys& keys, const std::string& file, const std::string& text, GalleryItem& defaults,
+                  GalleryRequest& request, GalleryItems& items) {
     const GalleryValue root = read_gallery_toml(file, text);
     const GalleryValue* listed = nullptr;
     for (const auto& [key, value] : root.table) {
@@ -393,7 +272,7 @@ void read_gallery(const std::string& file, const std::string& text, GalleryItem&
                 check_sheet_size(key, size, value.place);
             }
         } else {
-            read_gallery_key(key, value, defaults);
+            read_gallery_key(keys, key, value, defaults);
         }
     }
     if (!listed) return;
@@ -406,23 +285,25 @@ void read_gallery(const std::string& file, const std::string& text, GalleryItem&
         GalleryItem item = defaults;
         item.place = element.place;
         item.needs_pattern = true;
-        for (const auto& [key, value] : element.table) read_gallery_key(key, value, item);
+        for (const auto& [key, value] : element.table) read_gallery_key(keys, key, value, item);
         items.add(std::move(item));
     }
 }
 
-void read_manifest(const std::string& file, std::istream& stream, const GalleryItem& defaults, GalleryItems& items) {
+void read_manifest(const GalleryRequest& request, const GalleryKeys& keys, std::istream& stream,
+                   const GalleryItem& defaults, GalleryItems& items) {
+    const std::string& file = request.manifest;
     std::string line;
     std::string place = file + ":1";
     for (std::size_t number = 1; next_line(stream, line, place); place = fmt::format("{}:{}", file, ++number)) {
-        if (number % 256 == 0 && interrupted()) throw Interrupted();
+        if (number % 256 == 0) request.monitor.check();
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         GalleryItem item = defaults;
         item.place = place + ":1";
         item.needs_pattern = true;
         item.folder = std::filesystem::path(file).parent_path();
         const GalleryValue value = read_manifest_line(place, line);
-        for (const auto& [key, element] : value.table) read_gallery_key(key, element, item);
+        for (const auto& [key, element] : value.table) read_gallery_key(keys, key, element, item);
         items.add(std::move(item));
     }
 }

@@ -1,4 +1,4 @@
-#include "cli/gallery_forecast.h"
+#include "art/gallery/forecast.h"
 
 #include "engine/derivation/forecast.h"
 

@@ -1,4 +1,4 @@
-// cli/gallery_folder.h: the folder of a gallery: opens, creates, reads and removes its files.
+// art/gallery/folder.h: the folder of a gallery: opens, creates, reads and removes its files.
 #pragma once
 
 #include <sys/stat.h>

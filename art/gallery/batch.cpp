@@ -1,14 +1,11 @@
-#include "cli/gallery_batch.h"
+#include "art/gallery/batch.h"
 
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <numeric>
@@ -16,10 +13,6 @@
 
 namespace sikku {
 namespace {
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
 /// the beginning.
@@ -45,71 +38,19 @@ std::string bytes_text(double bytes) {
     return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-/// A line on standard error, if that is a terminal: a bar with how many jobs a second and how long still. For several
-/// threads.
-class BatchProgress {
-public:
-    BatchProgress(std::size_t jobs, double cost, bool quiet)
-        : jobs_(jobs), cost_(cost), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
-    ~BatchProgress() {
-        if (visible_) tell("\r\033[K");
-    }
-    BatchProgress(const BatchProgress&) = delete;
-    BatchProgress& operator=(const BatchProgress&) = delete;
+namespace {
 
-    void finish(double cost) {
-        const std::lock_guard guard(mutex_);
-        ++done_;
-        done_cost_ += cost;
-        show();
-    }
-    /// To be called now and then while jobs are under way.
-    void watch() {
-        if (!shown_) return;
-        const std::unique_lock guard(mutex_, std::try_to_lock);
-        if (guard) show();
-    }
+bool has_option(const Interpreter& interpreter, std::string_view name) {
+    const auto options = interpreter.options();
+    return std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) { return info->name == name; });
+}
 
-private:
-    void show() {
-        if (!shown_) return;
-        const double time = now();
-        if (time - started_ < 0.5 || time - last_ < 0.1) return;
-        last_ = time;
-        visible_ = true;
-        std::string line = fmt::format("{} of {}", done_, jobs_);
-        const double share = cost_ > 0 ? std::min(1.0, done_cost_ / cost_) : 1.0;
-        if (done_ > 0) {
-            line += fmt::format(", {:.1f} a second, {} left", static_cast<double>(done_) / (time - started_),
-                                time_text((time - started_) * (1 - share) / std::max(share, 1e-9)));
-        }
-        winsize size{};
-        const std::size_t columns =
-            ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-        constexpr std::size_t most = 30;
-        const std::size_t bar = std::min(most, columns - std::min(columns, line.size() + 4));
-        if (bar >= 5) {
-            const auto filled = static_cast<std::size_t>(share * static_cast<double>(bar));
-            line = fmt::format("[{}{}] {}", std::string(filled, '#'), std::string(bar - filled, ' '), line);
-        }
-        tell("\r{}\033[K", line.substr(0, columns - 1));
-    }
-
-    std::size_t jobs_;
-    double cost_;
-    bool shown_;
-    bool visible_ = false;
-    std::size_t done_ = 0;
-    double done_cost_ = 0;
-    double started_;
-    double last_;
-    std::mutex mutex_;
-};
+}  // namespace
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";
-    return fmt::format("it takes about {} of memory, more than --memory leaves for it ({})",
-                       bytes_text(forecast.memory), bytes_text(memory));
+    return fmt::format("it takes about {} of memory, more than is left for it ({})", bytes_text(forecast.memory),
+                       bytes_text(memory));
 }
 
 FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
@@ -117,8 +58,9 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     const GalleryPlace place = folder.place(file.file);
     const auto there = place.status();
     if (there && !replaces) {
-        throw std::runtime_error(fmt::format(
-            "'{}' already exists and was not made by this gallery; --force replaces it", folder.shown(file.file)));
+        throw std::runtime_error(
+            fmt::format("'{}' already exists and was not made by this gallery; only a forced run replaces it",
+                        folder.shown(file.file)));
     }
     // The target of a link is not in the way.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
@@ -152,15 +94,14 @@ void Batch::run(std::vector<Task> tasks, double memory) {
         waiting_.push_back(tasks[task]);
         cost += tasks[task].forecast.cost();
     }
-    BatchProgress progress(tasks.size(), cost, options_.quiet);
-    progress_ = &progress;
+    listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
     workers_ = thread_count(options_.threads);
     on_threads(workers_, [&] {
         oneapi::tbb::parallel_for(
             0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
     });
-    progress_ = nullptr;
+    listener_.end();
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
@@ -168,7 +109,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {
-        if (stopped_ || interrupted() || waiting_.empty()) return std::nullopt;
+        if (stopped_ || monitor_.stop_requested() || waiting_.empty()) return std::nullopt;
         for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
             if (task->forecast.memory > free_ && under_way_ > 0) continue;
             if (!record_.take(jobs_[task->job].file())) {
@@ -197,8 +138,7 @@ std::optional<Batch::Turn> Batch::next() {
 }
 
 void Batch::tell_waiting() {
-    if (std::exchange(told_waiting_, true) || options_.quiet) return;
-    tell("sikku: another run is making {}; waiting for it\n", counted(waiting_.size(), "job"));
+    if (!std::exchange(told_waiting_, true)) listener_.wait_for_jobs(waiting_.size());
 }
 
 void Batch::work() {
@@ -206,7 +146,7 @@ void Batch::work() {
         make(*turn);
         record_.release(jobs_[turn->task.job].file());
         changed_.notify_all();
-        progress_->finish(turn->task.forecast.cost());
+        listener_.finish(turn->task.forecast.cost());
     }
 }
 
@@ -252,10 +192,10 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.job = job.text();
     const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
         OptionValues values = job.values();
-        if (!job.is_score()) values.push_back({"jobs", std::to_string(turn.threads)});
-        const Monitor monitor([](void*) { return interrupted(); },
-                              [](void* progress, std::uint64_t) { static_cast<BatchProgress*>(progress)->watch(); },
-                              progress_);
+        if (has_option(job.interpreter(), "jobs")) values.push_back({"jobs", std::to_string(turn.threads)});
+        const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
+                              [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
+                              this);
         const Document document = job.document();
         for (const Diagnostic& warning : document.warnings()) told.push_back(warning.text());
         const auto work = job.interpreter().plan(document, job.format, values, job.folder);

@@ -1,4 +1,4 @@
-#include "cli/gallery_page.h"
+#include "art/gallery/page.h"
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"

@@ -1,9 +1,9 @@
-// cli/gallery_batch.h: makes the jobs of a gallery in parallel within a memory budget.
+// art/gallery/batch.h: makes the jobs of a gallery in parallel within a memory budget.
 #pragma once
 
-#include "cli/gallery_forecast.h"
-#include "cli/gallery_jobs.h"
-#include "cli/gallery_record.h"
+#include "art/gallery/forecast.h"
+#include "art/gallery/jobs.h"
+#include "art/gallery/record.h"
 
 #include <condition_variable>
 #include <cstddef>
@@ -34,7 +34,7 @@ using FileMaker = std::function<void(const std::filesystem::path& path, std::vec
 /// @param replaces  replace an existing file even if it was not made by this gallery; otherwise that is a
 ///                  std::runtime_error. Anything that is neither a file nor a folder, such as a link, is removed
 ///                  first
-/// @throws what `make` throws; other errors than Interrupted as std::runtime_error
+/// @throws what `make` throws; other errors than Stopped as std::runtime_error
 FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
                               const FileMaker& make);
 
@@ -56,10 +56,26 @@ struct BatchOptions {
     bool replaces = false;  ///< also replace files not made by this gallery
     bool redoes = false;    ///< also make jobs that another run finished meanwhile
     bool keep_going = false;
-    bool quiet = false;
 };
 
-class BatchProgress;
+/// Hears what a gallery does. Calls may come from several threads at once.
+class GalleryListener {
+public:
+    virtual ~GalleryListener() = default;
+    /// @param cost  seconds on one core, roughly
+    virtual void begin(std::size_t /*jobs*/, double /*cost*/) {}
+    /// A job has ended, well or not.
+    virtual void finish(double /*cost*/) {}
+    /// Called now and then while jobs are under way.
+    virtual void watch() {}
+    virtual void end() {}
+    /// Another run makes that many jobs; this run waits for them.
+    virtual void wait_for_jobs(std::size_t /*jobs*/) {}
+    /// Another run uses the record; this run waits for it.
+    virtual void wait_for_record(const std::string& /*record*/) {}
+    /// A sheet or the page is being made.
+    virtual void sheet(const std::string& /*name*/) {}
+};
 
 /// Makes jobs in parallel within a memory budget. Jobs that another run is making wait until the end, by which time
 /// they are usually finished. The most expensive jobs come first, so that the last ones started end soon; jobs that
@@ -68,8 +84,14 @@ class BatchProgress;
 class Batch {
 public:
     Batch(const std::vector<GalleryJob>& jobs, const std::vector<std::string>& hashes, const GalleryFolder& folder,
-          GalleryRecord& record, const BatchOptions& options)
-        : jobs_(jobs), hashes_(hashes), folder_(folder), record_(record), options_(options) {}
+          GalleryRecord& record, const BatchOptions& options, GalleryListener& listener, const Monitor& monitor)
+        : jobs_(jobs),
+          hashes_(hashes),
+          folder_(folder),
+          record_(record),
+          options_(options),
+          listener_(listener),
+          monitor_(monitor) {}
 
     /// @param memory  bytes for all jobs that are under way
     void run(std::vector<Task> tasks, double memory);
@@ -97,7 +119,8 @@ private:
     const GalleryFolder& folder_;
     GalleryRecord& record_;
     const BatchOptions options_;
-    BatchProgress* progress_ = nullptr;
+    GalleryListener& listener_;
+    Monitor monitor_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::list<Task> waiting_;

@@ -1,6 +1,6 @@
-#include "cli/gallery_locks.h"
+#include "art/gallery/locks.h"
 
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

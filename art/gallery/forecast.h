@@ -1,7 +1,7 @@
-// cli/gallery_forecast.h: what a job of a gallery will cost, before it is begun.
+// art/gallery/forecast.h: what a job of a gallery will cost, before it is begun.
 #pragma once
 
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
 
 #include <string>
 

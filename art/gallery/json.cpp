@@ -1,4 +1,4 @@
-#include "cli/json.h"
+#include "art/gallery/json.h"
 
 #include <fmt/format.h>
 #include <algorithm>

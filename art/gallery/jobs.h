@@ -1,9 +1,10 @@
-// cli/gallery_jobs.h: what a gallery is to hold, as a plain list of jobs: from a gallery file, a manifest, a command
+// art/gallery/jobs.h: what a gallery is to hold, as a plain list of jobs: from a gallery file, a manifest, a command
 // line.
 #pragma once
 
-#include "cli/command.h"
-#include "cli/gallery_patterns.h"
+#include "art/gallery/documents.h"
+#include "art/gallery/keys.h"
+#include "art/gallery/patterns.h"
 #include "engine/interpreter.h"
 
 #include <cstdint>
@@ -24,6 +25,8 @@ constexpr double most_gallery_jobs = 1'000'000;
 struct GalleryJob {
     std::string name;    ///< of the file, without the ending; `/` leads into folders
     std::string format;  ///< the ending: svg, png, mid …; `notes.svg` is the score of `sikku play`
+    const GalleryKeys* language = nullptr;  ///< must outlive the job
+    std::shared_ptr<Documents> documents;   ///< shared by the jobs of a gallery
     std::shared_ptr<const GalleryPattern> pattern;
     std::map<std::string, std::string> keys;       ///< options of draw and play that were given and matter here
     std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
@@ -32,12 +35,12 @@ struct GalleryJob {
 
     /// The file's path below the folder of the gallery.
     std::string file() const { return name + "." + format; }
-    bool is_score() const;
     /// What makes it.
-    const Interpreter& interpreter() const;
+    const Interpreter& interpreter() const { return language->interpreter_of(format); }
     /// Its options, for the interpreter.
     OptionValues values() const;
-    /// Its pattern with its overrides, compiled. @throws PatternError, UsageError
+    /// Its pattern with its overrides, compiled once for all jobs that have the same. @throws PatternError,
+    /// GalleryError
     Document document() const;
     /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
     std::string text() const;
@@ -45,15 +48,6 @@ struct GalleryJob {
     /// version of the program.
     std::string hash() const;
 };
-
-/// A key of gallery files, and an option of `sikku gallery`.
-struct GalleryKey {
-    std::string name;
-    std::string help;
-    bool is_flag = false;
-    bool is_option = true;  ///< the command line has it, too
-};
-const std::vector<GalleryKey>& gallery_keys();
 
 /// What the command line asks for.
 struct GalleryRequest {
@@ -67,14 +61,15 @@ struct GalleryRequest {
     std::map<std::string, std::string> keys;   ///< these override the files
     std::vector<std::string> overrides;        ///< KEY=VALUE
     std::string poster, contact;               ///< sizes of sheets; empty: taken from the gallery file
+    Monitor monitor;                           ///< polled while jobs are listed
     std::string title;                         ///< of the page; empty: from the gallery file, or its contents
 };
 
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
-/// @throws UsageError with file, line and column for every error that can be detected before a pattern is compiled;
+/// @throws GalleryError with file, line and column for every error that can be detected before a pattern is compiled;
 /// Interrupted
-std::vector<GalleryJob> gallery_jobs(GalleryRequest& request);
+std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys);
 
 /// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.
 class TextHash {

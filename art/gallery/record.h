@@ -1,7 +1,7 @@
-// cli/gallery_record.h: what a gallery's folder is known to hold: one line of JSON for each finished job.
+// art/gallery/record.h: what a gallery's folder is known to hold: one line of JSON for each finished job.
 #pragma once
 
-#include "cli/gallery_locks.h"
+#include "art/gallery/locks.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,9 @@
-// cli/gallery_values.h: reads gallery files (TOML) and manifests (JSON lines) as plain values with places.
+// art/gallery/values.h: reads gallery files (TOML) and manifests (JSON lines) as plain values with places.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,19 +31,24 @@ constexpr std::size_t most_gallery_bytes = std::size_t{16} << 20;
 /// Maximum number of keys in a table.
 constexpr std::size_t most_table_keys = 1000;
 
+/// An error in a gallery file, a manifest, or in what was requested; what() begins with the place if there is one.
+class GalleryError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// @param place  may be empty
-/// @throws UsageError always
+/// @throws GalleryError always
 [[noreturn]] void fail(const std::string& place, const std::string& message);
 
 /// Reads a gallery file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes
 /// per value.
 /// @param file  its name, for places
-/// @throws UsageError for errors, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
+/// @throws GalleryError for errors, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text);
 
 /// Reads a line of a manifest.
 /// @param place  file and line
-/// @throws UsageError if it is not a JSON object
+/// @throws GalleryError if it is not a JSON object
 GalleryValue read_manifest_line(const std::string& place, const std::string& line);
 
 }  // namespace sikku

@@ -1,6 +1,6 @@
-#include "cli/gallery_record.h"
+#include "art/gallery/record.h"
 
-#include "cli/json.h"
+#include "art/gallery/json.h"
 #include "engine/base/output_file.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// cli/json.h: JSON that others may have written.
+// art/gallery/json.h: JSON that others may have written.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,11 @@
-#include "cli/gallery_values.h"
+#include "art/gallery/values.h"
 
-#include "cli/command.h"
-#include "cli/json.h"
+#include "art/gallery/json.h"
 
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
+
+#include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
 
@@ -213,7 +214,7 @@ private:
 }  // namespace
 
 void fail(const std::string& place, const std::string& message) {
-    throw UsageError(place.empty() ? message : place + ": " + message);
+    throw GalleryError(place.empty() ? message : place + ": " + message);
 }
 
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {

@@ -1,7 +1,7 @@
-// cli/gallery_summary.h: what is made of a whole gallery: its page, a poster, a contact sheet.
+// art/gallery/summary.h: what is made of a whole gallery: its page, a poster, a contact sheet.
 #pragma once
 
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
 
 #include <filesystem>
 #include <functional>
@@ -35,7 +35,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's ending tells the format. Where patterns
 /// have several derivation lengths, each has rows of its own. Nothing is written where there is no print.
-/// @throws UsageError, and what draw_sheet() throws
+/// @throws GalleryError, and what draw_sheet() throws
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const std::function<void(std::uint64_t)>& watch);
 

@@ -1,11 +1,12 @@
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
 
-#include "cli/gallery_items.h"
-#include "cli/gallery_patterns.h"
-#include "cli/gallery_summary.h"
-#include "cli/gallery_values.h"
+#include "art/gallery/items.h"
+#include "art/gallery/patterns.h"
+#include "art/gallery/summary.h"
+#include "art/gallery/values.h"
 
 #include "engine/base/input_file.h"
+#include "engine/base/numbers.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -58,7 +59,6 @@ public:
     };
 
     const Result& of(const GalleryJob& job) {
-        if (interrupted()) throw Interrupted();
         std::string key = fmt::format("{}", static_cast<const void*>(job.pattern.get()));
         const auto add = [&](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
         for (const char* name : {"variant", "n"}) add(job.keys.contains(name) ? job.keys.at(name) : "");
@@ -131,23 +131,26 @@ private:
 /// Makes the jobs of items.
 class Expansion {
 public:
-    Expansion(std::vector<GalleryItem> items, bool bundled_only) : items_(std::move(items)), shelf_(bundled_only) {
+    Expansion(std::vector<GalleryItem> items, const GalleryRequest& request, const GalleryKeys& keys)
+        : items_(std::move(items)), keys_(keys), monitor_(request.monitor), shelf_(request.bundled_only, monitor_) {
         patterns_.reserve(items_.size());
         for (const GalleryItem& item : items_) patterns_.push_back(patterns_of(item));
     }
 
     /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items.
-    /// @throws UsageError if they are too many
+    /// @throws GalleryError if they are too many
     void require_few(double most_jobs) const {
         double sum = 0;
         double settings = 0;
         for (std::size_t i = 0; i < items_.size(); ++i) {
             watch();
-            const double prints = product_of(items_[i], false);
-            const double scores = product_of(items_[i], true);
+            std::map<const Interpreter*, double> products;
+            for (const Interpreter* interpreter : keys_.interpreters()) {
+                products[interpreter] = product_of(items_[i], *interpreter);
+            }
             for (const auto& pattern : *patterns_[i]) {
                 for (const std::string& format : formats_of(items_[i], *pattern)) {
-                    const double jobs = is_score_format(format) ? scores : prints;
+                    const double jobs = products.at(&keys_.interpreter_of(format));
                     sum += jobs;
                     settings += jobs * static_cast<double>(items_[i].axes.size());
                 }
@@ -191,7 +194,7 @@ private:
     static constexpr double most_gallery_settings = 20'000'000;
 
     void watch() const {
-        if (++watched_ % 256 == 0 && interrupted()) throw Interrupted();
+        if (++watched_ % 256 == 0) monitor_.check();
     }
 
     PatternShelf::List patterns_of(const GalleryItem& item) {
@@ -223,16 +226,16 @@ private:
         return pattern.kind == "melodies" ? both : print;
     }
 
-    static bool matters(const GalleryAxis& axis, bool is_score) {
+    bool matters(const GalleryAxis& axis, const Interpreter& interpreter) const {
         if (axis.in_set) return true;
-        const GalleryUse use = find_gallery_key(axis.key)->use;
-        return use == GalleryUse::any || (use == GalleryUse::score) == is_score;
+        const Interpreter* use = keys_.find(axis.key)->use;
+        return !use || use == &interpreter;
     }
 
-    static double product_of(const GalleryItem& item, bool is_score) {
+    double product_of(const GalleryItem& item, const Interpreter& interpreter) const {
         double product = 1;
         for (const GalleryItem::Axis& axis : item.axes) {
-            if (axis->count() > 1 && matters(*axis, is_score)) product *= axis->count();
+            if (axis->count() > 1 && matters(*axis, interpreter)) product *= axis->count();
         }
         return product;
     }
@@ -258,8 +261,8 @@ private:
                                    const std::string& format) {
         std::vector<Choice> choices;
         for (const GalleryItem::Axis& axis : item.axes) {
-            if (!matters(*axis, is_score_format(format))) continue;
-            const GalleryKeyFacts* facts = axis->in_set ? nullptr : find_gallery_key(axis->key);
+            if (!matters(*axis, keys_.interpreter_of(format))) continue;
+            const GalleryKey* facts = axis->in_set ? nullptr : keys_.find(axis->key);
             const bool overrides = facts && facts->overrides;
             choices.push_back({axis,
                                axis->in_set ? axis->key
@@ -314,10 +317,12 @@ private:
     }
 
     /// @param count  of the choices only so many are made
-    static GalleryJob job_at(const GalleryItem& item, const PatternShelf::Pointer& pattern, const std::string& format,
-                             const std::vector<Choice>& choices, const std::vector<std::uint64_t>& at,
-                             std::size_t count) {
+    GalleryJob job_at(const GalleryItem& item, const PatternShelf::Pointer& pattern, const std::string& format,
+                      const std::vector<Choice>& choices, const std::vector<std::uint64_t>& at,
+                      std::size_t count) const {
         GalleryJob job;
+        job.language = &keys_;
+        job.documents = documents_;
         job.format = format;
         job.pattern = pattern;
         job.place = item.place;
@@ -380,7 +385,7 @@ private:
         for (const GalleryItem::Axis& axis : item.axes) {
             if (axis->key == key || axis->key == written) return axis->value(0);
         }
-        if (find_gallery_key(key)) return "";
+        if (keys_.find(key)) return "";
         std::vector<std::string_view> known = {"pattern", "kind", "format", "n"};
         for (const GalleryItem::Axis& axis : item.axes) known.push_back(axis->key);
         const std::string_view near = nearest(written, known);
@@ -406,10 +411,13 @@ private:
     }
 
     std::vector<GalleryItem> items_;
+    const GalleryKeys& keys_;
+    Monitor monitor_;
     PatternShelf shelf_;
     PatternShelf::List all_;
     std::map<std::pair<std::shared_ptr<const std::vector<std::string>>, std::filesystem::path>, PatternShelf::List>
         found_;
+    std::shared_ptr<Documents> documents_ = std::make_shared<Documents>();
     Compilations compilations_;
     std::map<const GalleryPattern*, bool> defines_angle_;
     std::vector<PatternShelf::List> patterns_;
@@ -431,21 +439,21 @@ std::string title_of(const std::vector<GalleryJob>& jobs) {
 }
 
 /// What was asked for on the command line goes before what a file says.
-void take_request(const GalleryRequest& request, std::vector<GalleryItem>& items) {
+void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::vector<GalleryItem>& items) {
     GalleryItem asked;
     for (const auto& [key, text] : request.keys) {
         GalleryValue value;
         value.text = text;
         if (key == "format" || key == "name") {
-            read_gallery_key(key, value, asked);
+            read_gallery_key(keys, key, value, asked);
         } else {
-            asked.take(std::make_shared<const GalleryAxis>(axis_of(key, value, find_gallery_key(key))));
+            asked.take(std::make_shared<const GalleryAxis>(axis_of(key, value, keys.find(key))));
         }
     }
     for (const std::string& text : request.overrides) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0) {
-            throw UsageError(fmt::format("--set {}: expected KEY=VALUE", text));
+            throw GalleryError(fmt::format("--set {}: expected KEY=VALUE", text));
         }
         GalleryValue value;
         value.text = text.substr(equals + 1);
@@ -463,12 +471,12 @@ void take_request(const GalleryRequest& request, std::vector<GalleryItem>& items
     }
 }
 
-/// A file whose text is read bit by bit. @throws UsageError if it cannot be opened
+/// A file whose text is read bit by bit. @throws GalleryError if it cannot be opened
 std::ifstream open_text_file(const std::string& file) {
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) throw UsageError(fmt::format("{} is a folder", file));
+    if (std::filesystem::is_directory(file, error)) throw GalleryError(fmt::format("{} is a folder", file));
     std::ifstream stream(file, std::ios::binary);
-    if (!stream.is_open()) throw UsageError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
+    if (!stream.is_open()) throw GalleryError(fmt::format("{}: {}", file, std::generic_category().message(errno)));
     return stream;
 }
 
@@ -481,36 +489,24 @@ std::string read_gallery_text(const GalleryRequest& request) {
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     }
     if (stream.bad()) {
-        throw UsageError(fmt::format("{}: {}", request.gallery_file, std::generic_category().message(errno)));
+        throw GalleryError(fmt::format("{}: {}", request.gallery_file, std::generic_category().message(errno)));
     }
     return text;
 }
 
-void read_manifest_of(const GalleryRequest& request, const GalleryItem& defaults, GalleryItems& items) {
+void read_manifest_of(const GalleryRequest& request, const GalleryKeys& keys, const GalleryItem& defaults,
+                      GalleryItems& items) {
     if (request.manifest_text) {
         std::istringstream stream(*request.manifest_text);
-        return read_manifest(request.manifest, stream, defaults, items);
+        return read_manifest(request, keys, stream, defaults, items);
     }
     std::ifstream stream = open_text_file(request.manifest);
-    read_manifest(request.manifest, stream, defaults, items);
+    read_manifest(request, keys, stream, defaults, items);
     if (stream.bad())
-        throw UsageError(fmt::format("{}: {}", request.manifest, std::generic_category().message(errno)));
+        throw GalleryError(fmt::format("{}: {}", request.manifest, std::generic_category().message(errno)));
 }
 
 }  // namespace
-
-const std::vector<GalleryKey>& gallery_keys() {
-    static const std::vector<GalleryKey> keys = [] {
-        std::vector<GalleryKey> list;
-        for (const GalleryKeyFacts& key : all_gallery_keys()) list.push_back(key.shown);
-        return list;
-    }();
-    return keys;
-}
-
-bool GalleryJob::is_score() const {
-    return is_score_format(format);
-}
 
 std::string GalleryJob::text() const {
     nlohmann::json json;
@@ -562,7 +558,7 @@ std::string GalleryJob::hash() const {
     }
     // The file may change and keep its name.
     if (keys.contains("cmyk")) hash.add_piece(profile_digits(folder / keys.at("cmyk")));
-    if (is_score() && pattern->text) {
+    if (pattern->text) {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
             try {
@@ -579,10 +575,6 @@ std::string GalleryJob::hash() const {
     return hash.digits();
 }
 
-const Interpreter& GalleryJob::interpreter() const {
-    return interpreter_of(format);
-}
-
 OptionValues GalleryJob::values() const {
     OptionValues values;
     for (const OptionInfo* info : interpreter().options()) {
@@ -594,17 +586,30 @@ OptionValues GalleryJob::values() const {
 }
 
 Document GalleryJob::document() const {
-    PatternOptions options;
-    options.pattern = pattern->path;
-    options.text = pattern->text;
-    if (keys.contains("n")) options.steps = keys.at("n");
-    if (keys.contains("variant")) options.variant = keys.at("variant");
-    for (const auto& [key, value] : overrides) options.settings.push_back(key + "=" + value);
-    if (keys.contains("seed")) options.settings.push_back("seed=" + keys.at("seed"));
-    return load(options, true);
+    if (!pattern->text) throw std::runtime_error(pattern->problem);
+    Overrides settings;
+    for (const auto& [key, value] : overrides) settings.settings.push_back({key, key, value});
+    if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
+    if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
+    if (keys.contains("variant")) settings.variant = keys.at("variant");
+    std::string key = fmt::format("{}:{}", static_cast<const void*>(pattern.get()), settings.variant);
+    for (const Setting& setting : settings.settings) {
+        key += fmt::format(":{}:{}:{}", setting.key, setting.value.size(), setting.value);
+    }
+    return documents->get(key, pattern->text->text.size(), [&] {
+        Diagnostics diagnostics;
+        Document document = Document::compile(pattern->text->name, pattern->text->text, settings, diagnostics);
+        if (!diagnostics.is_unreadable()) {
+            for (const Interpreter* interpreter : language->interpreters()) {
+                interpreter->check_keys(document.pattern(), diagnostics);
+            }
+        }
+        diagnostics.throw_if_errors();
+        return document;
+    });
 }
 
-std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
+std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys) {
     GalleryItem defaults;
     GalleryItems items;
     if (!request.poster.empty()) check_sheet_size("poster", request.poster, "");
@@ -612,9 +617,9 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     if (!request.gallery_file.empty()) {
         defaults.folder = std::filesystem::path(request.gallery_file).parent_path();
         defaults.place = request.gallery_file + ":1:1";
-        read_gallery(request.gallery_file, read_gallery_text(request), defaults, request, items);
+        read_gallery(keys, request.gallery_file, read_gallery_text(request), defaults, request, items);
     }
-    if (!request.manifest.empty()) read_manifest_of(request, defaults, items);
+    if (!request.manifest.empty()) read_manifest_of(request, keys, defaults, items);
     if (!request.patterns.empty()) {
         // Seen from here, not from the gallery file.
         GalleryItem item = defaults;
@@ -626,8 +631,8 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
     } else if (items.list.empty() && request.manifest.empty()) {
         items.add(defaults);
     }
-    take_request(request, items.list);
-    Expansion expansion(std::move(items.list), request.bundled_only);
+    take_request(request, keys, items.list);
+    Expansion expansion(std::move(items.list), request, keys);
     expansion.require_few(request.most_jobs);
     std::vector<GalleryJob> jobs = expansion.jobs();
     if (request.title.empty()) request.title = title_of(jobs);
@@ -635,9 +640,8 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request) {
 }
 
 void TextHash::add(std::string_view bytes) {
-    __extension__ using Wide = unsigned __int128;
-    constexpr Wide prime = (Wide{1} << 88) + 0x13b;
-    Wide state = (Wide{high_} << 64) | low_;
+    constexpr Unsigned128 prime = (Unsigned128{1} << 88) + 0x13b;
+    Unsigned128 state = (Unsigned128{high_} << 64) | low_;
     for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * prime;
     high_ = static_cast<std::uint64_t>(state >> 64);
     low_ = static_cast<std::uint64_t>(state);

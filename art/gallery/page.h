@@ -1,4 +1,4 @@
-// cli/gallery_page.h: the page of a gallery: its prints to search, to look at closely, and to take along.
+// art/gallery/page.h: the page of a gallery: its prints to search, to look at closely, and to take along.
 #pragma once
 
 #include "music/score/score.h"

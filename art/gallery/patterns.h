@@ -1,8 +1,9 @@
-// cli/gallery_patterns.h: finds the patterns that a gallery names, by name, file, folder or wildcards, and reads each
+// art/gallery/patterns.h: finds the patterns that a gallery names, by name, file, folder or wildcards, and reads each
 // once.
 #pragma once
 
-#include "cli/command.h"
+#include "engine/base/monitor.h"
+#include "engine/language/document.h"
 
 #include <filesystem>
 #include <map>
@@ -12,6 +13,12 @@
 #include <vector>
 
 namespace sikku {
+
+/// The text of a pattern and what messages call it.
+struct PatternText {
+    std::string name;
+    std::string text;
+};
 
 /// A pattern of a gallery, read once.
 struct GalleryPattern {
@@ -35,9 +42,9 @@ public:
     using List = std::shared_ptr<const std::vector<Pointer>>;
 
     /// @param bundled_only  do not search files
-    explicit PatternShelf(bool bundled_only) : bundled_only_(bundled_only) {}
+    explicit PatternShelf(bool bundled_only, Monitor monitor = {}) : bundled_only_(bundled_only), monitor_(monitor) {}
 
-    /// @throws UsageError if none is found, or there are too many entries to search; Interrupted
+    /// @throws GalleryError if none is found, or there are too many entries to search; Stopped
     List find(const std::string& word, const std::filesystem::path& folder, const std::string& place);
     /// All bundled patterns that draw something.
     List all();
@@ -51,6 +58,7 @@ private:
     Pointer read(const std::filesystem::path& file, const std::string& shown, const std::string& called);
 
     bool bundled_only_;
+    Monitor monitor_;
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;
     std::size_t bytes_ = 0;    // of all texts

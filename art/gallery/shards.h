@@ -1,4 +1,4 @@
-// cli/gallery_shards.h: a gallery cut into parts for several machines.
+// art/gallery/shards.h: a gallery cut into parts for several machines.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ using Environment = std::function<const char*(const char* name)>;
 
 /// From `i/N`, or from what a batch system says: an array of Slurm (whatever its first index), ranks of Open MPI, an
 /// indexed job of Kubernetes. `/N` leaves the index to them. Without any, the whole.
-/// @throws UsageError
+/// @throws GalleryError
 Shard read_shard(const std::string& text, const Environment& environment);
 
 /// Which of `count` shards takes each job: the dearest first, each to the shard that has least to do. Depends on

@@ -1,7 +1,7 @@
-// cli/gallery_locks.h: locks that show all runs in a folder which gallery files are being made.
+// art/gallery/locks.h: locks that show all runs in a folder which gallery files are being made.
 #pragma once
 
-#include "cli/gallery_folder.h"
+#include "art/gallery/folder.h"
 
 #include <cstdint>
 #include <string>

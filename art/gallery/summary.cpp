@@ -1,8 +1,9 @@
-#include "cli/gallery_summary.h"
+#include "art/gallery/summary.h"
 
 #include "art/draw_settings.h"
+#include "art/gallery/page.h"
+#include "art/prints.h"
 #include "art/sheet/sheet.h"
-#include "cli/gallery_page.h"
 #include "engine/base/output_file.h"
 #include "engine/derivation/forecast.h"
 
@@ -21,6 +22,10 @@ namespace {
 
 constexpr std::array<std::string_view, 2> sheet_names = {"poster", "contact"};
 constexpr std::array<std::string_view, 3> sheet_formats = {"pdf", "png", "svg"};
+
+bool is_print(const GalleryJob& job) {
+    return &job.interpreter() == &prints();
+}
 
 /// Jobs of one name, in the order of their first.
 struct Prints {
@@ -112,20 +117,14 @@ GalleryEntry entry_of(const Prints& item) {
         const GalleryJob* small = item.find(format);
         if (small && entry.thumbnail.empty()) entry.thumbnail = small->file();
     }
-    if (!shown->is_score()) {
+    if (is_print(*shown)) {
         const Page page = read_draw_settings(shown->values()).page;
         entry.width = static_cast<int>(std::lround(page.width));
         entry.height = static_cast<int>(std::lround(page.height));
     }
-    static const std::map<std::string_view, std::string_view> labels = {
-        {"mid", "MIDI"},  {"midi", "MIDI"},  {"musicxml", "MusicXML"}, {"xml", "MusicXML"},        {"ly", "LilyPond"},
-        {"wav", "sound"}, {"flac", "sound"}, {"html", "play"},         {"notes.svg", "the notes"}, {"svg", "SVG"},
-        {"pdf", "PDF"},   {"png", "PNG"},    {"tif", "TIFF"},          {"tiff", "TIFF"},           {"jpg", "JPEG"},
-        {"jpeg", "JPEG"}, {"exr", "EXR"}};
     for (const GalleryJob* job : item.jobs) {
         if (job == shown) continue;
-        const auto label = labels.find(job->format);
-        entry.extras.emplace_back(label == labels.end() ? job->format : std::string(label->second), job->file());
+        entry.extras.emplace_back(job->language->label(job->format), job->file());
     }
     return entry;
 }
@@ -173,7 +172,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     std::vector<std::pair<const GalleryJob*, Document>> prints;
     for (const Prints& item : by_name(jobs)) {
         const auto print =
-            std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return !job->is_score(); });
+            std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return is_print(*job); });
         if (print == item.jobs.end()) continue;
         prints.emplace_back(*print, (*print)->document());
         lengths[(*print)->pattern.get()].insert(prints.back().second.grammar().steps());

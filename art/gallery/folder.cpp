@@ -1,6 +1,6 @@
-#include "cli/gallery_folder.h"
+#include "art/gallery/folder.h"
 
-#include "cli/gallery_jobs.h"
+#include "art/gallery/jobs.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,0 +1,95 @@
+#include "art/gallery/keys.h"
+
+#include "engine/base/keys.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sikku {
+
+GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpreters_(std::move(interpreters)) {
+    using enum OptionKind;
+    for (const Interpreter* interpreter : interpreters_) {
+        for (const FormatName& row : interpreter->formats()) {
+            if (row.is_several) continue;
+            for (const std::string_view name : {row.extension, row.alias}) {
+                if (name.empty() || known(name)) continue;
+                known_.push_back({name, row.label, interpreter});
+                formats_.push_back(name);
+            }
+        }
+    }
+    keys_ = {{.name = "n", .help = "derivation length, or a range of them: 1:6", .kind = whole},
+             {.name = "variant", .help = "one of the pattern's variants"},
+             {.name = "seed", .help = "random seed", .kind = whole},
+             {.name = "budget", .help = "maximum number of derivation nodes visited", .kind = number, .least = 1}};
+    for (const Interpreter* interpreter : interpreters_) {
+        for (const OptionInfo* info : interpreter->options()) {
+            const std::string name = (info->is_on ? "no-" : "") + std::string(info->name);
+            if (info->is_alone || info->is_key || find(name)) continue;
+            keys_.push_back({.name = name,
+                             .help = std::string(info->help),
+                             .use = interpreter,
+                             .kind = info->kind,
+                             .least = info->least,
+                             .most = info->most});
+        }
+    }
+    keys_.push_back({.name = "angle",
+                     .help = "the pattern's angle: its define of that name, or its angle increment",
+                     .overrides = true});
+    for (const char* key : {"angle-increment", "angle-factor", "heading", "turn"}) {
+        keys_.push_back({.name = key, .help = "", .overrides = true, .is_option = false});
+    }
+    keys_.push_back(
+        {.name = "scale-factor", .help = "", .use = reader_of(KeyOwner::art), .overrides = true, .is_option = false});
+    for (const KeyInfo& key : language_keys()) {
+        if (key.owner == KeyOwner::engine) continue;
+        const Interpreter* reader = reader_of(key.owner);
+        if (!reader) continue;
+        // Keys that are options of the interpreter, too, go through its table.
+        const auto options = reader->options();
+        const bool is_option = std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) {
+            return info->name == key.name && info->is_key && !info->sets_more;
+        });
+        keys_.push_back(
+            {.name = std::string(key.name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
+    }
+}
+
+const Interpreter* GalleryKeys::reader_of(KeyOwner owner) const {
+    const auto found = std::find_if(interpreters_.begin(), interpreters_.end(),
+                                    [&](const Interpreter* one) { return one->owner() == owner; });
+    return found == interpreters_.end() ? nullptr : *found;
+}
+
+const GalleryKey* GalleryKeys::find(std::string_view name) const {
+    const auto found =
+        std::find_if(keys_.begin(), keys_.end(), [&](const GalleryKey& key) { return key.name == name; });
+    return found == keys_.end() ? nullptr : &*found;
+}
+
+const GalleryKeys::Known* GalleryKeys::known(std::string_view format) const {
+    const auto found =
+        std::find_if(known_.begin(), known_.end(), [&](const Known& row) { return row.name == format; });
+    return found == known_.end() ? nullptr : &*found;
+}
+
+const Interpreter& GalleryKeys::interpreter_of(std::string_view format) const {
+    return *known(format)->interpreter;
+}
+
+std::string_view GalleryKeys::label(std::string_view format) const {
+    return known(format)->label;
+}
+
+std::string folded_key(std::string key) {
+    for (char& letter : key) {
+        if (letter == '_' || letter == ' ') letter = '-';
+    }
+    if (key == "generations" || key == "steps") return "n";
+    if (key == "seeds" || key == "formats" || key == "patterns") key.pop_back();
+    return key;
+}
+
+}  // namespace sikku

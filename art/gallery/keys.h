@@ -1,0 +1,62 @@
+// art/gallery/keys.h: the keys and formats that galleries accept, derived from the interpreters' tables.
+#pragma once
+
+#include "engine/base/option.h"
+#include "engine/interpreter.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A key of gallery files, and an option of the command line.
+struct GalleryKey {
+    std::string name{};
+    std::string help{};
+    const Interpreter* use = nullptr;  ///< whose jobs it concerns; null: all
+    OptionKind kind = OptionKind::text;
+    bool overrides = false;  ///< it is a key of the pattern
+    double least = -1e300;
+    double most = 1e300;
+    bool is_option = true;  ///< the command line has it, too
+};
+
+/// What gallery files may contain.
+class GalleryKeys {
+public:
+    /// @param interpreters  in order of precedence for formats of the same name: prints, then scores
+    explicit GalleryKeys(std::vector<const Interpreter*> interpreters);
+
+    const std::vector<GalleryKey>& list() const { return keys_; }
+    /// Null if the name is unknown.
+    const GalleryKey* find(std::string_view name) const;
+    /// Names and aliases of all formats whose jobs are one file each.
+    const std::vector<std::string_view>& formats() const { return formats_; }
+    /// @param format  one of formats()
+    const Interpreter& interpreter_of(std::string_view format) const;
+    /// Label of a format in a link, `MIDI`. @param format  one of formats()
+    std::string_view label(std::string_view format) const;
+    std::span<const Interpreter* const> interpreters() const { return interpreters_; }
+
+private:
+    struct Known {
+        std::string_view name;
+        std::string_view label;
+        const Interpreter* interpreter;
+    };
+    const Known* known(std::string_view format) const;
+    /// Who reads the keys of that owner, or null.
+    const Interpreter* reader_of(KeyOwner owner) const;
+
+    std::vector<const Interpreter*> interpreters_;
+    std::vector<Known> known_;
+    std::vector<std::string_view> formats_;
+    std::vector<GalleryKey> keys_;
+};
+
+/// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
+std::string folded_key(std::string key);
+
+}  // namespace sikku
