@@ -58,7 +58,11 @@ int run(int argc, char** argv) {
     add_check(app);
     add_completion(app);
     add_manual(app);
-    app.footer("`sikku COMMAND --help` shows the options of a command, with examples.");
+    app.footer(
+        "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
+        "Exit status: 0; 2 for usage, unknown names and patterns with errors; 1 for other failures; 130, 143 and 129 "
+        "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
+        "once. Output files appear whole or not at all.");
     try {
         if (argc > 1 && argv[1][0] != '-') require_command(app, argv[1]);
         app.parse(argc, argv);
