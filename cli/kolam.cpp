@@ -105,7 +105,7 @@ std::string prose(const std::string& title, std::int64_t n, const KolamExaminati
 }  // namespace
 
 void add_kolam(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("kolam", "Examine a drawing as a kolam: lines, crossings, dots, symmetry");
+    auto* command = app.add_subcommand("kolam", "Examine a drawing as a kolam, or make a kolam on a grid of dots");
     auto options = std::make_shared<PatternOptions>();
     auto grid = std::make_shared<KolamGridOptions>();
     auto as_json = std::make_shared<bool>(false);
@@ -113,26 +113,31 @@ void add_kolam(CLI::App& app, bool& quiet) {
     add_pattern_options(*command, *options);
     command->get_option("PATTERN")->required(false);
     add_kolam_grid_options(*command, *grid);
-    command->add_option("-o,--output", grid->output, "Of --grid: the pattern file; absent: standard output")
+    command->add_option("-o,--output", grid->output, "pattern file (standard output)")
         ->needs("--grid")
-        ->group("On a grid of dots");
-    command->add_option("-j,--jobs", grid->threads, "Threads of --enumerate; 0: one for each core")
+        ->type_name("FILE")
+        ->group(grid_heading);
+    command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one for each core (0)")
         ->check(CLI::Range(0, 1024))
-        ->group("On a grid of dots");
-    command->add_flag("--json", *as_json, "One line of JSON, for programs");
+        ->type_name("N")
+        ->group(grid_heading);
+    command->add_flag("--json", *as_json, "print one line of JSON");
     add_budget_option(*command, *budget);
     command->footer(
-        "In a kolam every dot is encircled, every line is closed, and nothing is drawn twice; what breaks these\n"
-        "rules is told. Remarks name what is unusual. Dots are where the tradition sets them: one in each loop,\n"
-        "none in the gaps between. Places are in steps of the turtle, which starts at 0 0; the examination is exact\n"
-        "where the angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
-        "The exit status is 0 whether it is a kolam or not. Keys of --json: title, n, kolam, faults, remarks,\n"
-        "exact, tolerance, spline, segments, strokes, lines, open_lines, straight_lines (going straight on at\n"
-        "every meeting), vertices, edges, components, faces (bounded), reused_edges, meetings (points visited\n"
-        "more than once: crossings, touchings, multiple, or ends of reused edges), crossings, skew (crossings\n"
-        "not at right angles), mid_crossings (crossings inside of segments), touchings, multiple, symmetry,\n"
-        "rotations, mirrors, centre, loose_dots, dots.\n\n"
-        "With --grid a kolam is made instead, as a pattern file. Examples:\n"
+        "In a kolam every dot is encircled, every line is closed, and nothing is drawn twice. Violations are "
+        "reported, "
+        "and unusual features are remarked on. Dots are where the tradition sets them: one in each loop, none in the "
+        "gaps between. Places are in steps of the turtle, which starts at 0 0; the examination is exact where the "
+        "angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
+        "With --grid a kolam is made instead, as a pattern file.\n\n"
+        "The exit status is 0 whether it is a kolam or not. Keys of --json: title, n, kolam, faults, remarks, exact, "
+        "tolerance, spline, segments, strokes, lines, open_lines, straight_lines (going straight on at every "
+        "meeting), "
+        "vertices, edges, components, faces (bounded), reused_edges, meetings (points visited more than once: "
+        "crossings, touchings, multiple, or ends of reused edges), crossings, skew (crossings not at right angles), "
+        "mid_crossings (crossings inside of segments), touchings, multiple, symmetry, rotations, mirrors, centre, "
+        "loose_dots, dots.\n\n"
+        "Examples:\n"
         "  sikku kolam snake-kolam\n"
         "  sikku kolam --grid 7x7 --symmetry C4 --single-line --seed 3 -o mine.lsys\n"
         "  sikku kolam --grid 3x3 --enumerate\n"

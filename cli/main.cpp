@@ -1,6 +1,7 @@
 // cli/main.cpp: the program: its commands and its errors.
 #include "art/gallery/values.h"
 #include "cli/command.h"
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "engine/derivation/derivation.h"
@@ -37,12 +38,13 @@ void require_command(const CLI::App& app, const std::string& wanted) {
 int run(int argc, char** argv) {
     using namespace sikku;
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
-    app.set_version_flag("--version", "sikku " SIKKU_VERSION);
+    app.set_version_flag("--version", "sikku " SIKKU_VERSION, "show the version");
     bool quiet = false;
-    app.add_flag("-q,--quiet", quiet, "No progress, no warnings");
+    app.set_help_flag("-h,--help", "show this help");
+    app.add_flag("-q,--quiet", quiet, "show no progress and no warnings");
+    app.formatter(std::make_shared<HelpFormatter>());
     app.require_subcommand(1);
     app.fallthrough();
-    app.get_formatter()->column_width(34);
     add_draw(app, quiet);
     add_kolam(app, quiet);
     add_play(app, quiet);
@@ -55,7 +57,12 @@ int run(int argc, char** argv) {
     add_show(app, quiet);
     add_check(app);
     add_completion(app);
-    app.footer("`sikku COMMAND --help` tells more, with examples.");
+    add_manual(app);
+    app.footer(
+        "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
+        "Exit status: 0; 2 for usage, unknown names and patterns with errors; 1 for other failures; 130, 143 and 129 "
+        "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
+        "once. Output files appear whole or not at all.");
     try {
         if (argc > 1 && argv[1][0] != '-') require_command(app, argv[1]);
         app.parse(argc, argv);

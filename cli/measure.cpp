@@ -128,17 +128,16 @@ std::string prose(const std::string& title, const Measurement& m) {
 }  // namespace
 
 void add_measure(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("measure", "Tell length, counts, box and end of the word, of any order");
+    auto* command = app.add_subcommand("measure", "Measure the word of a pattern: length, counts, box, end");
     auto options = std::make_shared<PatternOptions>();
     auto as_json = std::make_shared<bool>(false);
     auto budget = std::make_shared<double>(200e6);
     add_pattern_options(*command, *options);
-    command->add_flag("--json", *as_json, "One line of JSON, for programs");
+    command->add_flag("--json", *as_json, "print one line of JSON");
     add_budget_option(*command, *budget);
     command->footer(
-        "In unit steps of the turtle, which starts at 0 0; in space, x y z. Systems without contexts are not "
-        "derived:\n"
-        "order 60 costs as little as order 6.\n\n"
+        "Lengths are in steps of the turtle, which starts at 0 0; in space, places have x, y and z. Systems without "
+        "contexts are not derived: order 60 costs as little as order 6.\n\n"
         "Examples:\n"
         "  sikku measure snake-kolam\n"
         "  sikku measure hilbert -n 60 --json");

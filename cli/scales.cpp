@@ -245,13 +245,15 @@ void show_scales(const ScalesOptions& options) {
 }  // namespace
 
 void add_scales(CLI::App& app) {
-    auto* command = app.add_subcommand("scales", "List the scales that come along, or show one");
+    auto* command = app.add_subcommand("scales", "List the bundled scales, or show one");
     auto options = std::make_shared<ScalesOptions>();
-    command->add_option("WORDS", options->words, "A scale, words to look for, or a Scala file (.scl)");
-    command->add_option("--tonic", options->tonic, "The note that names of notes stand on")->capture_default_str();
-    command->add_flag("--json", options->as_json, "One array of JSON, for programs");
+    command->add_option("WORDS", options->words, "scale, words to search for, or Scala file (.scl)");
+    command->add_option("--tonic", options->tonic, "first note of the scale, for names of notes")
+        ->type_name("NOTE")
+        ->capture_default_str();
+    command->add_flag("--json", options->as_json, "print an array of JSON");
     command->footer(
-        "Notes are named with their distance in cents from the twelve of a piano, if there is one: E-14.\n\n"
+        "Notes that a piano lacks are named with their distance in cents: E-14.\n\n"
         "Examples:\n"
         "  sikku scales\n"
         "  sikku scales harmonic minor --tonic D\n"
