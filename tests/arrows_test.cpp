@@ -51,7 +51,7 @@ struct Room {
 /// The one table of arrows. Each room sees only rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "tbb posix"},
+        {"engine/base", "", "boost tbb posix"},
         {"engine/language", "engine/base", ""},
         {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},

@@ -6,6 +6,7 @@
 #include "art/gallery/values.h"
 
 #include "engine/base/input_file.h"
+#include "engine/base/numbers.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -321,6 +322,7 @@ private:
                       std::size_t count) const {
         GalleryJob job;
         job.language = &keys_;
+        job.documents = documents_;
         job.format = format;
         job.pattern = pattern;
         job.place = item.place;
@@ -415,6 +417,7 @@ private:
     PatternShelf::List all_;
     std::map<std::pair<std::shared_ptr<const std::vector<std::string>>, std::filesystem::path>, PatternShelf::List>
         found_;
+    std::shared_ptr<Documents> documents_ = std::make_shared<Documents>();
     Compilations compilations_;
     std::map<const GalleryPattern*, bool> defines_angle_;
     std::vector<PatternShelf::List> patterns_;
@@ -450,7 +453,7 @@ void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::v
     for (const std::string& text : request.overrides) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0) {
-            throw GalleryError(fmt::format("--set {}: expected KEY=VALUE", text));
+            throw SettingError("set", text, "expected KEY=VALUE");
         }
         GalleryValue value;
         value.text = text.substr(equals + 1);
@@ -585,19 +588,25 @@ OptionValues GalleryJob::values() const {
 Document GalleryJob::document() const {
     if (!pattern->text) throw std::runtime_error(pattern->problem);
     Overrides settings;
-    for (const auto& [key, value] : overrides) settings.settings.push_back({key, key, value});
+    for (const auto& [key, value] : overrides) settings.settings.push_back({"set", key, value});
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
     if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
     if (keys.contains("variant")) settings.variant = keys.at("variant");
-    Diagnostics diagnostics;
-    Document document = Document::compile(pattern->text->name, pattern->text->text, settings, diagnostics);
-    if (!diagnostics.is_unreadable()) {
-        for (const Interpreter* interpreter : language->interpreters()) {
-            interpreter->check_keys(document.pattern(), diagnostics);
-        }
+    std::string key = fmt::format("{}:{}", static_cast<const void*>(pattern.get()), settings.variant);
+    for (const Setting& setting : settings.settings) {
+        key += fmt::format(":{}:{}:{}", setting.key, setting.value.size(), setting.value);
     }
-    diagnostics.throw_if_errors();
-    return document;
+    return documents->get(key, pattern->text->text.size(), [&] {
+        Diagnostics diagnostics;
+        Document document = Document::compile(pattern->text->name, pattern->text->text, settings, diagnostics);
+        if (!diagnostics.is_unreadable()) {
+            for (const Interpreter* interpreter : language->interpreters()) {
+                interpreter->check_keys(document.pattern(), diagnostics);
+            }
+        }
+        diagnostics.throw_if_errors();
+        return document;
+    });
 }
 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys) {
@@ -631,9 +640,8 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys&
 }
 
 void TextHash::add(std::string_view bytes) {
-    __extension__ using Wide = unsigned __int128;
-    constexpr Wide prime = (Wide{1} << 88) + 0x13b;
-    Wide state = (Wide{high_} << 64) | low_;
+    constexpr Unsigned128 prime = (Unsigned128{1} << 88) + 0x13b;
+    Unsigned128 state = (Unsigned128{high_} << 64) | low_;
     for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * prime;
     high_ = static_cast<std::uint64_t>(state >> 64);
     low_ = static_cast<std::uint64_t>(state);

@@ -2,6 +2,7 @@
 // line.
 #pragma once
 
+#include "art/gallery/documents.h"
 #include "art/gallery/keys.h"
 #include "art/gallery/patterns.h"
 #include "engine/interpreter.h"
@@ -25,6 +26,7 @@ struct GalleryJob {
     std::string name;    ///< of the file, without the ending; `/` leads into folders
     std::string format;  ///< the ending: svg, png, mid …; `notes.svg` is the score of `sikku play`
     const GalleryKeys* language = nullptr;  ///< must outlive the job
+    std::shared_ptr<Documents> documents;   ///< shared by the jobs of a gallery
     std::shared_ptr<const GalleryPattern> pattern;
     std::map<std::string, std::string> keys;       ///< options of draw and play that were given and matter here
     std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
@@ -37,7 +39,8 @@ struct GalleryJob {
     const Interpreter& interpreter() const { return language->interpreter_of(format); }
     /// Its options, for the interpreter.
     OptionValues values() const;
-    /// Its pattern with its overrides, compiled. @throws PatternError, GalleryError
+    /// Its pattern with its overrides, compiled once for all jobs that have the same. @throws PatternError,
+    /// GalleryError
     Document document() const;
     /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
     std::string text() const;

@@ -407,7 +407,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                 known.push_back(other.name.view());
                 list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
             }
-            const auto source = std::make_shared<const Source>("--variant", std::string(variant));
+            const auto source = std::make_shared<const Source>("variant", std::string(variant));
             pattern.overrides.push_back(source);
             diagnostics.error({source, 0, variant.size()}, known.empty()
                                                                ? "this pattern has no variants"

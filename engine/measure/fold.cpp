@@ -1,5 +1,7 @@
 #include "engine/measure/fold.h"
 
+#include "engine/base/numbers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,8 +17,6 @@ constexpr double most_work = 3e7;
 constexpr std::size_t longest_axiom = 1'000'000;  // a long word is walked as cheaply as composed
 constexpr std::size_t most_frames = 4096;
 constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, placed in all
-
-__extension__ using Int128 = __int128;
 
 struct Overflow {};  // 64 bits do not suffice
 struct TooMuch {};   // to be composed

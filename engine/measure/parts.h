@@ -1,6 +1,7 @@
 // engine/measure/parts.h: what every part of a drawing does and covers, without deriving it.
 #pragma once
 
+#include "engine/base/numbers.h"
 #include "engine/language/grammar.h"
 
 #include <cstdint>
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace sikku {
-
-/// A whole number of 113 bits, or a number of 34 digits.
-__extension__ using Quad = __float128;
 
 /// What a symbol with some steps still to come draws, from where the turtle is; in turtle steps, in its heading.
 template <class Number>

@@ -1,0 +1,24 @@
+// engine/base/numbers.h: numbers of 128 bits under one name on every compiler.
+#pragma once
+
+#if defined(__SIZEOF_FLOAT128__) && defined(__SIZEOF_INT128__)
+#define SIKKU_HAS_128_BITS 1
+#else
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#endif
+
+namespace sikku {
+
+#if defined(SIKKU_HAS_128_BITS)
+/// A number with a mantissa of 113 bits: 34 decimal digits, whole numbers to 2^113.
+__extension__ using Quad = __float128;
+__extension__ using Int128 = __int128;
+__extension__ using Unsigned128 = unsigned __int128;
+#else
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+using Int128 = boost::multiprecision::int128_t;
+using Unsigned128 = boost::multiprecision::uint128_t;
+#endif
+
+}  // namespace sikku
