@@ -111,6 +111,40 @@ void set_animation(DrawSettings& settings, const std::string& text) {
     settings.animation = seconds;
 }
 
+/// `SPACING`, then, in any order, `ANGLE` and `cross`.
+void set_hatch(DrawSettings& settings, const std::string& text) {
+    Hatch& hatch = settings.hatch.emplace();
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        if (begin == 0) {
+            hatch.spacing = length("hatch", part, settings.dpi);
+            if (!(hatch.spacing >= 0.05 && hatch.spacing <= longest)) {
+                refuse("hatch", text, "expected a spacing of at least 0.05mm and at most 10 m");
+            }
+        } else if (part == "cross") {
+            hatch.is_crossed = true;
+        } else if (!read_number(part, hatch.angle) || !(std::fabs(hatch.angle) <= 360)) {
+            refuse("hatch", text, "expected a spacing, then an angle in degrees or 'cross': 0.5mm,30 or 0.5mm,cross");
+        }
+        begin = end + 1;
+    }
+}
+
+void set_pen_width(DrawSettings& settings, const std::string& text) {
+    settings.pen_width = length("pen-width", text, settings.dpi);
+    if (!(settings.pen_width >= 0.05 && settings.pen_width <= 100)) {
+        refuse("pen-width", text, "expected a width between 0.05mm and 100mm");
+    }
+}
+
+void set_paper(DrawSettings& settings, const std::string& text) {
+    settings.paper = parse_hpgl_paper(text, settings.dpi);
+    if (!settings.paper) {
+        refuse("hpgl-paper", text, "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
+    }
+}
+
 void set_profile(DrawSettings& settings, const std::string& text) {
     const auto profile = gcode_profile(text);
     if (!profile) refuse("profile", text, "expected grbl or z");
@@ -266,6 +300,32 @@ const std::array table = {
                   s.split = length("split", t, s.dpi);
                   if (!(s.split > 0)) refuse("split", t, "expected a length above 0");
               }},
+    Option<S>{{.name = "pen-width",
+               .help = "width of the real pen: wider strokes are drawn in several passes (each stroke's own width)",
+               .value = "WIDTH",
+               .group = plotters},
+              set_pen_width},
+    Option<S>{{.name = "hatch",
+               .help = "hatch filled shapes: spacing (one pen), angle (45) or both directions, such as 0.5mm,30 or "
+                       "0.5mm,cross",
+               .value = "[SPACING[,ANGLE|cross]]",
+               .group = plotters},
+              set_hatch},
+    Option<S>{{.name = "pens",
+               .help = "number of pens the plotter holds, 1 to 256; more colours are merged into the most similar "
+                       "(one per colour)",
+               .value = "N",
+               .group = plotters,
+               .kind = whole,
+               .least = 1,
+               .most = 256},
+              [](S& s, Text t) { s.pens = to_int(t); }},
+    Option<S>{{.name = "hpgl-paper",
+               .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "
+                       ",centre if its origin is in the middle (the page from its corner)",
+               .value = "SIZE[,centre]",
+               .group = plotters},
+              set_paper},
     Option<S>{{.name = "travel", .help = "show pen-up travel in a layer of its own", .group = plotters, .kind = flag},
               [](S& s, Text t) { s.travel = is_true(t); }},
     Option<S>{{.name = "pen-speed",
@@ -421,6 +481,10 @@ void check_model(const DrawSettings& settings) {
     refuse_first({{settings.window.has_value(), "window", reason},
                   {!settings.view.empty(), "view", reason},
                   {settings.plotter, "plotter", reason},
+                  {settings.hatch.has_value(), "hatch", reason},
+                  {settings.pen_width > 0, "pen-width", reason},
+                  {settings.pens > 0, "pens", reason},
+                  {settings.paper.has_value(), "hpgl-paper", reason},
                   {settings.tile.has_value(), "tile", reason},
                   {settings.dots.has_value(), "dots", reason},
                   {settings.dot_spacing.has_value(), "dot-spacing", reason},
@@ -452,6 +516,10 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
     refuse_first({{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
                   {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
                   {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
+                  {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
+                  {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
+                  {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
+                  {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
                   {settings.tile && is_plot, "tile", "a plot cannot be cut into sheets"}});
     plot_seconds({}, settings.speeds);
 }

@@ -4,6 +4,7 @@
 #include "art/drawing/growth.h"
 #include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
+#include "art/plotter/hpgl.h"
 #include "art/plotter/plot.h"
 #include "art/print/format.h"
 #include "art/print/page.h"
@@ -45,7 +46,11 @@ struct DrawSettings {
     std::optional<Page> tile;                                          ///< sheets that the print is cut into
     double overlap = 10.0;                                             ///< of those sheets
     bool plotter = false;
-    double split = 0.0;   ///< longest stroke; 0: any
+    double split = 0.0;             ///< longest stroke; 0: any
+    std::optional<Hatch> hatch;     ///< of filled shapes
+    double pen_width = 0.0;         ///< of the real pen; 0: of each stroke
+    int pens = 0;                   ///< maximum number; 0: any
+    std::optional<HpglPaper> paper; ///< of an HP-GL plotter
     bool travel = false;  ///< show pen-up travel
     PlotSpeeds speeds;
     GcodeOptions gcode;

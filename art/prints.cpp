@@ -33,14 +33,22 @@ std::string time_text(double seconds) {
 
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     const auto line = [&](const PlotTally& tally) {
-        return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel, {}, about {}", tally.drawn / 1000,
-                           tally.travelled / 1000, counted(tally.lifts, "lift"),
-                           time_text(plot_seconds(tally, speeds)));
+        return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,
+                           tally.travelled / 1000, plot.returns ? " with the return home" : "",
+                           counted(tally.lifts, "lift"), time_text(plot_seconds(tally, speeds)));
     };
     made.fact("before: " + line(plot.before));
     made.fact("plot:   " + line(plot.after));
     if (plot.duplicates > 0) {
         made.fact(fmt::format("{} drawn twice in the pattern, once here", counted(plot.duplicates, "segment")));
+    }
+    if (!plot.merged.empty()) {
+        made.fact(fmt::format("{} in {}:", counted(plot.colours, "colour"),
+                              counted(plot.colours - plot.merged.size(), "pen")));
+    }
+    for (const MergedPen& merged : plot.merged) {
+        made.fact(fmt::format("  {} ({:.2f} m) is drawn with pen {}, {}", colour_name(merged.colour),
+                              merged.drawn / 1000, merged.number, colour_name(merged.pen)));
     }
 }
 
@@ -111,7 +119,12 @@ private:
         drawing_.budget = settings_.budget;
         if (settings_.tile) drawing_.tiles = TileOptions{*settings_.tile, settings_.overlap};
         if (!settings_.plotter && !is_for_plotters(format_)) return;
-        drawing_.plot.emplace().split = settings_.split;
+        PlotOptions& plot = drawing_.plot.emplace();
+        plot.split = settings_.split;
+        plot.hatch = settings_.hatch;
+        plot.pen_width = settings_.pen_width;
+        plot.pens = settings_.pens;
+        drawing_.hpgl.paper = settings_.paper;
         drawing_.shows_travel = settings_.travel;
         drawing_.gcode = settings_.gcode;
     }
@@ -233,6 +246,15 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
             print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
     }
     if (report.plot) report_plot(*report.plot, settings_.speeds, made);
+    if (report.plot && format_ == PrintFormat::hpgl) {
+        made.fact("HP-GL: " + describe_hpgl(print_.page, options.hpgl));
+        constexpr std::size_t most = 8;
+        const std::size_t pens = report.plot->colours - report.plot->merged.size();
+        if (pens > most) {
+            made.warn(fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                                  "colours", pens, most));
+        }
+    }
     if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(

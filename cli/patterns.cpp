@@ -56,10 +56,8 @@ bool begins_as_midi(const std::string& file) {
 }
 
 void show(const std::string& what, bool quiet) {
-    for (const char* ending : {".obj", ".mtl", ".hpgl", ".plt", ".gcode", ".nc"}) {
-        if (lower_case(what).ends_with(ending)) {
-            throw UsageError(fmt::format("{}: {} files contain no pattern", what, ending));
-        }
+    if (lower_case(what).ends_with(".mtl")) {
+        throw UsageError(fmt::format("{}: the pattern is in the .obj file beside this one", what));
     }
     std::optional<Provenance> found = read_provenance(what);
     if (!found && begins_as_midi(what)) found = read_score_provenance(what);

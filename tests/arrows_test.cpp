@@ -62,7 +62,7 @@ const std::vector<Room>& rooms() {
         {"art/print", "engine/* art/style", ""},
         {"art/kolam", "engine/* art/style art/print", "boost tbb"},
         {"art/vector", "engine/* art/style art/print", "zlib"},
-        {"art/provenance", "engine/* art/vector", "zlib"},
+        {"art/provenance", "engine/* art/print art/vector", "zlib"},
         {"art/raster", "engine/* art/style art/print", "tbb"},
         {"art/plotter", "engine/* art/style art/print", ""},
         {"art/space", "engine/* art/style art/print art/raster", "tbb"},

@@ -135,6 +135,19 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
     EXPECT_FALSE(gcode_profile("marlin"));
 }
 
+TEST_F(Gcode, TheEndMayReturnThePen) {
+    const auto home = [&](const std::string& end) {
+        options_.end = end;
+        return gcode_home(options_);
+    };
+    EXPECT_EQ(gcode_home({}), glm::dvec2(0, 0));
+    EXPECT_EQ(home("g0 x10 y-5.5\nM5\nM2"), glm::dvec2(10, -5.5));
+    EXPECT_EQ(home("G0 X1\nG1 F100 Y2 X3 ; X9 Y9\n(G0 X8 Y8)"), glm::dvec2(3, 2));
+    for (const char* none : {"", "M2", "G28", "G92 X0 Y0", "G0 X0", "(G0 X0 Y0", "; G0 X0 Y0"}) {
+        EXPECT_FALSE(home(none)) << none;
+    }
+}
+
 TEST_F(Gcode, CurvesAreWithinAHundredthOfAMillimetre) {
     const Print print = plain_print();
     EXPECT_EQ(expect_faithful(print, *arranged(print, draw_curves)).stops, 2);

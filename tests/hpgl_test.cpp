@@ -13,6 +13,7 @@ struct Plot {
     std::vector<int> pens;                         ///< of each stroke
     std::size_t longest = 0;                       ///< instruction
 };
+/// @param page  as it lies in the plotter: wider than high
 Plot read_hpgl(const std::string& text, const Page& page) {
     Plot plot;
     int pen = 0;
@@ -62,14 +63,28 @@ Plot read_hpgl(const std::string& text, const Page& page) {
     return plot;
 }
 
+Page lying(Page page) {
+    if (page.height > page.width) std::swap(page.width, page.height);
+    return page;
+}
+
 class Hpgl : public ::testing::Test {
 protected:
     std::string text(const PlotPlan& plan, const Print& print) {
-        write_print(folder_ / "plot.hpgl", print, write_hpgl, [&](PathSink& sink) { plan.draw(sink); });
+        write_print(
+            folder_ / "plot.hpgl", print,
+            [&](const Print& is, OutputFile& file) { return write_hpgl(is, options_, file); },
+            [&](PathSink& sink) { plan.draw(sink); });
         return contents(folder_ / "plot.hpgl");
     }
     void expect_faithful(const Print& print, const PlotPlan& plan) {
-        const Plot plot = read_hpgl(text(plan, print), print.page);
+        Plot plot = read_hpgl(text(plan, print), lying(print.page));
+        if (print.page.height > print.page.width) {
+            // Turned back by hand: the top of the page is at the left of the plotter.
+            for (auto& stroke : plot.strokes) {
+                for (glm::dvec2& at : stroke) at = {at.y, print.page.height - at.x};
+            }
+        }
         constexpr double spacing = 0.01;
         const auto lines = true_lines(plan, print, spacing);
         ASSERT_EQ(plot.strokes.size(), lines.size());
@@ -82,6 +97,7 @@ protected:
         EXPECT_LE(plot.longest, 230u);
     }
     ScratchFolder folder_;
+    HpglOptions options_;
 };
 
 TEST_F(Hpgl, IsWhatAPlotterTakes) {
@@ -118,6 +134,75 @@ TEST_F(Hpgl, PensAreTheColoursOfTheStyle) {
 TEST_F(Hpgl, AKolamIsReadBack) {
     const PlacedPattern kolam("kolams/snake-kolam", 3, {105, 148, 10});
     expect_faithful(kolam.print, *arranged(kolam.print, [&](PathSink& sink) { kolam.read(sink); }));
+}
+
+/// A line from the bottom left corner of a page, to the right and up.
+std::unique_ptr<PlotPlan> corner(const Print& print) {
+    return arranged(print, [&](PathSink& sink) {
+        const glm::dvec2 low(20, 20 + (297 - print.page.height));
+        sink.begin_stroke(low, Pen{});
+        sink.lines(std::vector<glm::dvec2>{low + glm::dvec2(100, 0), low + glm::dvec2(100, 50)});
+        sink.end_stroke(false);
+    });
+}
+/// One step is a millimetre; (0, 0) is 297 mm below the top of the page.
+Print sheet_print(const Page& page) {
+    Print print = plain_print();
+    print.page = page;
+    print.placement.to_page[2] = {0.0, 297.0};
+    return print;
+}
+
+TEST_F(Hpgl, UprightPagesAreTurnedOntoTheLongSide) {
+    const Print upright = sheet_print({210, 297, 15});
+    const Print lying = sheet_print({297, 210, 15});
+    const auto expect_points = [&](const Print& print, const std::string& expected) {
+        EXPECT_EQ(text(*corner(print), print), "IN;\nPU;SP1;\n" + expected + "PU;SP0;\n");
+    };
+    // In plotter units from the corner of the page: 20 mm are 800.
+    expect_points(lying, "PU800,800;\nPD4800,800,4800,2800;\n");
+    // The bottom of the page is at the right: x = 297 - y, y = x.
+    expect_points(upright, "PU11080,800;\nPD11080,4800,9080,4800;\n");
+    EXPECT_EQ(hpgl_origin(lying.page, options_), glm::dvec2(0, 0));
+    EXPECT_EQ(hpgl_origin(upright.page, options_), glm::dvec2(0, 297));
+    EXPECT_NE(describe_hpgl(upright.page, options_).find("turned by 90 degrees anticlockwise"), std::string::npos);
+    EXPECT_EQ(describe_hpgl(lying.page, options_).find("turned"), std::string::npos);
+    // In an HP 7475A the middle of A4 is at (5603, 4121): 297 x 210 mm are 11880 x 8400.
+    options_.paper = parse_hpgl_paper("A4", 96);
+    expect_points(lying, "PU463,721;\nPD4463,721,4463,2721;\n");
+    expect_points(upright, "PU10743,721;\nPD10743,4721,8743,4721;\n");
+    const glm::dvec2 origin = hpgl_origin(lying.page, options_);
+    EXPECT_NEAR(origin.x, 297 / 2.0 - 5603 * 0.025, 1e-9);
+    EXPECT_NEAR(origin.y, 210 / 2.0 - 4121 * 0.025, 1e-9);
+    // Limits of another plotter: the page in their middle.
+    options_.paper = parse_hpgl_paper("400x300mm", 96);
+    expect_points(lying, "PU2860,2600;\nPD6860,2600,6860,4600;\n");
+    options_.paper = parse_hpgl_paper("400x300mm,centre", 96);
+    expect_points(lying, "PU-5140,-3400;\nPD-1140,-3400,-1140,-1400;\n");
+    options_.paper = parse_hpgl_paper("A1,centre", 96);
+    expect_points(lying, "PU-5140,-3400;\nPD-1140,-3400,-1140,-1400;\n");
+    for (const char* wrong : {"", "A9", "A4,left", "0x5mm", ",centre", "400x300mm,centre,"}) {
+        EXPECT_FALSE(parse_hpgl_paper(wrong, 96)) << wrong;
+    }
+}
+
+TEST_F(Hpgl, WhatThePlotterDoesNotReachIsRefused) {
+    const Print print = sheet_print({297, 210, 0});
+    options_.paper = parse_hpgl_paper("a4", 96);
+    const auto plan = arranged(print, [](PathSink& sink) {
+        sink.begin_stroke({100, 100}, Pen{});
+        sink.lines(std::vector<glm::dvec2>{{100, 285}});
+        sink.end_stroke(false);
+    });
+    try {
+        text(*plan, print);
+        ADD_FAILURE() << "is accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(),
+                     "the drawing leaves the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); a margin of 15.0mm "
+                     "keeps it inside");
+    }
+    EXPECT_EQ(folder_.names(), std::vector<std::string>{});
 }
 
 TEST_F(Hpgl, WhatLiesOffThePageIsRefused) {

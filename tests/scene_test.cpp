@@ -337,7 +337,7 @@ TEST(Solids, ShadesAreThePaletteUnderMoreOrLessLight) {
     EXPECT_EQ(shaded.palette[shaded.palette.size() - 1], white);
 }
 
-TEST(Solids, AStemIsAnOutlineAndForPensAStroke) {
+TEST(Solids, AStemIsAnOutline) {
     Print print = pixel_print(64);
     const Scene scene = scene_of("axiom: $!(0.1)F(10)F(10)[&F(5)]@O(2)\n", print.style);
     print.style = with_shades(print.style);
@@ -345,12 +345,6 @@ TEST(Solids, AStemIsAnOutlineAndForPensAStroke) {
     draw_solids(scene, print, polygons);
     EXPECT_EQ(polygons.strokes, 0u);
     EXPECT_GE(polygons.shapes.size(), 4u);
-    Polygons pens;
-    draw_skeleton(scene, print, pens);
-    EXPECT_EQ(pens.strokes, 2u);
-    EXPECT_EQ(pens.lines_drawn, 3u);
-    EXPECT_EQ(pens.discs, 1u);
-    EXPECT_TRUE(pens.shapes.empty());
 }
 
 TEST(Scene, HasALimitAndLeavesOutWhatIsNotSeen) {

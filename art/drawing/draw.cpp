@@ -2,9 +2,9 @@
 
 #include "art/drawing/draw_view.h"
 #include "art/drawing/picture.h"
+#include "art/drawing/plot_scene.h"
 #include "art/image/image_file.h"
 #include "art/kolam/kolam.h"
-#include "art/plotter/hpgl.h"
 #include "art/print/ornaments.h"
 #include "art/raster/raster.h"
 #include "art/space/solid_raster.h"
@@ -275,20 +275,25 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
 
 void draw_plot(const Drawing& drawing, const Composition& composition, Print print, const DrawOptions& options,
                Output& output, DrawReport& report) {
-    // Where lines are drawn they are what a pen draws, and not the edges of fills beside them.
     print.is_plot = true;
+    print.style = with_fill_pens(print.style);
     PlotOptions arranged = options.plot.value_or(PlotOptions{});
-    arranged.outlines = !print.style.stroked;
     arranged.monitor = options.monitor;
-    PlotPlan plan(print, arranged);
-    composition.draw(drawing, print, plan);
-    plan.arrange();
-    report.plot = plan.report();
+    if (options.format == PrintFormat::hpgl) {
+        arranged.start = hpgl_origin(print.page, options.hpgl);
+        arranged.home = arranged.start;
+    } else if (options.format == PrintFormat::gcode) {
+        arranged.home = gcode_home(options.gcode);
+    }
     // Outlines are drawn even where lines are not.
     Print plotted = print;
     plotted.style.stroked = true;
+    PlotPlan plan(drawing.is_spatial() ? plotted : print, arranged);
+    composition.draw(drawing, print, plan);
+    plan.arrange();
+    report.plot = plan.report();
     if (is_for_plotters(options.format)) {
-        const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, output)
+        const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, options.hpgl, output)
                                                                 : write_gcode(plotted, options.gcode, output);
         plan.draw(*writer);
         writer->finish();
@@ -539,7 +544,7 @@ DrawReport Drawing::place(Print& print) {
 
 void Drawing::read(const Print& print, PathSink& sink) const {
     if (scene_) {
-        return is_plot() ? draw_skeleton(*scene_, print, sink, options_.monitor)
+        return is_plot() ? plot_scene(*scene_, print, options_.plot.value_or(PlotOptions{}), sink, options_.monitor)
                          : draw_solids(*scene_, print, sink, options_.monitor);
     }
     if (!spline_) return read_straight(sink);

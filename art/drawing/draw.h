@@ -3,6 +3,7 @@
 
 #include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
+#include "art/plotter/hpgl.h"
 #include "art/plotter/plot.h"
 #include "art/print/format.h"
 #include "art/print/print.h"
@@ -41,9 +42,11 @@ struct DrawOptions {
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
     bool colours_strokes = false;       ///< each stroke in the next colour of the palette
     bool border = false;                ///< of red earth, within the margins: see draw_border()
-    std::optional<PlotOptions> plot;    ///< lines are arranged for a plotter, as those of HP-GL and G-code always are
+    /// Lines are arranged for a plotter, as those of HP-GL and G-code always are. Start and home are set by the format.
+    std::optional<PlotOptions> plot;
     bool shows_travel = false;          ///< then, the ways of the lifted pen are drawn, too, in a layer of their own
     GcodeOptions gcode;
+    HpglOptions hpgl;
     /// The print is cut into sheets, each a file (tile_file()). The page is then that of the whole; with a step
     /// given, as large as the drawing within its margins.
     std::optional<TileOptions> tiles;
@@ -107,6 +110,8 @@ public:
     /// The style in which read() draws: that of the constructor, with shades for drawings in space.
     const Style& style() const { return drawn_style_; }
 
+    /// Does it pitch, roll or bend?
+    bool is_spatial() const { return grammar_.is_spatial(); }
     /// Fraction of the page that a fitted drawing fills.
     double scale() const { return options_.placement.scale * grammar_.scale_percent() / 100; }
 

@@ -109,7 +109,10 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
         const double seconds = n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds;
         named([&] { animation->frame(pixels, seconds); });
     }
-    named([&] { animation->close(); });
+    named([&] {
+        animation->close();
+        add_comment(output.temporary(), print_of_recipe(given));
+    });
     output.commit();
 }
 

@@ -1,11 +1,14 @@
 #include "art/plotter/gcode.h"
 
 #include "art/print/micrometres.h"
+#include "art/print/recipe_comments.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -111,6 +114,9 @@ public:
         require(std::isfinite(options.power) && options.power >= 0, "the power is finite and at least 0");
         require(std::isfinite(options.pause) && options.pause >= 0, "the pause is finite and at least 0 s");
         if (!print.title.empty()) file_.write(gcode_comment("title", print.title) + "\n");
+        for (const std::string& piece : recipe_comments(print.pattern, print.made)) {
+            file_.write(gcode_comment("recipe", piece) + "\n");
+        }
         file_.write("G21 G90 G17\n");
         write_text(options.start);
         lift();
@@ -261,6 +267,29 @@ std::string gcode_comment(std::string_view label, std::string_view text) {
         comment += byte < 0x80 ? c : '_';
     }
     return comment + ")";
+}
+
+std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
+    std::optional<double> at[2];
+    bool moves = false;
+    const std::string& text = options.end;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        // Comments may contain anything.
+        if (text[i] == '(' || text[i] == ';') {
+            i = text.find(text[i] == '(' ? ')' : '\n', i);
+            if (i == std::string::npos) break;
+            continue;
+        }
+        const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
+        double value = 0;
+        const char* const last = text.data() + text.size();
+        if (letter < 'A' || letter > 'Z' || std::from_chars(text.data() + i + 1, last, value).ec != std::errc()) continue;
+        if (letter == 'G') moves = value == 0 || value == 1;
+        if (moves && letter == 'X') at[0] = value;
+        if (moves && letter == 'Y') at[1] = value;
+    }
+    if (!at[0] || !at[1]) return std::nullopt;
+    return glm::dvec2(*at[0], *at[1]);
 }
 
 std::optional<GcodeOptions> gcode_profile(std::string_view name) {

@@ -28,6 +28,10 @@ struct GcodeOptions {
 /// The options of a kind of machine: `grbl` (M3 and M5) or `z`; nullopt for another name.
 std::optional<GcodeOptions> gcode_profile(std::string_view name);
 
+/// Where the lines after the last stroke leave the pen, in millimetres from the bottom left corner of the page: the
+/// last X and Y of their G0 and G1 moves (absolute, as the file begins); nullopt if there are none, as after homing.
+std::optional<glm::dvec2> gcode_home(const GcodeOptions& options);
+
 /// Formats a comment that no controller executes: `(label: text)`. The label keeps LinuxCNC from reading active
 /// comments such as `(MSG,…` and `(LOGOPEN,…`. Omits `!`, `?` and `~`, which Grbl obeys anywhere, `%`, which begins
 /// and ends programs, `(`, `)` and `;`, and control characters; replaces non-ASCII characters, some of whose bytes

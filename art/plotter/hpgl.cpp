@@ -1,11 +1,19 @@
 #include "art/plotter/hpgl.h"
 
 #include "art/print/micrometres.h"
+#include "art/print/recipe_comments.h"
+
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
-#include <string>
+#include <stdexcept>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -18,9 +26,35 @@ constexpr std::size_t longest_instruction = 200;
 
 using Units = glm::ivec2;
 
+/// A sheet of the HP 7475A, in plotter units.
+struct Sheet {
+    std::string_view name;
+    glm::dvec2 limits, first, second;  ///< the largest coordinates; the scaling points
+};
+const std::array<Sheet, 4> sheets = {{{"a4", {11040, 7721}, {603, 521}, {10603, 7721}},
+                                      {"a3", {16158, 11040}, {170, 602}, {15370, 10602}},
+                                      {"letter", {10365, 7962}, {250, 596}, {10250, 7796}},
+                                      {"tabloid", {16640, 10365}, {522, 259}, {15722, 10259}}}};
+
+bool is_turned(const Page& page) {
+    return page.height > page.width;
+}
+
+/// From the page, y up, to the plotter.
+glm::dvec2 on_plotter(glm::dvec2 point, const Page& page, const HpglOptions& options) {
+    const glm::dvec2 size(page.width, page.height);
+    const glm::dvec2 at = is_turned(page) ? glm::dvec2(size.y - point.y, point.x) : point;
+    if (!options.paper) return at;
+    const glm::dvec2 half = 0.5 * (is_turned(page) ? glm::dvec2(size.y, size.x) : size);
+    return at + options.paper->centre - half;
+}
+
 class Writer final : public PlotWriter {
 public:
-    Writer(const Print& print, Output& file) : PlotWriter(print), file_(file) { file_.write("IN;\n"); }
+    Writer(const Print& print, const HpglOptions& options, Output& file)
+        : PlotWriter(print), options_(options), file_(file) {
+        file_.write("IN;\n");
+    }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
@@ -51,7 +85,13 @@ public:
         end_instruction();
         started_ = false;
     }
-    void finish() override { file_.write("PU;SP0;\n"); }
+    /// The recipe comes last: plotters before HP-GL/2 do not know comments, and report that only after the plot.
+    void finish() override {
+        file_.write("PU;SP0;\n");
+        for (const std::string& piece : recipe_comments(print_.pattern, print_.made)) {
+            file_.write("CO\"" + piece + "\";\n");
+        }
+    }
 
 private:
     /// Only when something is drawn: a stroke may change its pen before.
@@ -65,7 +105,28 @@ private:
 
     Units rounded(glm::dvec2 millimetres) const {
         require_on_page(millimetres);
-        return {to_whole(millimetres.x * units_of_millimetre), to_whole(millimetres.y * units_of_millimetre)};
+        const glm::dvec2 at = on_plotter(millimetres, print_.page, options_);
+        if (options_.paper) require_in_reach(at);
+        return {to_whole(at.x * units_of_millimetre), to_whole(at.y * units_of_millimetre)};
+    }
+
+    void require_in_reach(glm::dvec2 at) const {
+        const HpglPaper& paper = *options_.paper;
+        constexpr double slack = 1e-6;
+        if (at.x >= paper.low.x - slack && at.y >= paper.low.y - slack && at.x <= paper.high.x + slack &&
+            at.y <= paper.high.y + slack) {
+            return;
+        }
+        const glm::dvec2 reach = paper.high - paper.low;
+        // What fits however the page is turned: the same distance from the middle of the sheet on both sides.
+        const glm::dvec2 free = glm::min(paper.high - paper.centre, paper.centre - paper.low);
+        const glm::dvec2 half = 0.5 * glm::dvec2(std::max(print_.page.width, print_.page.height),
+                                                 std::min(print_.page.width, print_.page.height));
+        const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
+        throw std::runtime_error(fmt::format(
+            "the drawing leaves the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm keeps it inside",
+            reach.x, reach.y, paper.is_hp7475a ? fmt::format(" on {} (HP 7475A)", paper.name) : "",
+            std::ceil(10 * margin - 1e-6) / 10));
     }
 
     void to(glm::dvec2 millimetres) {
@@ -88,6 +149,7 @@ private:
         instruction_.clear();
     }
 
+    const HpglOptions& options_;
     Output& file_;
     int pen_ = 0;
     bool started_ = false;  // the pen is down
@@ -98,8 +160,51 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PlotWriter> write_hpgl(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi) {
+    HpglPaper paper;
+    const std::size_t comma = text.find(',');
+    const bool is_centred = comma != std::string_view::npos;
+    if (is_centred && text.substr(comma) != ",centre" && text.substr(comma) != ",center") return std::nullopt;
+    paper.name = text.substr(0, comma);
+    const auto size = parse_size(paper.name, dpi);
+    if (!size || !(size->x >= 1 && size->y >= 1 && size->x <= 1e5 && size->y <= 1e5)) return std::nullopt;
+    for (const Sheet& sheet : sheets) {
+        if (is_centred || lower_case(paper.name) != sheet.name) continue;
+        paper.high = sheet.limits / units_of_millimetre;
+        paper.centre = 0.5 * (sheet.first + sheet.second) / units_of_millimetre;
+        paper.is_hp7475a = true;
+        return paper;
+    }
+    paper.high = {std::max(size->x, size->y), std::min(size->x, size->y)};
+    if (is_centred) {
+        paper.high *= 0.5;
+        paper.low = -paper.high;
+    } else {
+        paper.centre = 0.5 * paper.high;
+    }
+    return paper;
+}
+
+glm::dvec2 hpgl_origin(const Page& page, const HpglOptions& options) {
+    const glm::dvec2 corner = on_plotter({0.0, 0.0}, page, options);  // of the page
+    return is_turned(page) ? glm::dvec2(-corner.y, corner.x) : -corner;
+}
+
+std::string describe_hpgl(const Page& page, const HpglOptions& options) {
+    std::string origin = "the bottom left corner of the page";
+    if (is_turned(page)) origin = "the top left corner of the page";
+    if (options.paper) {
+        const HpglPaper& paper = *options.paper;
+        origin = paper.is_hp7475a             ? fmt::format("that of an HP 7475A with a sheet of {}", paper.name)
+                 : paper.low == glm::dvec2(0.0) ? "the bottom left corner of the plotter's limits"
+                                                : "the middle of the plotter's limits";
+    }
+    return fmt::format("the origin is {}, the x axis runs along the long side{}", origin,
+                       is_turned(page) ? "; the page is turned by 90 degrees anticlockwise" : "");
+}
+
+std::unique_ptr<PlotWriter> write_hpgl(const Print& print, const HpglOptions& options, Output& file) {
+    return std::make_unique<Writer>(print, options, file);
 }
 
 }  // namespace sikku

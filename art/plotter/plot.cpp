@@ -1,7 +1,9 @@
 #include "art/plotter/plot.h"
 
+#include "art/plotter/pens.h"
 #include "art/plotter/plot_join.h"
 #include "art/plotter/plot_route.h"
+#include "engine/geometry/bezier.h"
 #include "engine/geometry/lattice.h"
 
 #include <glm/geometric.hpp>
@@ -24,6 +26,7 @@ using Index = std::uint32_t;
 constexpr Index none = PlotSegment::none;
 constexpr std::size_t most_points = 1'000'000'000;
 constexpr std::size_t points_in_block = 1024;
+constexpr double thinnest = 0.05;  // millimetres, of pens that fill
 
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
     std::uint64_t hash = (a * 0x9e3779b97f4a7c15U) ^ (b + 0x632be59bd9b4e019U);
@@ -146,6 +149,34 @@ struct PlotPlan::Gathered {
         points.insert(points.end(), more.begin(), more.end());
     }
 
+    /// Calls `visit(kind, from, points)` for each line and curve, and for each start with its point twice.
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        const glm::dvec2* next = points.data();
+        glm::dvec2 at(0.0);
+        for (const Run& run : runs) {
+            const std::size_t stride = run.kind == Kind::curves ? 3 : 1;
+            for (std::size_t i = 0; i < run.points; i += stride, next += stride) {
+                visit(run.kind, run.kind == Kind::start ? *next : at, std::span(next, stride));
+                at = next[stride - 1];
+            }
+        }
+    }
+    void append(const Gathered& other) {
+        if (points.size() + other.points.size() > most_points) {
+            throw std::runtime_error("the drawing has too many points to be arranged for a plotter");
+        }
+        points.insert(points.end(), other.points.begin(), other.points.end());
+        runs.insert(runs.end(), other.runs.begin(), other.runs.end());
+    }
+    std::size_t segments() const {
+        std::size_t count = 0;
+        for (const Run& run : runs) {
+            count += run.kind == Kind::curves ? run.points / 3 : run.kind == Kind::lines ? run.points : 0;
+        }
+        return count;
+    }
+
     Pen pen;
     Box box;
     std::vector<glm::dvec2> points;
@@ -167,40 +198,31 @@ struct PlotPlan::Layer {
 void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres,
                            const Monitor& monitor) {
     pen = from.pen;
-    std::size_t count = 0;
-    for (const auto& run : from.runs) {
-        count += run.kind == Gathered::Kind::curves  ? run.points / 3
-                 : run.kind == Gathered::Kind::lines ? run.points
-                                                     : 0;
-    }
+    const std::size_t count = from.segments();
     Nodes table(tolerance);
     SegmentSet set(graph.segments, count);
     Pulse pulse(monitor);
     Index here = 0;
-    const glm::dvec2* next = from.points.data();
-    for (const auto& run : from.runs) {
-        const std::size_t stride = run.kind == Gathered::Kind::curves ? 3 : 1;
-        for (std::size_t i = 0; i < run.points; i += stride, next += stride) {
-            pulse();
-            const Index end = table.at(next[stride - 1]);
-            if (run.kind == Gathered::Kind::start) {
-                report.before.travelled += millimetres * glm::distance(at, *next);
-                ++report.before.lifts;
+    from.for_each([&](Gathered::Kind kind, glm::dvec2, std::span<const glm::dvec2> next) {
+        pulse();
+        const Index end = table.at(next.back());
+        if (kind == Gathered::Kind::start) {
+            report.before.travelled += millimetres * glm::distance(at, next[0]);
+            ++report.before.lifts;
+        } else {
+            PlotSegment segment{here, end};
+            if (kind == Gathered::Kind::curves) {
+                segment.first = table.at(next[0]);
+                segment.second = table.at(next[1]);
+                report.before.drawn += millimetres * bezier_length({at, next[0], next[1], next[2]});
             } else {
-                PlotSegment segment{here, end};
-                if (run.kind == Gathered::Kind::curves) {
-                    segment.first = table.at(next[0]);
-                    segment.second = table.at(next[1]);
-                    report.before.drawn += millimetres * bezier_length({at, next[0], next[1], next[2]});
-                } else {
-                    report.before.drawn += millimetres * glm::distance(at, *next);
-                }
-                if (!set.add(segment)) repeated.push_back(segment);
+                report.before.drawn += millimetres * glm::distance(at, next[0]);
             }
-            here = end;
-            at = next[stride - 1];
+            if (!set.add(segment)) repeated.push_back(segment);
         }
-    }
+        here = end;
+        at = next.back();
+    });
     report.segments += count;
     graph.points = std::move(table.points);
     from = {};
@@ -219,41 +241,119 @@ double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds) {
            static_cast<double>(tally.lifts) * speeds.lift;
 }
 
+Style with_fill_pens(const Style& style) {
+    Style result = style;
+    const std::vector<int> pens = fill_pens(style);
+    for (int i = 0; i < static_cast<int>(pens.size()); ++i) {
+        const Colour colour = style.fill_colour(Pen{.colour = i});
+        if (colour.alpha > 0 && style.line_colour(Pen{.colour = pens[static_cast<std::size_t>(i)]}) != colour) {
+            result.palette.push_back(colour);
+        }
+    }
+    return result;
+}
+
+std::vector<int> fill_pens(const Style& style) {
+    std::vector<int> pens;
+    const auto count = static_cast<int>(style.palette.size());
+    for (int i = 0; i < count; ++i) {
+        const Colour colour = style.fill_colour(Pen{.colour = i});
+        int pen = i;
+        if (style.line_colour(Pen{.colour = i}) != colour) {
+            for (int k = 0; k < count; ++k) {
+                if (style.line_colour(Pen{.colour = k}) != colour) continue;
+                pen = k;
+                break;
+            }
+        }
+        pens.push_back(pen);
+    }
+    return pens;
+}
+
 PlotPlan::PlotPlan(const Print& print, const PlotOptions& options)
     : print_(print), options_(options), slots_(print.style.line_slots()) {
     if (!(std::isfinite(options.split) && options.split >= 0)) {
         throw std::runtime_error("the length at which strokes are split is finite and at least 0 mm");
     }
+    if (!(std::isfinite(options.pen_width) && options.pen_width >= 0)) {
+        throw std::runtime_error("the width of the pen is finite and at least 0 mm");
+    }
+    if (options.hatch && !(std::isfinite(options.hatch->spacing) && options.hatch->spacing >= 0)) {
+        throw std::runtime_error("the spacing of hatching is finite and at least 0 mm");
+    }
+    for (const int pen : fill_pens(print.style)) {
+        fill_slots_.push_back(slots_[static_cast<std::size_t>(pen)]);
+    }
 }
 
 PlotPlan::~PlotPlan() = default;
 
-PlotPlan::Gathered& PlotPlan::gathered(const Pen& pen) {
+int PlotPlan::slot_of(const Pen& pen, bool fills) const {
     const auto index = static_cast<std::size_t>(print_.style.index(pen));
-    const int slot = index < slots_.size() ? slots_[index] : 0;
+    const std::vector<int>& slots = fills ? fill_slots_ : slots_;
+    return index < slots.size() ? slots[index] : 0;
+}
+
+PlotPlan::Gathered& PlotPlan::gathered(const Pen& pen, bool fills) {
+    const int slot = slot_of(pen, fills);
     auto& found = gathered_[slot];
     if (!found) {
         found = std::make_unique<Gathered>();
-        found->pen = pen;
+        found->pen = real_pen(pen);
         found->pen.colour = slot;
     }
     return *found;
 }
 
+/// The width of the pen that fills, in steps.
+double PlotPlan::pen_steps(const Pen& pen) const {
+    const double step = print_.placement.step;
+    return std::max(options_.pen_width > 0 ? options_.pen_width : print_.style.line_width(pen, step), thinnest) / step;
+}
+
+Pen PlotPlan::real_pen(const Pen& pen) const {
+    const StrokeWidth& stroke = print_.style.stroke;
+    if (!(options_.pen_width > 0)) return pen;
+    const double width = options_.pen_width / (stroke.in_steps ? print_.placement.step : 1.0) / stroke.unit;
+    return {width, true, pen.colour};
+}
+
+bool PlotPlan::is_wide(const Pen& pen) const {
+    return options_.pen_width > 0 &&
+           pass_offsets(print_.style.line_width(pen, print_.placement.step), options_.pen_width).size() > 1;
+}
+
 void PlotPlan::begin_stroke(glm::dvec2 start, const Pen& pen) {
     at_ = start;
     change_pen(pen);
+    is_whole_ = true;
 }
 
 void PlotPlan::change_pen(const Pen& pen) {
+    draw_wide(false);
+    is_whole_ = false;
     Gathered* const into = print_.style.draws(pen) ? &gathered(pen) : nullptr;
     down_ = down_ && into == into_;
     into_ = into;
+    pen_ = pen;
+    if (!into_ || !is_wide(pen)) return;
+    wide_.emplace().start = at_;
+    down_ = false;
 }
 
 void PlotPlan::add(std::span<const glm::dvec2> points, bool curves) {
     if (points.empty()) return;
-    if (into_) {
+    if (wide_) {
+        const std::size_t stride = curves ? 3 : 1;
+        for (std::size_t i = 0; i < points.size(); i += stride) {
+            if (curves) {
+                wide_->pieces.push_back({true, points[i], points[i + 1], points[i + 2]});
+            } else {
+                wide_->pieces.push_back({false, {}, {}, points[i]});
+            }
+        }
+    } else if (into_) {
         if (!down_) into_->add(Gathered::Kind::start, {&at_, 1});
         down_ = true;
         into_->add(curves ? Gathered::Kind::curves : Gathered::Kind::lines, points);
@@ -266,79 +366,203 @@ void PlotPlan::lines(std::span<const glm::dvec2> ends) {
 void PlotPlan::curves(std::span<const glm::dvec2> controls) {
     add(controls.first(controls.size() / 3 * 3), true);
 }
-void PlotPlan::end_stroke(bool) {
+void PlotPlan::end_stroke(bool closed) {
+    draw_wide(closed && is_whole_);
     down_ = false;
+}
+
+/// Hands on the passes of the stroke so far.
+void PlotPlan::draw_wide(bool closed) {
+    if (!wide_) return;
+    PenPath path = std::move(*wide_);
+    wide_.reset();
+    if (path.pieces.empty()) return;
+    path.is_closed = closed;
+    const double step = print_.placement.step;
+    constexpr double tolerance = 0.005;  // millimetres
+    for (const PenPath& pass : pen_passes(path, print_.style.line_width(pen_, step) / step, options_.pen_width / step,
+                                          tolerance / step)) {
+        options_.monitor.check();
+        into_->add(Gathered::Kind::start, {&pass.start, 1});
+        for (const PenPath::Piece& piece : pass.pieces) {
+            const std::array<glm::dvec2, 3> points = {piece.first, piece.second, piece.end};
+            into_->add(piece.is_curve ? Gathered::Kind::curves : Gathered::Kind::lines,
+                       std::span(points).subspan(piece.is_curve ? 0 : 2));
+        }
+    }
+}
+
+PlotPlan::Gathered& PlotPlan::outlines(const Pen& pen) {
+    gathered(pen, true);  // where they are added when all lines are known
+    auto& found = outlines_[slot_of(pen, true)];
+    if (!found) found = std::make_unique<Gathered>();
+    return *found;
 }
 
 void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
-    if (!options_.outlines || vertices.size() < 2 || print_.style.fill_colour(pen).alpha == 0) return;
-    // A stroke may be going on with this very pen.
-    down_ = false;
-    Gathered& into = gathered(pen);
+    if (vertices.size() < 2 || print_.style.fill_colour(pen).alpha == 0) return;
+    Gathered& into = outlines(pen);
     into.add(Gathered::Kind::start, vertices.first(1));
     into.add(Gathered::Kind::lines, vertices.subspan(1));
     into.add(Gathered::Kind::lines, vertices.first(1));
+    hatch(vertices, pen);
 }
 
 void PlotPlan::area(std::span<const glm::dvec2> outline, const Pen& pen) {
-    if (!options_.outlines || outline.size() < 4 || print_.style.fill_colour(pen).alpha == 0) return;
-    down_ = false;
-    Gathered& into = gathered(pen);
+    if (outline.size() < 4 || print_.style.fill_colour(pen).alpha == 0) return;
+    Gathered& into = outlines(pen);
     into.add(Gathered::Kind::start, outline.first(1));
-    into.add(Gathered::Kind::curves, outline.subspan(1));
+    into.add(Gathered::Kind::curves, outline.subspan(1, (outline.size() - 1) / 3 * 3));
     if (outline.back() != outline.front()) into.add(Gathered::Kind::lines, outline.first(1));
+    if (!options_.hatch) return;
+    std::vector<glm::dvec2> vertices = {outline.front()};
+    constexpr double tolerance = 0.005;  // millimetres
+    for (std::size_t i = 0; i + 3 < outline.size(); i += 3) {
+        flatten(outline[i], outline[i + 1], outline[i + 2], outline[i + 3], tolerance / print_.placement.step,
+                [&](glm::dvec2 end) { vertices.push_back(end); });
+    }
+    hatch(vertices, pen);
+}
+
+void PlotPlan::hatch(std::span<const glm::dvec2> vertices, const Pen& pen) {
+    if (!options_.hatch) return;
+    const double width = pen_steps(pen);
+    const double spacing = options_.hatch->spacing > 0 ? options_.hatch->spacing / print_.placement.step : width;
+    if (!(spacing > 0)) return;
+    // A stroke may be going on with this very pen.
+    down_ = false;
+    Gathered& into = gathered(pen, true);
+    for (const glm::dvec2 along : hatch_directions(*options_.hatch, print_.placement)) {
+        for (const auto& line : hatch_lines(vertices, along, spacing, width / 2, options_.monitor)) {
+            into.add(Gathered::Kind::start, std::span(line).first(1));
+            into.add(Gathered::Kind::lines, std::span(line).subspan(1));
+        }
+    }
 }
 
 void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     const double step = print_.placement.step;
-    // Around a dot of twice its width the pen goes in the middle.
-    const double pen_radius = 0.5 * print_.style.line_width(pen, step) / step;
-    const double r = radius > 0.0 ? std::max(radius - pen_radius, 0.25 * radius)
-                                  : 0.5 * print_.style.disc_radius(radius, pen, step) / step;
-    if (print_.style.fill_colour(pen).alpha == 0 || !(r > 0.0)) return;
+    const double wide = print_.style.disc_radius(radius, pen, step) / step;
+    if (print_.style.fill_colour(pen).alpha == 0 || !(wide > 0.0)) return;
     down_ = false;
-    // Eighths of a circle, to 0.0004 percent of its radius.
-    constexpr std::size_t eighths = 8;
-    const double handle = 4.0 / 3.0 * std::tan(std::numbers::pi / 16);
-    std::array<glm::dvec2, 3 * eighths> controls;
-    for (std::size_t i = 0; i < eighths; ++i) {
-        const glm::dvec2 from = unit_vector(45.0 * static_cast<double>(i));
-        const glm::dvec2 to = unit_vector(45.0 * static_cast<double>((i + 1) % eighths));
-        controls[3 * i] = centre + r * (from + handle * glm::dvec2(-from.y, from.x));
-        controls[3 * i + 1] = centre + r * (to - handle * glm::dvec2(-to.y, to.x));
-        controls[3 * i + 2] = centre + r * to;
-    }
-    Gathered& into = gathered(pen);
-    into.add(Gathered::Kind::start, {&controls.back(), 1});
-    into.add(Gathered::Kind::curves, controls);
+    const std::vector<glm::dvec2> path = spiral(centre, wide, pen_steps(pen));
+    Gathered& into = gathered(pen, true);
+    into.add(Gathered::Kind::start, std::span(path).first(1));
+    into.add(Gathered::Kind::curves, std::span(path).subspan(1));
 }
 
-glm::dvec2 PlotPlan::origin() const {
+/// The point of the drawing at a place on the page.
+glm::dvec2 PlotPlan::drawn_at(glm::dvec2 millimetres) const {
     const glm::dmat3x2& matrix = print_.placement.to_page;
     const glm::dmat2 turned(matrix[0], matrix[1]);
     if (glm::determinant(turned) == 0) return {0, 0};
-    return glm::inverse(turned) * (glm::dvec2(0.0, print_.page.height) - matrix[2]);
+    return glm::inverse(turned) * (glm::dvec2(millimetres.x, print_.page.height - millimetres.y) - matrix[2]);
 }
 
-void PlotPlan::arrange() {
-    const double step = print_.placement.step;
+/// Points that are closer are one.
+double PlotPlan::tolerance() const {
     Box box;
-    for (const auto& [slot, pen] : gathered_) {
-        if (pen->box.empty()) continue;
-        box.add(pen->box.low);
-        box.add(pen->box.high);
+    for (const auto* list : {&gathered_, &outlines_}) {
+        for (const auto& [slot, pen] : *list) {
+            if (pen->box.empty()) continue;
+            box.add(pen->box.low);
+            box.add(pen->box.high);
+        }
     }
     const glm::dvec2 size = box.high - box.low;
     const glm::dvec2 far = glm::max(glm::abs(box.low), glm::abs(box.high));
     // Not below what doubles tell apart.
-    const double tolerance = std::max({1e-9 * std::max(size.x, size.y), 4e-15 * std::max(far.x, far.y), 1e-290});
-    glm::dvec2 drawn_at = origin();
-    glm::dvec2 at = drawn_at;
+    return std::max({1e-9 * std::max(size.x, size.y), 4e-15 * std::max(far.x, far.y), 1e-290});
+}
+
+/// Outlines of fills, without edges that lie on lines or other outlines.
+void PlotPlan::add_outlines(double tolerance) {
+    if (outlines_.empty()) return;
+    std::size_t count = 0;
+    for (const auto* list : {&gathered_, &outlines_}) {
+        for (const auto& [slot, pen] : *list) count += pen->segments();
+    }
+    Nodes nodes(tolerance);
+    std::vector<PlotSegment> segments;
+    SegmentSet set(segments, count);
+    Pulse pulse(options_.monitor);
+    const auto is_new = [&](Gathered::Kind kind, glm::dvec2 from, std::span<const glm::dvec2> points) {
+        pulse();
+        if (kind == Gathered::Kind::start) return false;
+        PlotSegment segment{nodes.at(from), nodes.at(points.back())};
+        if (kind == Gathered::Kind::curves) {
+            segment.first = nodes.at(points[0]);
+            segment.second = nodes.at(points[1]);
+        }
+        return set.add(segment);
+    };
+    for (const auto& [slot, pen] : gathered_) {
+        pen->for_each([&](auto kind, glm::dvec2 from, auto points) { is_new(kind, from, points); });
+    }
+    for (const auto& [slot, pen] : outlines_) {
+        Gathered& into = *gathered_.at(slot);
+        bool is_down = false;
+        pen->for_each([&](auto kind, glm::dvec2 from, std::span<const glm::dvec2> points) {
+            const bool is_drawn = is_new(kind, from, points);
+            if (kind == Gathered::Kind::start) {
+                is_down = false;
+                return;
+            }
+            if (is_drawn && !is_down) into.add(Gathered::Kind::start, {&from, 1});
+            if (is_drawn) into.add(kind, points);
+            is_down = is_drawn;
+            if (is_drawn) return;
+            ++report_.segments;
+            ++report_.duplicates;
+        });
+    }
+    outlines_.clear();
+}
+
+/// To as many pens as there are.
+void PlotPlan::merge_colours() {
+    std::erase_if(gathered_, [](const auto& entry) { return entry.second->runs.empty(); });
+    report_.colours = gathered_.size();
+    if (options_.pens <= 0 || gathered_.size() <= static_cast<std::size_t>(options_.pens)) return;
+    std::vector<PenColour> colours;
+    std::vector<int> slots;
+    Pulse pulse(options_.monitor);
+    for (const auto& [slot, pen] : gathered_) {
+        PenColour& colour = colours.emplace_back(print_.style.line_colour(pen->pen));
+        slots.push_back(slot);
+        pen->for_each([&](auto, glm::dvec2 from, std::span<const glm::dvec2> p) {
+            pulse();
+            colour.drawn += print_.placement.step *
+                            (p.size() == 3 ? bezier_length({from, p[0], p[1], p[2]}) : glm::distance(from, p[0]));
+        });
+    }
+    const std::vector<std::size_t> pens = merge_pens(colours, static_cast<std::size_t>(options_.pens));
+    for (std::size_t i = 0; i < pens.size(); ++i) {
+        if (pens[i] == i) continue;
+        gathered_.at(slots[pens[i]])->append(*gathered_.at(slots[i]));
+        report_.merged.push_back({colours[i].colour, colours[pens[i]].colour, slots[pens[i]], colours[i].drawn});
+    }
+    for (std::size_t i = 0; i < pens.size(); ++i) {
+        if (pens[i] != i) gathered_.erase(slots[i]);
+    }
+    // Pens are numbered as PlotWriter does.
+    for (MergedPen& merged : report_.merged) {
+        merged.number = 1 + static_cast<int>(std::distance(gathered_.begin(), gathered_.find(merged.number)));
+    }
+}
+
+void PlotPlan::arrange() {
+    const double step = print_.placement.step;
+    const double tolerance = this->tolerance();
+    add_outlines(tolerance);
+    merge_colours();
+    const glm::dvec2 start = drawn_at(options_.start);
+    glm::dvec2 last = start;
+    glm::dvec2 at = start;
     for (auto& [slot, pen] : gathered_) {
-        if (pen->runs.empty()) continue;
         Layer& layer = *layers_.emplace_back(std::make_unique<Layer>());
         const PlotTally before = report_.before;
-        layer.read(*pen, tolerance, drawn_at, report_, step, options_.monitor);
+        layer.read(*pen, tolerance, last, report_, step, options_.monitor);
         PlotStrokes joined = join_segments(layer.graph, options_.monitor);
         if (joined.strokes.size() > report_.before.lifts - before.lifts) {
             // What was left out had led from one stroke to the next.
@@ -355,6 +579,8 @@ void PlotPlan::arrange() {
     }
     gathered_.clear();
     into_ = nullptr;
+    report_.returns = options_.home.has_value();
+    if (options_.home) report_.before.travelled += step * glm::distance(last, drawn_at(*options_.home));
     Pulse pulse(options_.monitor);
     for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool) {
         for (const PlotEnd end : ends) {
@@ -420,12 +646,13 @@ void PlotPlan::draw(PathSink& sink) const {
 
 std::vector<PlotTravel> PlotPlan::travels() const {
     std::vector<PlotTravel> list;
-    glm::dvec2 at = origin();
+    glm::dvec2 at = drawn_at(options_.start);
     for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool) {
         const glm::dvec2 start = layer.graph.point(ends.front());
         if (start != at) list.push_back({at, start});
         at = layer.graph.point(ends.back() ^ 1U);
     });
+    if (options_.home && at != drawn_at(*options_.home)) list.push_back({at, drawn_at(*options_.home)});
     return list;
 }
 

@@ -2,6 +2,8 @@
 // them.
 #pragma once
 
+#include "art/plotter/passes.h"
+#include "art/plotter/shading.h"
 #include "art/print/print.h"
 #include "engine/base/monitor.h"
 #include "engine/geometry/path.h"
@@ -10,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sikku {
@@ -18,8 +21,12 @@ struct PlotOptions {
     /// Millimetres: a longer stroke is cut into several, each beginning where the last one ended; only where lines
     /// and curves meet, so that one that is longer by itself stays whole. 0: never.
     double split = 0.0;
-    bool outlines = true;  ///< of polygons
-    Monitor monitor = {};  ///< polled while the plot is arranged and drawn
+    double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
+    std::optional<Hatch> hatch = {};  ///< of filled shapes; absent: outlines alone
+    int pens = 0;                     ///< most pens, to which colours are merged; 0: one for each colour
+    glm::dvec2 start{0.0};            ///< of the pen, in millimetres from the bottom left corner of the page, y up
+    std::optional<glm::dvec2> home = {};  ///< where the pen returns to after the last stroke, likewise
+    Monitor monitor = {};                 ///< polled while the plot is arranged and drawn
 };
 
 /// How fast a plotter is. Without acceleration: a real one is slower where strokes are short.
@@ -29,7 +36,7 @@ struct PlotSpeeds {
     double lift = 0.3;         ///< seconds for lifting the pen and lowering it again
 };
 
-/// What there is to plot. The way begins at the bottom left corner of the page and ends where the last stroke does.
+/// What there is to plot. Pen-up travel begins at PlotOptions::start and ends where the last stroke does, or at home.
 struct PlotTally {
     double drawn = 0.0;       ///< mm, pen down
     double travelled = 0.0;   ///< mm, pen up
@@ -40,11 +47,22 @@ struct PlotTally {
 /// @throws std::runtime_error unless both speeds are between 0.001 and 10^6 mm/s, and the lift is at most an hour
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds);
 
+/// A colour that is drawn with the pen of another one.
+struct MergedPen {
+    Colour colour;
+    Colour pen;
+    int number = 0;      ///< of the pen, from 1
+    double drawn = 0.0;  ///< millimetres
+};
+
 struct PlotReport {
     PlotTally before;  ///< pen after pen, but everything as it was drawn
     PlotTally after;
     std::uint64_t segments = 0;    ///< lines and curves as they were drawn
     std::uint64_t duplicates = 0;  ///< those of them that lay on another one and were left out
+    bool returns = false;           ///< travel includes the way home
+    std::size_t colours = 0;        ///< that were drawn
+    std::vector<MergedPen> merged;  ///< in the order of the palette
 };
 
 /// A way of the lifted pen, in pattern units.
@@ -52,11 +70,22 @@ struct PlotTravel {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
+/// The style with more colours in its palette: each colour of a fill is that of a line, too, so that there is a pen
+/// for it.
+Style with_fill_pens(const Style& style);
+/// For each colour index the one whose lines look as its fills; itself if there is none.
+std::vector<int> fill_pens(const Style& style);
+
 /// Gathers a drawing and arranges it for a plotter. What the style leaves invisible is passed over.
 ///
-/// A plotter knows lines only. Polygons and discs become their outlines, drawn by the pen of their colour index,
-/// those of discs half a pen inside; a dot becomes a circle as wide as the pen, which the pen fills. Each colour of
-/// the style's lines is a pen; it is as wide as it was when it first drew.
+/// A plotter draws lines only, and each colour of the style is a pen:
+/// - Polygons and areas become their outlines, in the pen of their fill's colour, and hatching if it is asked for. An
+///   edge that lies on a line of any pen, or on another outline, is not drawn again.
+/// - Discs and dots are filled by spirals (see spiral()), from the outside to the centre unless the other way round
+///   makes the travel shorter.
+/// - With a `pen_width`, strokes that are wider are drawn in several passes (see pen_passes()). Without, a pen is as
+///   wide as its strokes; in SVG and PDF, as when it first drew.
+/// - Fills hide nothing: only drawings in space have a front (see plot_scene()).
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal
 /// to the bit; those of splines and of turtles that add up doubles are not.) Of lines and curves with the same
@@ -99,27 +128,42 @@ public:
     /// their pen whatever `stroke:` says: outlines may be there where lines are not. @throws Stopped
     void draw(PathSink& sink) const;
     const PlotReport& report() const { return report_; }
-    /// The ways between the strokes, in their order; the first begins at the bottom left corner of the page.
+    /// Pen-up travel in its order, from the start and, if there is one, back home.
     std::vector<PlotTravel> travels() const;
 
 private:
     struct Gathered;
     struct Layer;
 
-    Gathered& gathered(const Pen& pen);
+    int slot_of(const Pen& pen, bool fills) const;
+    Gathered& gathered(const Pen& pen, bool fills = false);
+    Gathered& outlines(const Pen& pen);
     void add(std::span<const glm::dvec2> points, bool curves);
-    glm::dvec2 origin() const;
+    double pen_steps(const Pen& pen) const;
+    Pen real_pen(const Pen& pen) const;
+    bool is_wide(const Pen& pen) const;
+    void draw_wide(bool closed);
+    void hatch(std::span<const glm::dvec2> vertices, const Pen& pen);
+    double tolerance() const;
+    void add_outlines(double tolerance);
+    void merge_colours();
+    glm::dvec2 drawn_at(glm::dvec2 millimetres) const;
     template <class Visit>
     void for_each_stroke(Visit&& visit) const;
 
     const Print& print_;
     PlotOptions options_;
     std::vector<int> slots_;                             ///< of colour indices
+    std::vector<int> fill_slots_;                        ///< of colour indices, for the pens of fills
     std::map<int, std::unique_ptr<Gathered>> gathered_;  ///< by slot
+    std::map<int, std::unique_ptr<Gathered>> outlines_;  ///< of fills, likewise
     std::vector<std::unique_ptr<Layer>> layers_;         ///< pens in their order
     PlotReport report_;
     Gathered* into_ = nullptr;  ///< of the stroke that is being drawn; null if it is not seen
     bool down_ = false;         ///< its piece with the present pen has begun
+    bool is_whole_ = false;     ///< the pen was not changed since the stroke began
+    Pen pen_;
+    std::optional<PenPath> wide_;  ///< the stroke so far, if it takes several passes
     glm::dvec2 at_{0.0};
 };
 

@@ -13,10 +13,6 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::optional<Provenance> read_nothing(const InputFile&) {
-    return std::nullopt;
-}
-
 bool begins_as_xml(std::string_view head) {
     if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
     const std::size_t first = head.find_first_not_of(" \t\r\n");
@@ -34,20 +30,31 @@ bool begins_as_tiff(std::string_view head) {
            head.starts_with("MM\0+"sv);
 }
 
+bool begins_as_gcode(std::string_view head) {
+    return head.find("(recipe: sikku:") != std::string_view::npos;
+}
+
+bool begins_as_obj(std::string_view head) {
+    return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
+}
+
 struct Format {
     std::string_view name;
     bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 8> formats = {{
+constexpr std::array<Format, 11> formats = {{
     {"PNG", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
     {"TIFF", begins_as_tiff, read_tiff_provenance},
     {"JPEG", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
     {"EXR", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
     {"PDF", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
-    {"GIF", begins_with<'G', 'I', 'F', '8'>, read_nothing},
-    {"GLB", begins_with<'g', 'l', 'T', 'F'>, read_nothing},
+    {"GIF", begins_with<'G', 'I', 'F', '8'>, read_comment_provenance},
+    {"GLB", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
+    {"HP-GL", begins_with<'I', 'N', ';'>, read_comment_provenance},
+    {"G-code", begins_as_gcode, read_comment_provenance},
+    {"OBJ", begins_as_obj, read_comment_provenance},
     {"SVG", begins_as_xml, read_svg_provenance},
 }};
 

@@ -17,7 +17,8 @@ struct Provenance {
 /// The name of the file format that a file begins as, `SVG`, or empty: none of those below, or it cannot be opened.
 std::string_view known_format(const std::filesystem::path& file);
 
-/// Reads the pattern that the writers of this folder put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF. Recognises the
+/// Reads the pattern that the writers of this folder put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF, GIF,
+/// HP-GL, G-code, OBJ, glTF. Recognises the
 /// format by the first bytes, not by the name; never decodes pixels. Returns nullopt if the format is unknown or the
 /// file is not a regular file that can be opened.
 ///

@@ -1,5 +1,7 @@
 #include "art/space/model.h"
 
+#include "art/print/recipe_comments.h"
+
 #include "art/space/triangles.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -238,7 +240,9 @@ void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     const auto opened = destination.open(file);
     Output& materials = *materials_opened;
     Output& output = *opened;
-    output.write(fmt::format("# {}, {}\nmtllib {}\n", one_line(print.title), one_line(print.made), name));
+    output.write(fmt::format("# {}, {}\n", one_line(print.title), one_line(print.made)));
+    for (const std::string& piece : recipe_comments(print.pattern, print.made)) output.write("# " + piece + "\n");
+    output.write(fmt::format("mtllib {}\n", name));
     std::size_t first = 1;
     for (const Mesh& mesh : meshes) {
         const std::string material = material_name(mesh);
@@ -291,6 +295,15 @@ void write_raw(Output& output, const std::vector<Element>& elements, const Monit
     }
 }
 
+/// The recipe as a member of the asset, with a leading comma; empty if it is too large.
+std::string extras_of(const Print& print) {
+    std::string list;
+    for (const std::string& piece : recipe_comments(print.pattern, print.made)) {
+        list += (list.empty() ? "" : ",") + json_string(piece);
+    }
+    return list.empty() ? list : ",\"extras\":{\"recipe\":[" + list + "]}";
+}
+
 void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const Print& print,
                const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     std::string accessors, views, materials, primitives;
@@ -334,10 +347,10 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     }
     const std::string name = json_string(print.title.empty() ? "drawing" : print.title);
     std::string json = fmt::format(
-        R"({{"asset":{{"version":"2.0","generator":{}}},"scene":0,"scenes":[{{"name":{},"nodes":[0]}}],)"
+        R"({{"asset":{{"version":"2.0","generator":{}{}}},"scene":0,"scenes":[{{"name":{},"nodes":[0]}}],)"
         R"("nodes":[{{"name":{},"mesh":0,"translation":[{},{},{}]}}],"meshes":[{{"name":{},"primitives":[{}]}}],"materials":[{}],)"
         R"("accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-        json_string(print.made), name, name, origin.x, origin.y, origin.z, name, primitives, materials, accessors,
+        json_string(print.made), extras_of(print), name, name, origin.x, origin.y, origin.z, name, primitives, materials, accessors,
         views, offset);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::uint64_t size = 12 + 8 + json.size() + 8 + offset;

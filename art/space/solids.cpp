@@ -201,39 +201,6 @@ void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const M
     Painter(scene, print, sink).draw(monitor);
 }
 
-void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
-    Pulse pulse(monitor);
-    const Projection projection(print.style.camera, scene.bounds());
-    const auto place = [&](const glm::vec3& point) { return glm::dvec2(projection(scene.at(point))); };
-    for (const ScenePolygon& polygon : scene.polygons()) {
-        pulse();
-        std::vector<glm::dvec2> flat;
-        for (const glm::vec3& vertex : scene.vertices(polygon)) flat.push_back(place(vertex));
-        sink.polygon(flat, Pen{.colour = polygon.colour});
-    }
-    bool is_down = false;
-    Pen pen;
-    for (const SceneSegment& segment : scene.segments()) {
-        pulse();
-        const Pen own = segment.after.pen(segment.colour);
-        if (!segment.goes_on || !is_down) {
-            if (is_down) sink.end_stroke(false);
-            sink.begin_stroke(place(segment.from), own);
-            is_down = true;
-        } else if (pen != own) {
-            sink.change_pen(own);
-        }
-        pen = own;
-        const glm::dvec2 to = place(segment.to);
-        sink.lines(std::span(&to, 1));
-    }
-    if (is_down) sink.end_stroke(false);
-    for (const SceneSphere& sphere : scene.spheres()) {
-        sink.disc(place(sphere.centre), sphere.radius * projection.scale(scene.at(sphere.centre)),
-                  sphere.width.pen(sphere.colour));
-    }
-}
-
 SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
                       const Monitor& monitor) {
     Pulse pulse(monitor);

@@ -19,10 +19,6 @@ Style with_shades(const Style& style);
 /// Cost: sorting; memory 16 bytes for each of them beside the scene. @throws Stopped
 void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor = {});
 
-/// For pens: stems as strokes along their middles, joined where they go on, in the pen that is drawn at their ends;
-/// polygons and spheres flat. Nothing is hidden.
-void draw_skeleton(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor = {});
-
 /// What is seen of the scene, in turtle steps, after `orientation` (see orientation()), and its widest pen in the
 /// measure of the style's stroke.
 struct SceneExtent {
