@@ -2,6 +2,7 @@
 
 #include "art/drawing/draw_view.h"
 #include "art/image/image_file.h"
+#include "art/print/recipe_comments.h"
 #include "art/raster/raster.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -11,6 +12,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -67,6 +69,26 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
     return result;
 }
 
+/// Adds the recipe as a comment before the trailer of a GIF file. Source: GIF 89a, section 24.
+void add_recipe(const std::filesystem::path& file, const Print& print) {
+    const std::vector<std::string> pieces = recipe_comments(print.pattern, print.made);
+    if (pieces.empty()) return;
+    std::string comment = "\x21\xFE";
+    for (const std::string& piece : pieces) {
+        comment += static_cast<char>(piece.size() + 1);
+        comment += piece + "\n";
+    }
+    comment += '\0';
+    comment += ';';
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(-1, std::ios::end);
+    if (stream.get() != ';') throw std::runtime_error("the animation has no trailer");
+    stream.seekp(-1, std::ios::end);
+    stream.write(comment.data(), static_cast<std::streamsize>(comment.size()));
+    stream.close();
+    if (!stream) throw std::runtime_error("the recipe cannot be added");
+}
+
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
     // All are read as words: the largest decides, before the first is drawn.
@@ -111,7 +133,7 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
     }
     named([&] {
         animation->close();
-        add_comment(output.temporary(), print_of_recipe(given));
+        add_recipe(output.temporary(), given);
     });
     output.commit();
 }

@@ -1,5 +1,5 @@
-// art/print/recipe_comments.h: the pattern of a print and its recipe in plain letters, for formats whose only texts are
-// comments: G-code, HP-GL, OBJ, glTF, GIF.
+// art/print/recipe_comments.h: the pattern of a print and its recipe in plain letters, for formats whose only texts
+// are comments: G-code, HP-GL, OBJ, glTF, GIF.
 #pragma once
 
 #include <optional>

@@ -350,8 +350,8 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
         R"({{"asset":{{"version":"2.0","generator":{}{}}},"scene":0,"scenes":[{{"name":{},"nodes":[0]}}],)"
         R"("nodes":[{{"name":{},"mesh":0,"translation":[{},{},{}]}}],"meshes":[{{"name":{},"primitives":[{}]}}],"materials":[{}],)"
         R"("accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-        json_string(print.made), extras_of(print), name, name, origin.x, origin.y, origin.z, name, primitives, materials, accessors,
-        views, offset);
+        json_string(print.made), extras_of(print), name, name, origin.x, origin.y, origin.z, name, primitives,
+        materials, accessors, views, offset);
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::uint64_t size = 12 + 8 + json.size() + 8 + offset;
     if (size > UINT32_MAX) throw std::runtime_error("the model is larger than the 4 GB that a .glb file holds");
