@@ -2,10 +2,10 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
-# For tests: the framework, and independent readers of what the program writes.
+# For tests: the framework, independent readers of what the program writes, and the linters.
 test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
-    midicsv python3-mido)
+    midicsv python3-mido clang-format clang-tidy)
 # For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.
 full_packages=(clang libclang-rt-14-dev inkscape lilypond musescore3 fluidsynth timgm6mb-soundfont flac chromium
     slurm-wlm munge)

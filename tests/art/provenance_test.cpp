@@ -1,4 +1,4 @@
-// tests/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and untrusted
+// tests/art/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and untrusted
 // files cost little.
 #include "art/provenance/provenance.h"
 

@@ -1,4 +1,4 @@
-// tests/floor_test.cpp: documents, interpreters and their tables, as a caller of the libraries uses them.
+// tests/program/floor_test.cpp: documents, interpreters and their tables, as a caller of the libraries uses them.
 #include "art/draw_settings.h"
 #include "art/gallery/gallery.h"
 #include "art/gallery/jobs.h"

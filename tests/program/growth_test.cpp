@@ -1,4 +1,4 @@
-// tests/growth_test.cpp: generations one after the other, views and models, by running the program.
+// tests/program/growth_test.cpp: generations one after the other, views and models, by running the program.
 #include "art/drawing/growth.h"
 #include "tests/program.h"
 #include "tests/tools.h"

@@ -1,4 +1,4 @@
-// tests/recipe_test.cpp: formats whose texts are comments give their pattern back.
+// tests/art/recipe_test.cpp: formats whose texts are comments give their pattern back.
 #include "art/print/recipe_comments.h"
 #include "art/prints.h"
 #include "art/provenance/provenance.h"

@@ -1,4 +1,4 @@
-// tests/kolam_families_test.cpp: the kolams of polynomial growth against mirror curves traced around their dots.
+// tests/art/kolam_families_test.cpp: the kolams of polynomial growth against mirror curves traced around their dots.
 #include "engine/measure/extent.h"
 #include "engine/measure/fold.h"
 #include "tests/files.h"

@@ -1,4 +1,4 @@
-// tests/docs_test.cpp: what the manual says of files, rooms and commands.
+// tests/program/docs_test.cpp: what the manual says of files, rooms and commands.
 #include "tests/files.h"
 #include "tests/program.h"
 

@@ -1,4 +1,4 @@
-// tests/library_test.cpp: prints and scores in memory, as a program that links the libraries makes them.
+// tests/program/library_test.cpp: prints and scores in memory, as a program that links the libraries makes them.
 #include "art/prints.h"
 #include "music/scores.h"
 

@@ -1,4 +1,4 @@
-// tests/keys_test.cpp: the table of keys, its readers and the manual.
+// tests/engine/keys_test.cpp: the table of keys, its readers and the manual.
 #include "engine/base/keys.h"
 #include "art/style/style.h"
 #include "engine/language/document.h"

@@ -1,4 +1,4 @@
-// tests/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the patterns that
+// tests/engine/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the patterns that
 // come along.
 #include "engine/import/import.h"
 

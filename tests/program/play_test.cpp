@@ -1,4 +1,4 @@
-// tests/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
+// tests/program/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
 #include "tests/files.h"
 #include "tests/midi_reader.h"
 #include "tests/program.h"

@@ -1,4 +1,4 @@
-// tests/untrusted_test.cpp: files that cost far more than their size promises are read once, or refused.
+// tests/program/untrusted_test.cpp: files that cost far more than their size promises are read once, or refused.
 #include "tests/files.h"
 #include "tests/program.h"
 

@@ -1,4 +1,4 @@
-// tests/cli_test.cpp: the program as its user meets it: commands, exit statuses, outputs, signals.
+// tests/program/cli_test.cpp: the program as its user meets it: commands, exit statuses, outputs, signals.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
+// tests/program/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
 // little memory, and long work stops on request.
 #include "engine/derivation/derivation.h"
 #include "engine/import/import.h"

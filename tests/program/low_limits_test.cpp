@@ -1,4 +1,4 @@
-// tests/low_limits_test.cpp: with few threads, little memory, few files or small files there is a message and no
+// tests/program/low_limits_test.cpp: with few threads, little memory, few files or small files there is a message and no
 // leftover files: no abort, no hang.
 #include "engine/base/threads.h"
 #include "tests/program.h"

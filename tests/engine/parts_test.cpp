@@ -1,4 +1,4 @@
-// tests/parts_test.cpp: what parts do and cover, against the fold and against walking the word.
+// tests/engine/parts_test.cpp: what parts do and cover, against the fold and against walking the word.
 #include "engine/measure/parts.h"
 
 #include "engine/derivation/derivation.h"
