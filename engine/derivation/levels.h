@@ -1,0 +1,68 @@
+// engine/derivation/levels.h: which table rewrites at which level of an expansion.
+#pragma once
+
+#include "engine/language/grammar.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// The longest run of symbols that a sink is handed.
+constexpr std::size_t longest_run = 4096;
+
+/// Symbols or frames between two calls of DerivationOptions::watch.
+constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;
+
+/// The tables from the last level upwards: level 0 is the finished word, level r has r tables still to come.
+/// Adjacent levels of one table are one stretch, so that a million steps cost nothing to describe.
+class Levels {
+public:
+    Levels(const Grammar& grammar, bool interpreted) {
+        if (interpreted && grammar.interpretation()) add(grammar.interpretation(), 1);
+        for (std::size_t i = grammar.schedule().size(); i > 0; --i) {
+            const ScheduleRun& run = grammar.schedule()[i - 1];
+            add(&grammar.tables()[run.table], run.steps);
+        }
+    }
+    std::int64_t count() const { return count_; }
+    /// The largest number of neighbouring levels that `table` rules.
+    std::int64_t longest_stretch(const Table& table) const {
+        std::int64_t longest = 0;
+        for (std::size_t i = 0; i < stretches_.size(); ++i) {
+            if (stretches_[i].table != &table) continue;
+            longest = std::max(longest, stretches_[i].end - (i == 0 ? 0 : stretches_[i - 1].end));
+        }
+        return longest;
+    }
+    /// The table that rewrites a symbol at `level` >= 1.
+    const Table& table(std::int64_t level) const { return *stretches_[stretch(level)].table; }
+
+    /// The last level below `level` that another stretch rules; 0 if there is none.
+    std::int64_t stretch_begin(std::int64_t level) const {
+        const std::size_t i = stretch(level);
+        return i == 0 ? 0 : stretches_[i - 1].end;
+    }
+
+private:
+    struct Stretch {
+        const Table* table;
+        std::int64_t end;
+    };
+    std::size_t stretch(std::int64_t level) const {
+        const auto found = std::lower_bound(stretches_.begin(), stretches_.end(), level,
+                                            [](const Stretch& one, std::int64_t wanted) { return one.end < wanted; });
+        return static_cast<std::size_t>(found - stretches_.begin());
+    }
+    void add(const Table* table, std::int64_t steps) {
+        if (steps <= 0) return;
+        count_ += steps;
+        stretches_.push_back({table, count_});
+    }
+    std::vector<Stretch> stretches_;
+    std::int64_t count_ = 0;
+};
+
+}  // namespace sikku

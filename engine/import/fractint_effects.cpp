@@ -1,0 +1,137 @@
+#include "engine/import/fractint_effects.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace sikku::fractint {
+namespace {
+
+constexpr std::size_t most_levels = 20;                           // that differ
+constexpr double most_digits = 300;                               // of a length, before or after the point
+constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
+
+}  // namespace
+
+Effects::Effects(const Entry& entry, ImportLosses& losses) : entry_(entry) {
+    find_reached(losses);
+    followed_steps_ = followed(leads_to_steps_);
+    followed_turns_ = followed(leads_to_turns_);
+    is_sized_ = followed_steps_.test(index_of('@')) && has('@');
+    compose();
+}
+
+void Effects::find_reached(ImportLosses& losses) {
+    // What each letter with a rule leads to, itself included: as the commands of all of them.
+    std::map<char, Flags> leads;
+    for (const auto& [letter, rule] : entry_.rules) {
+        leads[letter].set(index_of(letter));
+        for (const Token& token : rule) leads[letter].set(index_of(token.letter));
+    }
+    for (const auto& [middle, its] : std::map(leads)) {
+        for (auto& [letter, flags] : leads) {
+            if (flags.test(index_of(middle))) flags |= leads[middle];
+        }
+    }
+    for (const Token& token : entry_.axiom) {
+        reached_.set(index_of(token.letter));
+        if (entry_.rule_of(token.letter)) reached_ |= leads[token.letter];
+    }
+    has_own_steps_ = has('f') || has('g');
+    has_other_steps_ = has('d') || has('m');
+    if (has_own_steps_ && has_other_steps_) {
+        losses.add(entry_.first_of("dm"),
+                   "F and G go one way and D and M another, each with turns of its own; the turtle has one heading");
+    }
+    leads_to_steps_ = flags_of("fgdm");
+    leads_to_turns_ = flags_of(turns());
+    for (const auto& [letter, flags] : leads) {
+        leads_to_steps_[index_of(letter)] = (flags & flags_of("fgdm")).any();
+        leads_to_turns_[index_of(letter)] = (flags & flags_of(turns())).any();
+    }
+}
+
+/// The commands whose sides ! exchanges, of the headings that steps of the system take.
+std::string_view Effects::turns() const {
+    return has_own_steps_ && has_other_steps_ ? "+-/\\" : has_other_steps_ ? "/\\" : "+-";
+}
+
+/// Which letters are followed, up to the end of their branch, by what their effect bears upon.
+Flags Effects::followed(const Flags& sensitive) const {
+    Flags result;
+    const auto look = [&](const Tokens& word, bool after) {
+        std::vector<std::pair<bool, bool>> outer;  // what follows the branch; is anything in it sensitive
+        bool in_branch = false;
+        for (auto token = word.rbegin(); token != word.rend(); ++token) {
+            if (token->letter == ']') {
+                outer.emplace_back(after, in_branch);
+                after = in_branch = false;
+            } else if (token->letter == '[') {
+                const bool inside = in_branch;
+                after = outer.back().first || inside;
+                in_branch = outer.back().second || inside;
+                outer.pop_back();
+            } else {
+                if (after) result.set(index_of(token->letter));
+                if (sensitive.test(index_of(token->letter))) after = in_branch = true;
+            }
+        }
+    };
+    look(entry_.axiom, false);
+    for (std::size_t before = Flags().size() + 1; before != result.count();) {
+        before = result.count();
+        for (const auto& [letter, rule] : entry_.rules) {
+            if (has(letter)) look(rule, result.test(index_of(letter)));
+        }
+    }
+    return result;
+}
+
+/// Composes effects for more and more steps to go, until they settle.
+void Effects::compose() {
+    std::map<char, Effect> none;
+    for (const auto& [letter, rule] : entry_.rules) {
+        none[letter].halves.assign(entry_.factors.size(), 0);
+    }
+    levels_.push_back(std::move(none));
+    while (true) {
+        std::map<char, Effect> next;
+        bool is_small = true;
+        for (const auto& [letter, rule] : entry_.rules) {
+            Effect& effect = next[letter];
+            effect.halves.assign(entry_.factors.size(), 0);
+            std::size_t depth = 0;
+            for (const Token& token : rule) {
+                if (token.letter == '[') ++depth;
+                if (token.letter == ']') --depth;
+                if (depth == 0) apply(token, levels_.back(), effect);
+            }
+            if (!followed_turns_.test(index_of(letter))) effect.flips = false;
+            if (!is_sized_ || !followed_steps_.test(index_of(letter))) {
+                effect.halves.assign(entry_.factors.size(), 0);
+            }
+            double digits = 0;
+            for (std::size_t i = 0; i < entry_.factors.size(); ++i) {
+                const double share = 0.5 * static_cast<double>(effect.halves[i]) * std::log10(entry_.factors[i]);
+                digits += share;
+                const bool is_much = std::abs(effect.halves[i]) > largest_exponent;
+                if (is_much || !(std::fabs(share) < most_digits)) is_small = false;
+            }
+            if (!(std::fabs(digits) < most_digits)) is_small = false;
+        }
+        is_settled_ = next == levels_.back();
+        if (is_settled_ || levels_.size() >= most_levels || !is_small) return;
+        levels_.push_back(std::move(next));
+    }
+}
+
+void apply(const Token& token, const std::map<char, Effect>& below, Effect& effect) {
+    if (token.letter == '@') effect.halves[token.base] += token.root;
+    if (token.letter == '!') effect.flips = !effect.flips;
+    const auto found = below.find(token.letter);
+    if (found == below.end()) return;
+    effect.flips = effect.flips != found->second.flips;
+    for (std::size_t i = 0; i < effect.halves.size(); ++i) effect.halves[i] += found->second.halves[i];
+}
+
+}  // namespace sikku::fractint

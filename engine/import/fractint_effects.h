@@ -1,0 +1,68 @@
+// engine/import/fractint_effects.h: what the letters of a Fractint entry lead to, and what going through them leaves
+// behind.
+#pragma once
+
+#include "engine/import/fractint_entry.h"
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <vector>
+
+namespace sikku::fractint {
+
+/// What going through a symbol leaves behind: the step length multiplied by powers of the factors, in halves, and
+/// left and right exchanged.
+struct Effect {
+    std::vector<std::int64_t> halves;
+    bool flips = false;
+    bool operator==(const Effect&) const = default;
+};
+
+/// Keeps a reference to the entry.
+class Effects {
+public:
+    /// What patterns lack of the entry goes to `losses`.
+    Effects(const Entry& entry, ImportLosses& losses);
+
+    /// Can the axiom lead to it?
+    bool has(char letter) const { return reached_.test(index_of(letter)); }
+    bool leads_to_steps(char letter) const { return leads_to_steps_.test(index_of(letter)); }
+    bool leads_to_turns(char letter) const { return leads_to_turns_.test(index_of(letter)); }
+    /// Is it a turn of the headings that steps of the system take?
+    bool turns_count(char letter) const { return turns().find(letter) != std::string_view::npos; }
+    /// Does the turtle turn round on '|'?
+    bool turns_around() const { return has_own_steps_ || !has_other_steps_; }
+    /// Are there steps whose length an @ changes?
+    bool is_sized() const { return is_sized_; }
+
+    /// How many numbers of steps to go differ.
+    std::size_t levels() const { return levels_.size(); }
+    /// Has the last level the effects of all that follow?
+    bool is_settled() const { return is_settled_; }
+    /// Of each letter with a rule and `level` steps to go, as far as they bear upon what follows.
+    const std::map<char, Effect>& at(std::size_t level) const { return levels_[level]; }
+
+private:
+    void find_reached(ImportLosses& losses);
+    std::string_view turns() const;
+    Flags followed(const Flags& sensitive) const;
+    void compose();
+
+    const Entry& entry_;
+    Flags reached_;
+    Flags leads_to_steps_;
+    Flags leads_to_turns_;
+    Flags followed_steps_;
+    Flags followed_turns_;
+    bool has_own_steps_ = false;
+    bool has_other_steps_ = false;
+    bool is_sized_ = false;
+    std::vector<std::map<char, Effect>> levels_;
+    bool is_settled_ = false;
+};
+
+/// Goes through one token, its rule having the effects `below`.
+void apply(const Token& token, const std::map<char, Effect>& below, Effect& effect);
+
+}  // namespace sikku::fractint

@@ -1,0 +1,198 @@
+#include "engine/import/fractint_entry.h"
+
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace sikku::fractint {
+namespace {
+
+constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // of all words of an entry
+constexpr std::size_t most_factors = 32;                       // different numbers after @
+
+class EntryReader {
+public:
+    EntryReader(const SourcePointer& file, std::string name, std::size_t at, Diagnostics& diagnostics)
+        : file_(file), diagnostics_(diagnostics) {
+        entry_.name = std::move(name);
+        entry_.at = at;
+    }
+
+    Entry read(std::size_t begin, std::size_t end) {
+        const std::string& text = file_->text();
+        bool has_axiom = false;
+        while (begin < end) {
+            const std::size_t next = find_before(text, '\n', begin, end);
+            const std::size_t stop = find_before(text, ';', begin, next);
+            if (stop < next) note_comment(std::string_view(text).substr(stop, next - stop));
+            if (read_line(begin, stop)) has_axiom = true;
+            begin = next + 1;
+        }
+        if (!has_axiom || entry_.axiom.empty())
+            fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no axiom", entry_.name));
+        if (entry_.angle == 0)
+            fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no angle", entry_.name));
+        return std::move(entry_);
+    }
+
+private:
+    void note_comment(std::string_view comment) {
+        while (!comment.empty() && (comment.front() == ';' || comment.front() == ' ')) comment.remove_prefix(1);
+        if (entry_.comments.size() > 300 || comment.empty()) return;
+        entry_.comments += (entry_.comments.empty() ? "" : " ") + import_text(comment, 200);
+    }
+
+    /// True if it is the axiom.
+    bool read_line(std::size_t begin, std::size_t end) {
+        const std::string& text = file_->text();
+        const auto is_blank = [&](std::size_t i) { return text[i] == ' ' || text[i] == '\t' || text[i] == '\r'; };
+        const auto skip = [&](std::size_t i) {
+            while (i < end && is_blank(i)) ++i;
+            return i;
+        };
+        const auto word_end = [&](std::size_t i) {
+            while (i < end && !is_blank(i)) ++i;
+            return i;
+        };
+        begin = skip(begin);
+        if (begin >= end) return false;
+        std::size_t at = begin;
+        while (at < end && !is_blank(at) && text[at] != '=') ++at;
+        const std::string key = lower_case(std::string_view(text).substr(begin, at - begin));
+        at = skip(at);
+        if (at < end && text[at] == '=') at = skip(at + 1);
+        const std::size_t stop = word_end(at);
+        if (skip(stop) < end) fail(file_, diagnostics_, skip(stop), "text after the word: a word holds no blanks");
+        if (key == "axiom") {
+            entry_.axiom = tokens(at, stop);
+            return true;
+        }
+        if (key == "angle") {
+            const auto [last, error] = std::from_chars(text.data() + at, text.data() + stop, entry_.angle);
+            if (error != std::errc() || last != text.data() + stop || entry_.angle < 3 || entry_.angle > 50) {
+                fail(file_, diagnostics_, std::min(at, end - 1),
+                     "expected a whole number from 3 to 50: the turn is 360/n degrees");
+            }
+            return false;
+        }
+        if (key.size() != 1) fail(file_, diagnostics_, begin, "expected 'Angle n', 'Axiom word' or a rule 'c=word'");
+        // Older Fractints take rules for colours.
+        if (std::string_view("+-/\\@|!][").find(key) != std::string_view::npos) {
+            fail(file_, diagnostics_, begin, fmt::format("a rule for the command '{}' is not allowed", key));
+        }
+        if (index_of(key[0]) >= 0x80 || index_of(key[0]) < 0x20) {
+            fail(file_, diagnostics_, begin, "a rule is for one character of ASCII");
+        }
+        Tokens body = tokens(at, stop);
+        // Rules for the same character follow one another.
+        Tokens& rule = entry_.rules[key[0]];
+        rule.insert(rule.end(), body.begin(), body.end());
+        return false;
+    }
+
+    Tokens tokens(std::size_t begin, std::size_t end) {
+        const std::string& text = file_->text();
+        word_bytes_ += end - begin;
+        if (word_bytes_ > most_word_bytes) fail(file_, diagnostics_, begin, "the words of an entry are at most 1 MB");
+        Tokens result;
+        std::vector<std::size_t> open;
+        for (std::size_t at = begin; at < end;) {
+            Token token;
+            token.at = static_cast<std::uint32_t>(at);
+            token.letter = lower_case(std::string_view(text).substr(at, 1))[0];
+            if (index_of(token.letter) >= 0x80 || index_of(token.letter) < 0x20) {
+                fail(file_, diagnostics_, at, "words are made of ASCII characters");
+            }
+            ++at;
+            if (takes_number(token.letter)) read_number_of(token, at, end);
+            if (token.letter == '[') {
+                open.push_back(token.at);
+            } else if (token.letter == ']' && open.empty()) {
+                diagnostics_.warning({file_, token.at, 1}, "']' without '[': Fractint reads this word no further");
+                return result;
+            } else if (token.letter == ']') {
+                open.pop_back();
+            }
+            result.push_back(token);
+        }
+        if (!open.empty()) fail(file_, diagnostics_, open.back(), "this '[' is not closed in its line");
+        return result;
+    }
+
+    /// `Q` and `I`, in any order, then digits and points, the decimal number.
+    void read_number_of(Token& token, std::size_t& at, std::size_t end) {
+        const std::string& text = file_->text();
+        bool root = false;
+        bool inverse = false;
+        for (int i = 0; i < 2 && at < end; ++i) {
+            const char byte = lower_case(std::string_view(text).substr(at, 1))[0];
+            if (byte != 'q' && byte != 'i') break;
+            (byte == 'q' ? root : inverse) = true;
+            ++at;
+        }
+        const std::size_t begin = at;
+        while (at < end && ((text[at] >= '0' && text[at] <= '9') || text[at] == '.')) ++at;
+        double number = 0;
+        if (at > begin) {
+            const auto [last, error] = std::from_chars(text.data() + begin, text.data() + at, number);
+            if (error != std::errc() || last != text.data() + at)
+                fail(file_, diagnostics_, begin, "this is no decimal number");
+        }
+        if (token.letter == '@') {
+            if (!(number > 0))
+                fail(file_, diagnostics_, token.at,
+                     "expected a number above 0 after '@': the step would have no length");
+            const auto known = std::find(entry_.factors.begin(), entry_.factors.end(), number);
+            token.base = static_cast<std::uint16_t>(known - entry_.factors.begin());
+            if (known == entry_.factors.end()) entry_.factors.push_back(number);
+            if (entry_.factors.size() > most_factors)
+                fail(file_, diagnostics_, token.at, "more than 32 different numbers after '@'");
+            token.root = static_cast<std::int8_t>(number == 1 ? 0 : (root ? 1 : 2) * (inverse ? -1 : 1));
+            return;
+        }
+        if (number > 0 && root) number = std::sqrt(number);
+        if (number > 0 && inverse) number = 1 / number;
+        if (!(number < 1e9)) fail(file_, diagnostics_, token.at, "expected a number below 1000000000 here");
+        const bool is_angle = token.letter == '\\' || token.letter == '/';
+        token.number = is_angle ? number : std::floor(number);
+    }
+
+    const SourcePointer& file_;
+    Diagnostics& diagnostics_;
+    Entry entry_;
+    std::size_t word_bytes_ = 0;
+};
+
+}  // namespace
+
+std::size_t find_before(const std::string& text, char wanted, std::size_t begin, std::size_t end) {
+    const std::size_t found = std::string_view(text).substr(0, end).find(wanted, begin);
+    return std::min(found, end);
+}
+
+std::size_t Entry::first_of(std::string_view list) const {
+    std::size_t first = at;
+    bool found = false;
+    const auto look = [&](const Tokens& word) {
+        for (const Token& token : word) {
+            if (list.find(token.letter) == std::string_view::npos || (found && token.at >= first)) continue;
+            first = token.at;
+            found = true;
+        }
+    };
+    look(axiom);
+    for (const auto& [letter, rule] : rules) look(rule);
+    return first;
+}
+
+Entry read_entry(const SourcePointer& file, std::string name, std::size_t at, std::size_t begin, std::size_t end,
+                 Diagnostics& diagnostics) {
+    return EntryReader(file, std::move(name), at, diagnostics).read(begin, end);
+}
+
+}  // namespace sikku::fractint

@@ -1,0 +1,84 @@
+// engine/import/fractint_entry.h: an entry of a Fractint collection, read.
+#pragma once
+
+#include "engine/import/import.h"
+
+#include <bitset>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku::fractint {
+
+/// A command or symbol; `[` and `]` too.
+struct Token {
+    char letter = 0;
+    std::int8_t root = 0;    ///< of @: exponent of the factor in halves
+    std::uint16_t base = 0;  ///< of @: which factor
+    std::uint32_t at = 0;
+    double number = 0.0;  ///< of \ / c < >
+};
+using Tokens = std::vector<Token>;
+
+inline bool is_step(char letter) {
+    return letter == 'f' || letter == 'g' || letter == 'd' || letter == 'm';
+}
+inline bool is_letter(char letter) {
+    return letter >= 'a' && letter <= 'z';
+}
+inline bool is_plain(char letter) {
+    return is_letter(letter) || (letter >= '0' && letter <= '9') || letter == '_';
+}
+inline bool takes_number(char letter) {
+    return letter == '@' || letter == '\\' || letter == '/' || letter == 'c' || letter == '<' || letter == '>';
+}
+inline std::size_t index_of(char letter) {
+    return static_cast<unsigned char>(letter);
+}
+
+/// The first `wanted` in [begin, end), or `end`.
+std::size_t find_before(const std::string& text, char wanted, std::size_t begin, std::size_t end);
+
+/// The entry has an error, which was reported.
+struct BadEntry {};
+
+/// Reports an error and gives the entry up.
+[[noreturn]] inline void fail(const SourcePointer& file, Diagnostics& diagnostics, std::size_t at,
+                              const std::string& message) {
+    diagnostics.error({file, at, 1}, message);
+    throw BadEntry();
+}
+
+/// Letters, as a set.
+using Flags = std::bitset<256>;
+inline Flags flags_of(std::string_view list) {
+    Flags flags;
+    for (const char letter : list) flags.set(index_of(letter));
+    return flags;
+}
+
+struct Entry {
+    std::string name;
+    std::size_t at = 0;  ///< where it begins
+    std::string comments;
+    int angle = 0;  ///< turns are 360 degrees divided by it
+    Tokens axiom;
+    std::map<char, Tokens> rules;
+    std::vector<double> factors;  ///< the different numbers after @
+
+    /// The rule of a letter, or null.
+    const Tokens* rule_of(char letter) const {
+        const auto found = rules.find(letter);
+        return found == rules.end() ? nullptr : &found->second;
+    }
+    /// Where one of the letters is met first.
+    std::size_t first_of(std::string_view list) const;
+};
+
+/// Reads what stands between the braces of an entry. @throws BadEntry after an error, which is reported
+Entry read_entry(const SourcePointer& file, std::string name, std::size_t at, std::size_t begin, std::size_t end,
+                 Diagnostics& diagnostics);
+
+}  // namespace sikku::fractint
