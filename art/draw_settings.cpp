@@ -141,8 +141,19 @@ void set_pen_width(DrawSettings& settings, const std::string& text) {
 void set_paper(DrawSettings& settings, const std::string& text) {
     settings.paper = parse_hpgl_paper(text, settings.dpi);
     if (!settings.paper) {
-        refuse("hpgl-paper", text, "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
+        refuse("hpgl-paper", text,
+               "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
     }
+}
+
+/// A size, and what the printer leaves blank on all four sides.
+void set_tile(DrawSettings& settings, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    settings.tile = sheet("tile", text.substr(0, comma), settings.dpi);
+    settings.tile->margin = 5.0;
+    if (comma == std::string::npos) return;
+    settings.tile->margin = length("tile", text.substr(comma + 1), settings.dpi);
+    if (settings.tile->margin < 0) refuse("tile", text, "expected a margin of 0 or more");
 }
 
 void set_profile(DrawSettings& settings, const std::string& text) {
@@ -276,11 +287,12 @@ const std::array table = {
                .group = kolams},
               set_animation},
     Option<S>{{.name = "tile",
-               .help = "cut the print into sheets of this size, to be glued together; one file each",
-               .value = "SIZE",
+               .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
+                       "overview, or files; MARGIN is what the printer leaves blank (5mm)",
+               .value = "SIZE[,MARGIN]",
                .group = kolams,
                .is_alone = true},
-              [](S& s, Text t) { s.tile = sheet("tile", t, s.dpi); }},
+              set_tile},
     Option<S>{{.name = "overlap",
                .help = "overlap of neighbouring sheets (10mm)",
                .value = "LENGTH",
@@ -461,6 +473,25 @@ DrawSettings read_draw_settings(const OptionValues& values) {
     return settings;
 }
 
+Style read_print_style(const Document& document, const DrawSettings& settings) {
+    Document drawn = document;
+    const auto set = [&](const char* key, const std::string& value) {
+        try {
+            drawn = drawn.with({{key, key, value}});
+        } catch (const PatternError& error) {
+            throw SettingError(key, value, error.diagnostics().front().message);
+        }
+    };
+    // Dots in their default size and colour have no words in the language.
+    if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
+    if (!settings.view.empty()) set("view", settings.view);
+    Diagnostics diagnostics;
+    Style style = read_style(drawn.pattern(), settings.dpi, diagnostics);
+    diagnostics.throw_if_errors();
+    if ((settings.dots || settings.dot_spacing) && !style.dots) style.dots.emplace();
+    return style;
+}
+
 namespace {
 
 /// Why an option cannot be combined with what else was asked for.
@@ -513,14 +544,16 @@ void check_placement(const DrawSettings& settings) {
 void check_plot(const DrawSettings& settings, PrintFormat format) {
     const bool is_plot = settings.plotter || is_for_plotters(format);
     const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
-    refuse_first({{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
-                  {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
-                  {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
-                  {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
-                  {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
-                  {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
-                  {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
-                  {settings.tile && is_plot, "tile", "a plot cannot be cut into sheets"}});
+    refuse_first(
+        {{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
+         {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
+         {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
+         {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
+         {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
+         {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
+         {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
+         {settings.tile && is_plot, "tile", "a plot draws each line whole, and sheets cut lines off"},
+         {settings.window && is_plot, "window", "a plot draws each line whole, and a window cuts lines off"}});
     plot_seconds({}, settings.speeds);
 }
 
@@ -542,27 +575,19 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
         refuse("generations", fmt::format("{}:{}", first, last),
                fmt::format("expected up to {} derivation lengths, the lowest first", most));
     }
-    constexpr const char* trimmed = "not available for a sheet or frames of several drawings";
-    refuse_first({{press.bleed > 0, "bleed", trimmed},
-                  {press.marks, "marks", trimmed},
-                  {!press.spots.empty(), "spot", trimmed},
-                  {!press.cmyk.empty(), "cmyk", trimmed},
-                  {press.bits != 8, "bits", trimmed},
-                  {settings.tile.has_value(), "tile", "cannot be combined with 'generations'"},
-                  {settings.window.has_value(), "window", "cannot be combined with 'generations'"}});
     if (is_sheet) {
-        constexpr const char* reason = "not available for a sheet of 'generations'";
-        refuse_first({{settings.plotter || is_for_plotters(format), "generations", "a plot is a single drawing"},
-                      {settings.step.has_value(), "step", reason},
-                      {settings.dots || settings.dot_spacing, "dots", reason},
-                      {settings.border, "border", reason},
-                      {settings.colours_strokes, "colour-by", reason}});
+        constexpr const char* filled = "the drawings of a sheet fill their cells, each at its own scale";
+        refuse_first({{settings.plotter || is_for_plotters(format), "generations",
+                       "a sheet of generations has grounds and captions, which a plot has not; 'frames' makes a plot "
+                       "of each"},
+                      {settings.tile.has_value(), "tile",
+                       "a sheet of generations is looked at as a whole; 'frames' cuts each generation into sheets"},
+                      {settings.step.has_value(), "step", filled},
+                      {settings.dot_spacing.has_value(), "dot-spacing", filled}});
     }
     if (!is_gif) return;
-    constexpr const char* reason = "not available for a .gif";
-    refuse_first({{settings.border, "border", reason},
-                  {settings.colours_strokes, "colour-by", reason},
-                  {settings.dots || settings.dot_spacing, "dots", reason}});
+    constexpr const char* screen = "a .gif is for screens";
+    refuse_first({{press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
     const PixelSize size = pixel_size(settings.page, settings.dpi);
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
         refuse("dpi", fmt::format("{:g}", settings.dpi),
@@ -581,7 +606,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     }
     try {
         check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
-        if (settings.tile) tiles_of(settings.page, {*settings.tile, settings.overlap});
+        if (settings.tile) tiling_of(settings.page, {*settings.tile, settings.overlap});
         check_plot(settings, format);
     } catch (const SettingError&) {
         throw;
@@ -592,6 +617,8 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     const bool is_untrimmed = settings.plotter || settings.tile;
     refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
                   {is_untrimmed && settings.press.marks, "marks", trimmed},
+                  {settings.window && settings.border, "border",
+                   "a border goes around a whole drawing, and a window shows a part that goes on beyond it"},
                   {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
     check_growth(settings, format);
 }

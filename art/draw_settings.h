@@ -10,7 +10,9 @@
 #include "art/print/page.h"
 #include "art/print/press.h"
 #include "art/print/tiles.h"
+#include "art/style/style.h"
 #include "engine/base/option.h"
+#include "engine/language/document.h"
 
 #include <cstdint>
 #include <optional>
@@ -65,6 +67,9 @@ std::span<const Option<DrawSettings>> draw_options();
 
 /// Reads options. @throws SettingError for unknown names and values that cannot be read
 DrawSettings read_draw_settings(const OptionValues& values);
+
+/// The style of a document, with what the settings change: `dots` and `view`. @throws SettingError, PatternError
+Style read_print_style(const Document& document, const DrawSettings& settings);
 
 /// Checks the combination of settings with each other and with a format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

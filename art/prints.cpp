@@ -2,9 +2,10 @@
 
 #include "art/draw_settings.h"
 #include "art/drawing/draw.h"
-#include "art/drawing/draw_view.h"
+#include "art/drawing/drawing.h"
 #include "art/drawing/growth.h"
 #include "art/image/image_file.h"
+#include "art/print_cell.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet.h"
 #include "engine/base/text.h"
@@ -52,33 +53,13 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     }
 }
 
-/// The document with options that set keys of the pattern.
-Document with_keys(const Document& document, const DrawSettings& settings) {
-    Document result = document;
-    const auto set = [&](const char* key, const std::string& value) {
-        try {
-            result = result.with({{key, key, value}});
-        } catch (const PatternError& error) {
-            throw SettingError(key, value, error.diagnostics().front().message);
-        }
-    };
-    // Dots in their default size and colour have no words in the language.
-    if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
-    if (!settings.view.empty()) set("view", settings.view);
-    return result;
-}
-
 /// A print or model, planned.
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
     PrintWork(const Document& document, PrintFormat format, DrawSettings settings)
         : document_(document), format_(format), settings_(std::move(settings)) {
-        const Document drawn = with_keys(document, settings_);
-        Diagnostics diagnostics;
-        print_.style = read_style(drawn.pattern(), settings_.dpi, diagnostics);
-        diagnostics.throw_if_errors();
-        if ((settings_.dots || settings_.dot_spacing) && !print_.style.dots) print_.style.dots.emplace();
+        print_.style = read_print_style(document, settings_);
         print_.page = settings_.page;
         print_.dpi = settings_.dpi;
         print_.title = document.text("title");
@@ -197,22 +178,20 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
 
 /// Derivation lengths side by side, as books show them.
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
+    if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const auto [first, last] = *settings_.generations;
-    SheetCell cell;
-    cell.grammar = document_.shared_grammar();
-    cell.style = print_.style;
-    cell.placement.rotate = settings_.rotate;
-    cell.placement.mirror = settings_.mirror;
-    cell.title = print_.title;
-    cell.budget = options.budget;
+    SheetCell cell = print_cell(document_, settings_);
+    cell.may_be_empty = true;
     SheetOptions sheet;
     sheet.format = options.format;
     sheet.page = print_.page;
     sheet.dpi = print_.dpi;
     sheet.title = print_.title;
     sheet.animation = print_.animation;
+    sheet.press = print_.press;
     // Captions are short, and are read from as far as the drawings.
     sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
+    sheet.inset = 0.055;
     sheet.pattern = print_.pattern;
     sheet.made = print_.made;
     sheet.threads = options.threads;
@@ -251,8 +230,10 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         constexpr std::size_t most = 8;
         const std::size_t pens = report.plot->colours - report.plot->merged.size();
         if (pens > most) {
-            made.warn(fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
-                                  "colours", pens, most));
+            made.warn(
+                fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                            "colours",
+                            pens, most));
         }
     }
     if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
@@ -290,9 +271,7 @@ Cost PrintWork::forecast() const {
         static std::mutex mutex;
         std::unique_lock lock(mutex, std::defer_lock);
         if (!is_vector(drawing_.format)) lock.lock();
-        const auto parts = seen_parts(grammar, print_.style, drawing_);
-        if (!parts) require_affordable(grammar, true, drawing_.budget);
-        cost = drawing_cost(grammar, parts ? &*parts : nullptr, print_, drawing_);
+        cost = drawing_cost(grammar, print_, drawing_);
     }
     const auto text = static_cast<double>(print_.pattern.size());
     const bool spline = print_.style.line == Line::spline;

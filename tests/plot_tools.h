@@ -2,7 +2,7 @@
 // apart.
 #pragma once
 
-#include "art/drawing/draw.h"
+#include "art/drawing/word_drawing.h"
 #include "art/plotter/plot.h"
 #include "engine/geometry/point_tree.h"
 #include "tests/print_tools.h"
@@ -31,7 +31,7 @@ struct PlacedPattern {
         diagnostics.throw_if_errors();
         print.page = page;
         print.title = pattern.text("title");
-        drawing = std::make_unique<Drawing>(grammar, print.style, DrawOptions{});
+        drawing = std::make_unique<WordDrawing>(grammar, print.style, DrawOptions{});
         drawing->place(print);
     }
     void read(PathSink& sink) const { drawing->read(print, sink); }

@@ -1,9 +1,8 @@
 #include "art/drawing/growth.h"
 
-#include "art/drawing/draw_view.h"
+#include "art/drawing/drawing.h"
 #include "art/image/image_file.h"
 #include "art/print/recipe_comments.h"
-#include "art/raster/raster.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
@@ -32,22 +31,22 @@ Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
 DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions options, const GrowthOptions& growth,
                      std::optional<SpaceBounds>& bounds) {
     options.begin = nullptr;
+    // The frame is that of the lines: dots lie between them.
+    options.border = options.colours_strokes = options.only_dots = false;
+    Style lines = style;
+    lines.dots.reset();
     DrawnExtent frame;
     const auto add = [&](const DrawnExtent& seen) {
         if (seen.box.empty()) return;
         frame.box.add(seen.box.low);
         frame.box.add(seen.box.high);
         frame.widest = std::max(frame.widest, seen.widest);
+        frame.around = std::max(frame.around, seen.around);
     };
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
-        const Grammar generation = generation_of(grammar, n);
-        if (const auto parts = seen_parts(generation, style, options)) {
-            add(SeenDrawing::extent_of(parts->whole(), style, options));
-            continue;
-        }
-        Drawing drawing(generation, style, options);
-        add(drawing.seen());
-        if (const auto own = drawing.bounds()) {
+        const auto drawing = make_drawing(generation_of(grammar, n), lines, options);
+        add(drawing->seen());
+        if (const auto own = drawing->bounds()) {
             if (!bounds) bounds = *own;
             bounds->low = glm::min(bounds->low, own->low);
             bounds->high = glm::max(bounds->high, own->high);
@@ -56,11 +55,22 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     return frame;
 }
 
+/// Turns a distance of dots into a step that all generations share: that of the last one with two dots.
+void set_step(const Grammar& grammar, const Style& style, DrawOptions& options, const GrowthOptions& growth) {
+    for (std::int64_t n = growth.last; n >= growth.first && !options.placement.step; --n) {
+        options.placement.step = make_drawing(generation_of(grammar, n), style, options)->fixed_step();
+    }
+    options.dot_spacing.reset();
+    if (!options.placement.step) {
+        throw std::runtime_error("dot spacing needs at least two dots; these drawings have fewer");
+    }
+}
+
 /// With the frame of this generation alone, if each is to have its own and it draws anything.
 DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions& options,
                    const GrowthOptions& growth, std::int64_t n) {
     DrawOptions result = options;
-    if (!growth.fits_each) return result;
+    if (!growth.fits_each || options.window) return result;
     std::optional<SpaceBounds> bounds;
     DrawOptions alone = options;
     alone.frame.reset();
@@ -107,16 +117,13 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
     named([&] { animation = open_animation(output.temporary(), size.width, size.height); });
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         Print print = given;
-        Drawing drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
-        report = drawing.place(print);
+        const auto drawing =
+            make_drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
+        report = drawing->place(print);
+        print.style = drawing->style();
         print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
         print.style.ground->alpha = 255;
-        std::unique_ptr<Rendering> rendering = drawing.rendering(print);
-        if (!rendering) {
-            auto raster = make_raster(print);
-            drawing.read(print, *raster);
-            rendering = std::move(raster);
-        }
+        const auto rendering = drawing->rendering(print);
         const auto channels = static_cast<std::size_t>(rendering->channels());
         std::vector<std::uint8_t> pixels;
         pixels.reserve(std::size_t(size.width) * std::size_t(size.height) * 3);
@@ -157,10 +164,14 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     }
     Print print = given;
     DrawOptions options = given_options;
+    options.may_be_empty = true;
     if (!is_vector(options.format)) prepare_images(options.threads);
+    if (options.dot_spacing) set_step(grammar, print.style, options, growth);
     std::optional<SpaceBounds> bounds;
-    options.frame = frame_of(grammar, print.style, options, growth, bounds);
-    if (options.frame->box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+    const DrawnExtent frame = frame_of(grammar, print.style, options, growth, bounds);
+    if (frame.box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+    // A window is itself what all show.
+    if (!options.window) options.frame = frame;
     if (print.style.camera.distance && bounds && !growth.fits_each) {
         // Only now it is known where a camera with perspective stands.
         print.style.camera.aim = bounds;

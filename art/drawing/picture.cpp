@@ -1,7 +1,5 @@
 #include "art/drawing/picture.h"
 
-#include "art/raster/raster.h"
-
 #include <array>
 #include <cstdlib>
 #include <stdexcept>
@@ -91,6 +89,21 @@ void Picture::rows(int first_row, int rows, std::span<const std::uint8_t> pixels
 
 void Picture::close() {
     named(file_, [&] { image_->close(); });
+}
+
+bool write_picture(Rendering& rendering, const Print& print, const DrawOptions& options, Output& output,
+                   const std::filesystem::path& file) {
+    Picture picture(print, options, rendering.channels(), output, file);
+    const auto watch = [&] {
+        if (options.watch) options.watch(0);
+    };
+    rendering.watch(watch);
+    rendering.render(options.threads, [&](int first_row, int rows, std::span<const std::uint8_t> pixels) {
+        watch();
+        picture.rows(first_row, rows, pixels);
+    });
+    picture.close();
+    return picture.is_blank();
 }
 
 }  // namespace sikku

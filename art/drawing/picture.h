@@ -1,9 +1,10 @@
 // art/drawing/picture.h: the pixels of a print on their way into a file.
 #pragma once
 
-#include "art/drawing/draw.h"
+#include "art/drawing/draw_options.h"
 #include "art/image/image_file.h"
 #include "art/print/screen.h"
+#include "art/raster/raster.h"
 #include "engine/base/output.h"
 
 #include <cstdint>
@@ -38,5 +39,9 @@ private:
     std::vector<std::uint8_t> greys_, screened_;
     std::unique_ptr<ImageWriter> image_;
 };
+
+/// Renders a whole picture into `output`. @return true if nothing of the drawing is visible
+bool write_picture(Rendering& rendering, const Print& print, const DrawOptions& options, Output& output,
+                   const std::filesystem::path& file);
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 
 #include "art/draw_settings.h"
 #include "art/gallery/page.h"
+#include "art/print_cell.h"
 #include "art/prints.h"
 #include "art/sheet/sheet.h"
 #include "engine/base/output_file.h"
@@ -190,18 +191,8 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     const GalleryPattern* row = nullptr;
     for (auto& [job, loaded] : prints) {
         const DrawSettings settings = read_draw_settings(job->values());
-        SheetCell cell;
-        Diagnostics diagnostics;
-        cell.style = read_style(loaded.pattern(), settings.dpi, diagnostics);
-        diagnostics.throw_if_errors();
-        cell.placement.rotate = settings.rotate;
-        cell.placement.mirror = settings.mirror;
-        cell.placement.step = settings.step;
-        cell.window = settings.window;
-        cell.budget = settings.budget;
-        cell.title = loaded.pattern().text("title");
+        SheetCell cell = print_cell(loaded, settings);
         if (cell.title.empty()) cell.title = job->pattern->name;
-        cell.grammar = std::make_shared<const Grammar>(loaded.grammar());
         if (has_rows) {
             cell.caption = {fmt::format("n = {}", cell.grammar->steps())};
             if (job->pattern.get() != row) cell.heading = cell.title;

@@ -59,16 +59,18 @@ std::vector<Colour> kolam_palette() {
     return palette;
 }
 
-void draw_border(const Print& print, double width, int colour, PathSink& sink) {
-    const Page& page = print.page;
+void draw_border(const Print& print, const Window& window, double width, int colour, PathSink& sink) {
     const Placement& placement = print.placement;
     const double radius = width * loop_share;
     const double line = width * line_share;
     // Page units, y down, clockwise from the top left corner; the sides lie one loop within the margin.
-    const double inset = page.margin + 2 * radius + line / 2;
-    const std::array<glm::dvec2, 4> corners = {glm::dvec2(inset, inset), glm::dvec2(page.width - inset, inset),
-                                               glm::dvec2(page.width - inset, page.height - inset),
-                                               glm::dvec2(inset, page.height - inset)};
+    const double inset = window.margin + 2 * radius + line / 2;
+    const double left = window.left + inset;
+    const double top = window.top + inset;
+    const double right = window.left + window.width - inset;
+    const double bottom = window.top + window.height - inset;
+    const std::array<glm::dvec2, 4> corners = {glm::dvec2(left, top), glm::dvec2(right, top),
+                                               glm::dvec2(right, bottom), glm::dvec2(left, bottom)};
     const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(-1, 0), glm::dvec2(0, -1)};
     const double handle = 0.5522847498307936 * radius;  // of a quarter of a circle as a Bézier
 

@@ -125,9 +125,9 @@ double border_room(double width);
 std::vector<Colour> border_colours(const std::optional<Colour>& ground);
 /// Colours that distinguish the lines of a kolam on dark ground, rice flour first; the same as those of grids.
 std::vector<Colour> kolam_palette();
-/// A frame within the page's margins, of that width: a line of red earth between thin ones of rice flour,
-/// closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
+/// A frame within the margin of a window of the page, of that width: a line of red earth between thin ones of rice
+/// flour, closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
 /// the palette of `print`, which is placed.
-void draw_border(const Print& print, double width, int colour, PathSink& sink);
+void draw_border(const Print& print, const Window& window, double width, int colour, PathSink& sink);
 
 }  // namespace sikku

@@ -32,7 +32,8 @@ struct Print {
 struct Window {
     double left = 0.0, top = 0.0;
     double width = 0.0, height = 0.0;
-    bool clips = false;  ///< what of a drawing lies outside is cut off
+    bool clips = false;   ///< what of a drawing lies outside is cut off
+    double margin = 0.0;  ///< within it, on all four sides, outside of a border
 };
 
 /// The ink of parts too small to be seen: so much line, spread like that. In turtle steps.

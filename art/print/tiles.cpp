@@ -3,53 +3,174 @@
 #include "art/print/lettering.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <glm/matrix.hpp>
 #include <stdexcept>
 #include <utility>
 
 namespace sikku {
 namespace {
 
-constexpr double mark = 4.0;    // millimetres, half of a cross
-constexpr double letter = 2.5;  // millimetres
+constexpr double arm = 4.0;          // millimetres, half of a cross
+constexpr double letter = 2.5;       // millimetres
+constexpr double least_letter = 1.2;
+constexpr double halo_width = 0.7;   // millimetres around lines
+constexpr double ink_width = 0.2;
 constexpr int most_sheets = 400;
+
+/// A line of sheets along one axis.
+struct Row {
+    int count = 0;
+    double first = 0;  ///< where what the first shows begins
+};
+
+/// @param length  of the page, of which `margin` on both sides need not be shown
+Row row_of(double length, double margin, double room, double overlap) {
+    const double inner = length - 2 * margin;
+    const double count = std::max(1.0, std::ceil((inner - room) / (room - overlap) - 1e-9) + 1);
+    const double all = room + (count - 1) * (room - overlap);
+    return {static_cast<int>(std::min(count, 1e6)), (length - all) / 2};
+}
+
+/// Drawn twice: a wide line in the paper's colour, so that the thin one is visible on any drawing.
+void draw_mark(glm::dvec2 from, glm::dvec2 to, double width, PathSink& sink) {
+    for (const Pen& pen : {Pen{width + halo_width, true, 0}, Pen{width, true, 1}}) {
+        sink.begin_stroke({from.x, -from.y}, pen);
+        const std::array<glm::dvec2, 1> end = {glm::dvec2(to.x, -to.y)};
+        sink.lines(end);
+        sink.end_stroke(false);
+    }
+}
+
+/// Turns letters upwards around the place where they begin.
+class Upwards : public PathSink {
+public:
+    Upwards(PathSink& sink, glm::dvec2 start) : sink_(sink), start_(start) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(turned(start), pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(all(ends)); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(all(controls)); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    glm::dvec2 turned(glm::dvec2 point) const {
+        const glm::dvec2 way = point - start_;
+        return start_ + glm::dvec2(-way.y, way.x);
+    }
+    std::span<const glm::dvec2> all(std::span<const glm::dvec2> points) {
+        points_.clear();
+        for (const glm::dvec2 point : points) points_.push_back(turned(point));
+        return points_;
+    }
+    PathSink& sink_;
+    glm::dvec2 start_;
+    std::vector<glm::dvec2> points_;
+};
+
+/// On paper. @param start  y down
+void write_plain(const std::string& text, glm::dvec2 start, double height, PathSink& sink) {
+    write_text(text, {start.x, -start.y}, height, Pen{0.09 * height, true, 2}, sink);
+}
+
+/// On the print. @param start  y down
+void write_mark(const std::string& text, glm::dvec2 start, double height, bool upwards, PathSink& sink) {
+    const glm::dvec2 from(start.x, -start.y);
+    Upwards turned(sink, from);
+    PathSink& letters = upwards ? turned : sink;
+    for (const Pen& pen : {Pen{0.3 * height + halo_width, true, 0}, Pen{0.1 * height, true, 1}}) {
+        write_text(text, from, height, pen, letters);
+    }
+}
+
+/// The sheet's number, in a strip that is cut off or covered by a neighbour, or else in the margin.
+void write_number(const Tiling& tiling, const Tile& tile, const std::string& title, PathSink& sink) {
+    const glm::dvec2 corner = tile_corner(tiling, tile);
+    const Window& area = tile.area;
+    const double strip = tiling.overlap / 2;
+    const double height = std::min(letter, 0.55 * strip);
+    const std::string number = fmt::format("{}-{}", tile.row, tile.column);
+    const auto text = [&](double size, double room) {
+        const double rest = room - text_width(" " + number, size);
+        return title.empty() || rest <= 0 ? number : shortened(title, size, rest) + " " + number;
+    };
+    const glm::dvec2 at = glm::dvec2(area.left, area.top) - corner;
+    const double inset = 2 * arm + strip;
+    if (height < least_letter || (tiling.rows == 1 && tiling.columns == 1)) {
+        const double size = std::min(letter, 0.6 * tiling.sheet.margin);
+        if (size < least_letter) return;
+        return write_plain(text(size, area.width - 2 * inset),
+                           at + glm::dvec2(inset, area.height + 0.8 * tiling.sheet.margin), size, sink);
+    }
+    const double base = (strip + height) / 2;
+    if (tile.row < tiling.rows || tile.row > 1) {
+        const double y = tile.row < tiling.rows ? area.height - strip + base : base;
+        return write_mark(text(height, area.width - 2 * inset), at + glm::dvec2(inset, y), height, false, sink);
+    }
+    const double x = tile.column < tiling.columns ? area.width - strip + base : base;
+    write_mark(text(height, area.height - 2 * inset), at + glm::dvec2(x, area.height - inset), height, true, sink);
+}
 
 }  // namespace
 
-std::vector<Tile> tiles_of(const Page& page, const TileOptions& options) {
-    const glm::dvec2 room{options.sheet.width - 2 * options.sheet.margin,
-                          options.sheet.height - 2 * options.sheet.margin};
-    const glm::dvec2 way = room - options.overlap;
-    if (!(options.overlap >= 0 && way.x > 0 && way.y > 0)) {
-        throw std::runtime_error(
-            fmt::format("sheets of {:g} x {:g} mm within their margins have no room for an overlap "
-                        "of {:g} mm",
-                        room.x, room.y, options.overlap));
-    }
-    const auto count = [&](double length, double shown, double next) {
-        return std::max(1.0, std::ceil((length - shown) / next - 1e-9) + 1);
-    };
-    const double columns = count(page.width, room.x, way.x);
-    const double rows = count(page.height, room.y, way.y);
-    if (columns * rows > most_sheets) {
-        throw std::runtime_error(fmt::format("{:.0f} sheets: at most {} are made", columns * rows, most_sheets));
-    }
-    // What is left over is shared by the outer sides.
-    const glm::dvec2 all{room.x + (columns - 1) * way.x, room.y + (rows - 1) * way.y};
-    const glm::dvec2 first = (glm::dvec2(page.width, page.height) - all) / 2.0;
-    std::vector<Tile> tiles;
-    for (int row = 0; row < static_cast<int>(rows); ++row) {
-        for (int column = 0; column < static_cast<int>(columns); ++column) {
-            tiles.push_back(
-                {row + 1, column + 1, {first.x + column * way.x, first.y + row * way.y, room.x, room.y, false}});
+Tiling tiling_of(const Page& page, const TileOptions& options) {
+    Tiling best;
+    double least = 0;
+    for (const bool is_turned : {false, true}) {
+        Tiling tiling;
+        tiling.sheet = options.sheet;
+        tiling.overlap = options.overlap;
+        if (is_turned) std::swap(tiling.sheet.width, tiling.sheet.height);
+        const glm::dvec2 room = glm::dvec2(tiling.sheet.width, tiling.sheet.height) - 2 * tiling.sheet.margin;
+        if (!(options.overlap >= 0 && options.overlap < std::min(room.x, room.y))) {
+            throw std::runtime_error(
+                fmt::format("sheets of {:g} x {:g} mm within their margins have no room for an overlap "
+                            "of {:g} mm",
+                            room.x, room.y, options.overlap));
         }
+        const Row across = row_of(page.width, page.margin, room.x, options.overlap);
+        const Row down = row_of(page.height, page.margin, room.y, options.overlap);
+        const double count = static_cast<double>(across.count) * down.count;
+        if (is_turned && count >= least) break;
+        least = count;
+        tiling.columns = across.count;
+        tiling.rows = down.count;
+        if (count > most_sheets) {
+            best = tiling;
+            continue;
+        }
+        // An interval of the page, from the sheets' own.
+        const auto part = [](double from, double to, double length) {
+            return glm::dvec2(std::clamp(from, 0.0, length), std::clamp(to, 0.0, length));
+        };
+        const double half = options.overlap / 2;
+        const glm::dvec2 way = room - options.overlap;
+        for (int row = 0; row < down.count; ++row) {
+            for (int column = 0; column < across.count; ++column) {
+                const double x = across.first + column * way.x, y = down.first + row * way.y;
+                const glm::dvec2 shown_x = part(x, x + room.x, page.width);
+                const glm::dvec2 shown_y = part(y, y + room.y, page.height);
+                const glm::dvec2 cut_x(column > 0 ? x + half : shown_x.x,
+                                       column + 1 < across.count ? x + room.x - half : shown_x.y);
+                const glm::dvec2 cut_y(row > 0 ? y + half : shown_y.x,
+                                       row + 1 < down.count ? y + room.y - half : shown_y.y);
+                const auto window = [](glm::dvec2 of_x, glm::dvec2 of_y) {
+                    return Window{of_x.x, of_y.x, of_x.y - of_x.x, of_y.y - of_y.x, true};
+                };
+                tiling.tiles.push_back({row + 1, column + 1, window({x, x + room.x}, {y, y + room.y}),
+                                        window(shown_x, shown_y), window(cut_x, cut_y)});
+            }
+        }
+        best = std::move(tiling);
     }
-    return tiles;
+    if (least > most_sheets) {
+        throw std::runtime_error(fmt::format("{:.0f} sheets: expected at most {}", least, most_sheets));
+    }
+    return best;
 }
 
 std::filesystem::path tile_file(const std::filesystem::path& file, const Tile& tile) {
@@ -59,133 +180,70 @@ std::filesystem::path tile_file(const std::filesystem::path& file, const Tile& t
     return named;
 }
 
-Print tile_print(const Print& print, const Tile& tile, const TileOptions& options) {
-    Print sheet = print;
-    sheet.page = options.sheet;
-    sheet.title = fmt::format("{} ({}-{})", print.title, tile.row, tile.column);
-    sheet.placement.to_page[2] +=
-        glm::dvec2(options.sheet.margin - tile.shown.left, options.sheet.margin - tile.shown.top);
-    return sheet;
+glm::dvec2 tile_corner(const Tiling& tiling, const Tile& tile) {
+    return {tile.area.left - tiling.sheet.margin, tile.area.top - tiling.sheet.margin};
 }
 
-void draw_tile_marks(const Print& sheet, const Tile& tile, const TileOptions& options, int colour, PathSink& sink) {
-    const Placement& placement = sheet.placement;
-    const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(placement.to_page[0], placement.to_page[1]));
-    const auto drawn = [&](glm::dvec2 point) { return back * (point - placement.to_page[2]); };
-    const StrokeWidth& stroke = sheet.style.stroke;
-    const Pen pen{0.1 / (stroke.in_steps ? placement.step : 1.0) / stroke.unit, true, colour};
-    const auto line = [&](glm::dvec2 from, glm::dvec2 to) {
-        sink.begin_stroke(drawn(from), pen);
-        const std::array<glm::dvec2, 1> end = {drawn(to)};
-        sink.lines(end);
-        sink.end_stroke(false);
+Print mark_print(const Page& page, double dpi, const std::optional<Colour>& ground) {
+    Print print;
+    print.page = page;
+    print.dpi = dpi;
+    print.title = "marks";
+    const Colour halo = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
+    const Colour ink = lightness(halo) < 0.6 ? Colour{255, 255, 255, 255} : Colour{0, 0, 0, 255};
+    print.style.palette = {{halo.red, halo.green, halo.blue, 255}, ink, {0x20, 0x20, 0x20, 255}};
+    print.style.stroke = {1.0, false, 1.0};
+    print.placement.to_page[1].y = -1.0;
+    return print;
+}
+
+void draw_tile_marks(const Tiling& tiling, const Tile& tile, const std::string& title, PathSink& sink) {
+    const glm::dvec2 corner = tile_corner(tiling, tile);
+    const Window& area = tile.area;
+    const glm::dvec2 low = glm::dvec2(area.left, area.top), high = low + glm::dvec2(area.width, area.height);
+    const Window& cut = tile.cut;
+    for (const double x : {cut.left, cut.left + cut.width}) {
+        for (const double y : {cut.top, cut.top + cut.height}) {
+            const auto within = [&](double dx, double dy) {
+                return glm::clamp(glm::dvec2(x + dx, y + dy), low, high) - corner;
+            };
+            draw_mark(within(-arm, 0), within(arm, 0), ink_width, sink);
+            draw_mark(within(0, -arm), within(0, arm), ink_width, sink);
+        }
+    }
+    write_number(tiling, tile, title, sink);
+}
+
+void draw_tile_overview(const Tiling& tiling, const Page& page, const Window& place, const std::string& title,
+                        PathSink& sink) {
+    const double scale = place.width / page.width;
+    const double width = tiling.sheet.width - 2 * tiling.sheet.margin;
+    double y = place.top;
+    const auto write = [&](const std::string& text, double height) {
+        y -= 0.9 * height;
+        write_plain(shortened(text, height, width), {tiling.sheet.margin, y}, height, sink);
+        y -= height;
     };
-    const double left = options.sheet.margin;
-    const double top = options.sheet.margin;
-    const double right = left + tile.shown.width;
-    const double bottom = top + tile.shown.height;
-    for (const glm::dvec2 corner :
-         {glm::dvec2(left, top), glm::dvec2(right, top), glm::dvec2(right, bottom), glm::dvec2(left, bottom)}) {
-        line(corner - glm::dvec2(mark, 0), corner + glm::dvec2(mark, 0));
-        line(corner - glm::dvec2(0, mark), corner + glm::dvec2(0, mark));
+    write(fmt::format("{} sheets of {:g} x {:g} mm; neighbours share {:g} mm: cut or fold along the crosses",
+                      tiling.tiles.size(), tiling.sheet.width, tiling.sheet.height, tiling.overlap),
+          letter);
+    if (!title.empty()) write(title, 2 * letter);
+    for (const Tile& tile : tiling.tiles) {
+        const Window& cut = tile.cut;
+        const auto on_sheet = [&](double px, double py) {
+            return glm::dvec2(place.left + px * scale, place.top + py * scale);
+        };
+        const glm::dvec2 low = on_sheet(cut.left, cut.top);
+        const glm::dvec2 high = on_sheet(cut.left + cut.width, cut.top + cut.height);
+        draw_mark(low, {high.x, low.y}, ink_width, sink);
+        draw_mark({high.x, low.y}, high, ink_width, sink);
+        draw_mark(high, {low.x, high.y}, ink_width, sink);
+        draw_mark({low.x, high.y}, low, ink_width, sink);
+        const std::string number = fmt::format("{}-{}", tile.row, tile.column);
+        const double height = std::min(0.25 * (high.y - low.y), 0.25 * (high.x - low.x));
+        const glm::dvec2 middle = (low + high) / 2.0;
+        write_mark(number, {middle.x - text_width(number, height) / 2, middle.y + height / 2}, height, false, sink);
     }
-    // Letters are written with y up.
-    class Lettering : public PathSink {
-    public:
-        using Place = std::function<glm::dvec2(glm::dvec2)>;
-        Lettering(PathSink& sink, Place place) : sink_(sink), place_(std::move(place)) {}
-        void begin_stroke(glm::dvec2 start, const Pen& with) override { sink_.begin_stroke(place_(start), with); }
-        void lines(std::span<const glm::dvec2> ends) override { sink_.lines(placed(ends)); }
-        void curves(std::span<const glm::dvec2> controls) override { sink_.curves(placed(controls)); }
-        void change_pen(const Pen& with) override { sink_.change_pen(with); }
-        void end_stroke(bool closed) override { sink_.end_stroke(closed); }
-        void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-        void disc(glm::dvec2, double, const Pen&) override {}
-
-    private:
-        std::span<const glm::dvec2> placed(std::span<const glm::dvec2> points) {
-            points_.clear();
-            for (const glm::dvec2 point : points) points_.push_back(place_(point));
-            return points_;
-        }
-        PathSink& sink_;
-        Place place_;
-        std::vector<glm::dvec2> points_;
-    } lettering(sink, [&](glm::dvec2 p) { return drawn({p.x, -p.y}); });
-    write_text(sheet.title, {left + 2 * mark, -(bottom + letter + 1.0)}, letter, pen, lettering);
-}
-
-bool ClipSink::sees(std::span<const glm::dvec2> points) const {
-    Box box;
-    box.add(at_);
-    for (const glm::dvec2 point : points) box.add(point);
-    return box.low.x <= box_.high.x && box.high.x >= box_.low.x && box.low.y <= box_.high.y &&
-           box.high.y >= box_.low.y;
-}
-
-void ClipSink::lift(bool closed) {
-    if (is_down_) sink_.end_stroke(closed);
-    is_down_ = false;
-}
-
-void ClipSink::start() {
-    if (!is_down_) sink_.begin_stroke(at_, pen_);
-    is_down_ = true;
-}
-
-void ClipSink::begin_stroke(glm::dvec2 start_at, const Pen& pen) {
-    at_ = start_at;
-    pen_ = pen;
-    is_whole_ = true;
-}
-
-void ClipSink::lines(std::span<const glm::dvec2> ends) {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        const auto end = ends.subspan(i, 1);
-        if (sees(end)) {
-            start();
-            sink_.lines(end);
-        } else {
-            lift(false);
-            is_whole_ = false;
-        }
-        at_ = end.front();
-    }
-}
-
-void ClipSink::curves(std::span<const glm::dvec2> controls) {
-    for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-        const auto curve = controls.subspan(i, 3);
-        if (sees(curve)) {
-            start();
-            sink_.curves(curve);
-        } else {
-            lift(false);
-            is_whole_ = false;
-        }
-        at_ = curve.back();
-    }
-}
-
-void ClipSink::change_pen(const Pen& pen) {
-    pen_ = pen;
-    if (is_down_) sink_.change_pen(pen);
-}
-
-void ClipSink::end_stroke(bool closed) {
-    lift(closed && is_whole_);
-}
-
-void ClipSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
-    sink_.polygon(vertices, pen);
-}
-
-void ClipSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
-    sink_.area(outline, pen);
-}
-
-void ClipSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
-    sink_.disc(centre, radius, pen);
 }
 
 }  // namespace sikku

@@ -1,6 +1,6 @@
 #include "art/sheet/sheet.h"
 
-#include "art/drawing/draw_view.h"
+#include "art/drawing/drawing.h"
 #include "art/drawing/picture.h"
 #include "art/image/image_file.h"
 #include "art/print/lettering.h"
@@ -28,6 +28,7 @@ namespace sikku {
 namespace {
 
 constexpr double fitted_side = 190.0;   // millimetres of an A4 page within its margins, which pens are meant for
+constexpr double border_margin = 0.045;  // of a cell outside of its border, as part of its shorter side
 constexpr double finest_line = 0.1;     // millimetres that every printer can print
 constexpr double widest_line = 0.035;   // as part of a cell: of early generations, whose steps are long
 constexpr double line_pitch = 1.75;     // of lines of text, as part of the height of their capitals
@@ -49,11 +50,9 @@ struct TextLine {
 
 /// What of each cell is known before it has a place.
 struct Subject {
-    std::shared_ptr<const Grammar> grammar;
-    std::unique_ptr<SeenDrawing> seen;  ///< or
     std::unique_ptr<Drawing> drawing;
     DrawingCost cost;  ///< of a picture
-    const DrawnExtent& extent() const { return seen ? seen->extent() : drawing->extent(); }
+    DrawnExtent extent;
     glm::dvec2 size{0.0};  ///< in steps, without the pen
     std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
 };
@@ -81,7 +80,7 @@ struct Plan {
 /// A cell as pixels of the sheet.
 struct CellPicture {
     std::size_t cell = 0;
-    Print print;
+    Print print;  ///< whose page is the cell
     int left = 0, right = 0;
     int top = 0, bottom = 0;
 };
@@ -126,6 +125,10 @@ DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     drawing.placement = cell.placement;
     drawing.placement.scale = 1.0;
     drawing.window = cell.window;
+    drawing.only_dots = cell.only_dots;
+    drawing.colours_strokes = cell.colours_strokes;
+    drawing.border = cell.border;
+    drawing.may_be_empty = cell.may_be_empty;
     drawing.budget = cell.budget;
     return drawing;
 }
@@ -144,8 +147,16 @@ class Sheet {
 public:
     Sheet(const std::vector<SheetCell>& cells, const SheetOptions& options) : cells_(cells), options_(options) {
         if (cells.empty()) throw std::runtime_error("a sheet without prints");
-        print_.page = options.page;
+        if (options_.format != PrintFormat::pdf) {
+            // Only PDF tells the sheet from its bleed.
+            const double bleed = std::exchange(options_.press.bleed, 0.0);
+            options_.page.width += 2 * bleed;
+            options_.page.height += 2 * bleed;
+            options_.page.margin += bleed;
+        }
+        print_.page = options_.page;
         print_.dpi = options.dpi;
+        print_.press = options_.press;
         print_.title = options.title;
         print_.pattern = options.pattern;
         print_.made = options.made;
@@ -156,6 +167,8 @@ public:
         // Text is laid out in millimetres.
         print_.placement.to_page[1].y = -1.0;
         print_.placement.step = 1.0;
+        if (options_.format != PrintFormat::pdf) print_ = as_picture(print_);
+        options_.ground = print_.style.ground;
         measure();
     }
 
@@ -186,14 +199,14 @@ private:
     Measures measures(const Grid& grid) const;
     double drawn_step(const Subject& subject, double width, double height, double factor) const;
     double pen_factor(const SheetCell& cell, double width, double height) const;
+    void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
     std::vector<Strip> strips(PixelSize size, Colour ground) const;
-    std::unique_ptr<Rendering> raster(const CellPicture& cell) const;
     Room room(const std::vector<Strip>& strips, double stride) const;
 
     const std::vector<SheetCell>& cells_;
-    const SheetOptions& options_;
+    SheetOptions options_;
     Print print_;
     std::vector<Subject> subjects_;
     double usual_shape_ = 1.0;  ///< height by width of the drawings
@@ -215,18 +228,13 @@ void Sheet::measure() {
             DrawOptions drawing = cell_options(cell, options_);
             if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
             Subject& subject = subjects_[i];
-            subject.grammar = std::make_shared<const Grammar>(shorten(*cell.grammar));
-            auto parts = seen_parts(*subject.grammar, cell.style, drawing);
-            const Print print = cell_print(cell, options_, cells_.size());
-            subject.cost = drawing_cost(*subject.grammar, parts ? &*parts : nullptr, print, drawing);
-            if (parts) {
-                subject.seen =
-                    std::make_unique<SeenDrawing>(*subject.grammar, std::move(*parts), cell.style, drawing);
-            } else {
-                subject.drawing = std::make_unique<Drawing>(*subject.grammar, cell.style, drawing);
-            }
-            const Box& box = subject.extent().box;
-            subjects_[i].size = box.high - box.low;
+            const Grammar grammar = shorten(*cell.grammar);
+            subject.cost = drawing_cost(grammar, cell_print(cell, options_, cells_.size()), drawing);
+            subject.drawing = make_drawing(grammar, cell.style, drawing);
+            subject.extent = cell.may_be_empty ? subject.drawing->seen() : subject.drawing->extent();
+            if (subject.extent.box.empty()) subject.extent.box = {glm::dvec2(0.0), glm::dvec2(0.0)};
+            const Box& box = subject.extent.box;
+            subject.size = box.high - box.low;
         });
     });
     std::vector<double> shapes;
@@ -342,13 +350,15 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
 /// Millimetres of a step of what is fitted into a cell.
 double Sheet::drawn_step(const Subject& subject, double width, double height, double factor) const {
     const Style& style = cells_[static_cast<std::size_t>(&subject - subjects_.data())].style;
-    const double widest = subject.extent().widest;
+    const double widest = subject.extent.widest;
     Page page{width, height, options_.inset * std::min(width, height)};
+    const double border = subject.drawing->border_space(page);
+    if (border > 0) page.margin = border + border_margin * std::min(width, height);
     const double ink_steps = style.stroke.in_steps ? widest / 2 : 0;
     const double ink_millimetres = style.stroke.in_steps ? 0 : widest / 2 * factor;
     PlacementOptions fitted;
-    fitted.scale = std::min(1.0, subject.grammar->scale_percent() / 100);
-    return place(subject.extent().box, page, fitted, ink_steps, ink_millimetres).step;
+    fitted.scale = std::min(1.0, subject.drawing->scale());
+    return place(subject.extent.box, page, fitted, ink_steps, ink_millimetres).step;
 }
 
 /// By how much pens are thinner, or thicker, than on a page of their own.
@@ -438,7 +448,8 @@ const Plan& Sheet::arrange() {
         const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
         for (int column = 0; column < best->rows[row]; ++column, ++next) {
             PlacedCell cell;
-            cell.window = {m.first.x + indent + column * m.across, top, m.width, m.height, false};
+            cell.window = {m.first.x + indent + column * m.across, top, m.width, m.height, false,
+                           border_margin * std::min(m.width, m.height)};
             cell.row = static_cast<int>(row);
             write_caption(cells_[next], cell.window, m.letters);
             plan_.layout.windows.push_back(cell.window);
@@ -461,16 +472,16 @@ const Plan& Sheet::arrange() {
         PlacedCell& cell = plan_.cells[i];
         Print& print = cell.print;
         const double factor = pen_factor(cells_[i], m.width, m.height);
-        print.style = subjects_[i].drawing ? subjects_[i].drawing->style() : cells_[i].style;
+        print.style = subjects_[i].drawing->style();
         print.title = cells_[i].title;
         print.dpi = options_.dpi;
         print.page = {m.width, m.height, 0.0};
         PlacementOptions placement = cells_[i].placement;
         placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
-        print.placement = place(subjects_[i].extent().box, print.page, placement, 0.0, 0.0);
+        print.placement = place(subjects_[i].extent.box, print.page, placement, 0.0, 0.0);
         print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
         print.page = options_.page;
-        const double widest = subjects_[i].extent().widest;
+        const double widest = subjects_[i].extent.widest;
         double pen = widest * (print.style.stroke.in_steps ? *placement.step : factor);
         double thinner = print.style.stroke.in_steps ? 1.0 : factor;
         const double widest_pen = widest_line * std::min(m.width, m.height);
@@ -480,10 +491,30 @@ const Plan& Sheet::arrange() {
         }
         print.style.stroke.value *= thinner;
         print.style.stroke.unit *= thinner;
+        if (print.style.dots && print.style.dots->size && !print.style.dots->size->in_steps) {
+            print.style.dots->size->value *= factor;
+        }
         const glm::dvec2 size = subjects_[i].size * *placement.step + pen;
         cell.window.clips = cells_[i].window || size.x > m.width || size.y > m.height;
+        print.press = options_.press;
+        if (options_.format != PrintFormat::pdf) print = as_picture(print);
     }
+    check_inks();
     return plan_;
+}
+
+/// Spot colours may be those of any cell. @throws std::runtime_error if one is of none
+void Sheet::check_inks() const {
+    Style all = print_.style;
+    for (const PlacedCell& cell : plan_.cells) {
+        const Style& style = cell.print.style;
+        if (style.ground) all.palette.push_back(*style.ground);
+        for (int i = 0; i < static_cast<int>(style.palette.size()); ++i) {
+            if (style.stroked) all.palette.push_back(style.line_colour(Pen{.colour = i}));
+            all.palette.push_back(style.fill_colour(Pen{.colour = i}));
+        }
+    }
+    check_spots(options_.press, all);
 }
 
 /// Those that are seen between two heights, in millimetres.
@@ -499,13 +530,7 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
         named(cells_[i], [&] {
-            if (!subjects_[i].seen) return subjects_[i].drawing->read(plan_.cells[i].print, writer);
-            // Of the sheet, its cell is seen.
-            const Window& window = plan_.cells[i].window;
-            Print print = plan_.cells[i].print;
-            print.page = {window.width, window.height, 0.0};
-            print.placement.to_page[2] -= glm::dvec2(window.left, window.top);
-            subjects_[i].seen->draw_lines(print, writer);
+            subjects_[i].drawing->read_visible(plan_.cells[i].print, plan_.cells[i].window, writer);
         });
     }
     writer.finish();
@@ -540,6 +565,9 @@ std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
         cell.right = std::max(cell.left + 1, pixels(window.left + window.width, size.width));
         cell.top = pixels(window.top, size.height - 1);
         cell.bottom = std::max(cell.top + 1, pixels(window.top + window.height, size.height));
+        cell.print.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre,
+                           window.margin};
+        cell.print.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
         strips[static_cast<std::size_t>(placed.row)].cells.push_back(std::move(cell));
     }
     for (std::size_t row = 1; row < strips.size(); ++row) {
@@ -550,24 +578,6 @@ std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
     }
     strips.back().bottom = size.height;
     return strips;
-}
-
-/// A drawing, read, with its place on the sheet in pixels.
-std::unique_ptr<Rendering> Sheet::raster(const CellPicture& cell) const {
-    const double millimetre = options_.dpi / 25.4;
-    const Subject& subject = subjects_[cell.cell];
-    Print part = cell.print;
-    part.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre, 0.0};
-    part.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
-    if (auto solid = subject.seen ? nullptr : subject.drawing->rendering(part)) return solid;
-    auto raster = make_raster(part);
-    named(cells_[cell.cell], [&] {
-        if (!subject.seen) return subject.drawing->read(part, *raster);
-        raster->expect({});
-        subject.seen->read(part, 1 / millimetre, *raster, cells_[cell.cell].budget,
-                           [this](std::uint64_t symbols) { watch(symbols); });
-    });
-    return raster;
 }
 
 /// Copies the rows of a raster that lie in the band to their place.
@@ -590,6 +600,13 @@ void render(const Rendering& raster, int left, int top, int height, int channels
     });
 }
 
+/// Of greys.
+void keep_first_channel(std::vector<std::uint8_t>& pixels, int channels) {
+    const std::size_t count = pixels.size() / static_cast<std::size_t>(channels);
+    for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i * static_cast<std::size_t>(channels)];
+    pixels.resize(count);
+}
+
 void Sheet::write_pixels(Output& output, const std::filesystem::path& file) const {
     const PixelSize size = pixel_size(options_.page, options_.dpi);
     const double millimetre = options_.dpi / 25.4;
@@ -602,7 +619,8 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
     const int channels = ground.alpha < 255 ? 4 : 3;
     const std::size_t stride = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
     const Room room = this->room(all, static_cast<double>(stride));
-    Picture picture(print_, drawing, channels, output, file);
+    const bool is_one_channel = options_.press.bits == 1 && options_.press.screen == Screen{};
+    Picture picture(print_, drawing, is_one_channel ? 1 : channels, output, file);
     oneapi::tbb::task_arena readers(room.readers);
     for (const Strip& strip : all) {
         if (strip.bottom == strip.top) continue;
@@ -623,14 +641,17 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
                 oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
                     const CellPicture& cell = strip.cells[i];
                     if (cell.bottom <= band.top || cell.top >= band.bottom) return;
-                    if (!rasters[i]) {
-                        rasters[i] = raster(cell);
-                        rasters[i]->watch([&] { watch(0); });
-                    }
-                    render(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
+                    named(cells_[cell.cell], [&] {
+                        if (!rasters[i]) {
+                            rasters[i] = subjects_[cell.cell].drawing->rendering(cell.print);
+                            rasters[i]->watch([&] { watch(0); });
+                        }
+                        render(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
+                    });
                     if (cell.bottom <= band.bottom) rasters[i].reset();
                 });
             });
+            if (is_one_channel) keep_first_channel(band.pixels, channels);
             picture.rows(band.top, band.bottom - band.top, band.pixels);
         }
     }
@@ -700,11 +721,8 @@ double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& opt
     double most = 0, lines = 0;
     for (const SheetCell& cell : cells) {
         named(cell, [&] {
-            const DrawOptions drawing = cell_options(cell, options);
-            const Grammar grammar = shorten(*cell.grammar);
-            const auto parts = seen_parts(grammar, cell.style, drawing);
-            const Print print = cell_print(cell, options, cells.size());
-            const DrawingCost cost = drawing_cost(grammar, parts ? &*parts : nullptr, print, drawing);
+            const DrawingCost cost =
+                drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
             most = std::max(most, cost.memory);
             lines += cost.lines_memory;
         });

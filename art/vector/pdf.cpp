@@ -150,9 +150,9 @@ struct Layer : VectorLayer {
     int points = 0;                  ///< of the open path
 };
 
-class Writer final : public VectorWriter<Layer> {
+class Writer final : public VectorWriter<Layer, PagesWriter> {
 public:
-    Writer(const Print& print, Output& file) : VectorWriter(print, file), edge_(press_edge(print.press)) {
+    Writer(const Print& print, Output& file) : VectorWriter(print, file), size_(print.page), edge_(press_edge(print.press)) {
         const double longest =
             (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
@@ -168,9 +168,32 @@ public:
         take_part(part, window);
     }
 
+    void begin_page(const Print& page, const Window& shown, glm::dvec2 at, double scale) override {
+        end_part();
+        if (is_shared_) {
+            end_page();
+            page_ = new_object();
+        } else {
+            shared_ = std::exchange(contents_, {});
+        }
+        is_shared_ = true;
+        page_print_ = page;
+        size_ = page.page;
+        const Window target{at.x, at.y, scale * shown.width, scale * shown.height, true};
+        const double height = print_.page.height;
+        paint(write_plain_stream(fmt::format(
+            "q {} W n {} 0 0 {} {} {} cm\n", rectangle(target, 0.0), decimal(scale, 14), decimal(scale, 14),
+            user(edge_ + at.x - scale * (shown.left + edge_)),
+            user(edge_ + size_.height - at.y - scale * (edge_ + height - shown.top)))));
+        contents_ += shared_;
+        paint(write_plain_stream("Q\n"));
+        take_part(page_print_, {0.0, 0.0, size_.width, size_.height, false});
+    }
+
     void finish() override {
         end_part();
         write_marks();
+        end_page();
         write_structure();
     }
 
@@ -234,6 +257,15 @@ private:
         layers_.clear();
     }
 
+    /// Completes the page, whose object is written with the others.
+    void end_page() {
+        entries_.push_back({page_,
+                            fmt::format("/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n", box(edge_),
+                                        box(edge_), box(print_.press.bleed), box(0.0)),
+                            std::exchange(contents_, {})});
+        page_ = 0;
+    }
+
     /// What leaves the bleed would run into the marks.
     void begin_art() {
         if (!print_.press.marks) return;
@@ -275,7 +307,7 @@ private:
     }
     /// Of a point in millimetres from the top left corner of the trimmed sheet, y down.
     std::string user_x(double x) const { return user(edge_ + x); }
-    std::string user_y(double y) const { return user(edge_ + print_.page.height - y); }
+    std::string user_y(double y) const { return user(edge_ + size_.height - y); }
 
     std::string rectangle(const Window& window, double around) const {
         return fmt::format("{} {} {} {} re", user_x(window.left - around),
@@ -284,8 +316,8 @@ private:
     }
     /// The lower left and the upper right corner.
     std::string box(double around) const {
-        return fmt::format("[{} {} {} {}]", user_x(-around), user_y(print_.page.height + around),
-                           user_x(print_.page.width + around), user_y(-around));
+        return fmt::format("[{} {} {} {}]", user_x(-around), user_y(size_.height + around),
+                           user_x(size_.width + around), user_y(-around));
     }
 
     /// The operators that set the colour of lines or of areas; a spot colour that is named is remembered.
@@ -328,7 +360,7 @@ private:
     /// Micrometres with y down become units of the page with y up.
     std::string matrix() const {
         const std::string scale = decimal(points_of_micrometre / unit_, 14);
-        return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + print_.page.height));
+        return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + size_.height));
     }
 
     std::string stream_head(const Layer& layer, const std::string& length) const {
@@ -336,7 +368,7 @@ private:
                                      ? fmt::format(
                                            "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
                                            "/Group << /S /Transparency /CS /DeviceRGB >> ",
-                                           user(2 * edge_ + print_.page.width), user(2 * edge_ + print_.page.height))
+                                           user(2 * edge_ + size_.width), user(2 * edge_ + size_.height))
                                      : "";
         return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
     }
@@ -565,15 +597,17 @@ private:
 
         // Plates are mixed as inks, each for itself, which a page mixed in RGB would not have.
         const bool has_group = !alphas_.empty() && spots_.empty() && !print_.press.marks;
-        begin_object(page_);
-        write(
-            fmt::format("<< /Type /Page /Parent {} 0 R\n/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n{}{}"
-                        "/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
-                        pages_, box(edge_), box(edge_), box(print_.press.bleed), box(0.0),
-                        unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
-                        has_group ? "/Group << /S /Transparency /CS /DeviceRGB >>\n" : "", resources_, contents_));
+        std::string kids;
+        for (const PageEntry& page : entries_) {
+            begin_object(page.object);
+            write(fmt::format("<< /Type /Page /Parent {} 0 R\n{}{}{}/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
+                              pages_, page.boxes, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+                              has_group ? "/Group << /S /Transparency /CS /DeviceRGB >>\n" : "", resources_,
+                              page.contents));
+            fmt::format_to(std::back_inserter(kids), "{}{} 0 R", kids.empty() ? "" : " ", page.object);
+        }
         begin_object(pages_);
-        write(fmt::format("<< /Type /Pages /Kids [{} 0 R] /Count 1 >>\nendobj\n", page_));
+        write(fmt::format("<< /Type /Pages /Kids [{}] /Count {} >>\nendobj\n", kids, entries_.size()));
         begin_object(catalog_);
         write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n", pages_));
         if (!groups_.empty()) {
@@ -605,17 +639,31 @@ private:
     std::string order_;            ///< the same as a reader lists them: those of a part together
     std::string properties_;       ///< and as resources
     std::string forms_;
+    /// A page that is complete.
+    struct PageEntry {
+        int object;
+        std::string boxes, contents;
+    };
+    std::vector<PageEntry> entries_;
+    Page size_;               ///< of the page that is being drawn
+    Print page_print_;        ///< of begin_page()
+    std::string shared_;      ///< streams of the drawing that all pages show
+    bool is_shared_ = false;  ///< begin_page() was called
     const double edge_;  ///< millimetres from the edge of the medium to the trimmed sheet
     double unit_ = 1.0;  ///< points of one unit of the page
     int catalog_ = 0;
     int pages_ = 0;
-    int page_ = 0;
+    int page_ = 0;  ///< the page that is being drawn
     int resources_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+std::unique_ptr<PagesWriter> write_pdf_pages(const Print& print, Output& file) {
     return std::make_unique<Writer>(print, file);
 }
 

@@ -31,8 +31,8 @@ struct VectorLayer {
 };
 
 /// Takes strokes apart: into pieces with one pen each, those into blocks of points. The format writes them.
-template <class Layer>
-class VectorWriter : public PrintWriter {
+template <class Layer, class Base = PrintWriter>
+class VectorWriter : public Base {
 public:
     void begin_stroke(glm::dvec2 start, const Pen& pen) final {
         here_ = place_(start);

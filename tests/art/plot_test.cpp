@@ -364,7 +364,7 @@ TEST(Plot, PointsThatAddUpDifferentlyAreOne) {
     const Grammar grammar = compile_grammar(pattern, diagnostics);
     diagnostics.throw_if_errors();
     Print print = large_print();
-    Drawing drawing(grammar, print.style, {});
+    WordDrawing drawing(grammar, print.style, {});
     drawing.place(print);
     Recorder recorder;
     drawing.read(print, recorder);

@@ -181,15 +181,15 @@ TEST_F(PrintOptions, TilesMakeUpTheWholePrint) {
     const Outcome outcome =
         draw({"snake-kolam", "-n", "4", "--dots", "--dot-spacing", "15mm", "--tile", "A4"}, "big.svg");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
-    // 341 dots in 31 rows, 10.6 mm apart: 330 mm and the pen's width, with 190 and 180 mm on each sheet.
+    // 341 dots in 31 rows, 10.6 mm apart: 330 mm and the pen's width, with 200 and 190 mm on each sheet.
     EXPECT_TRUE(has(outcome.errors, "4 sheets"));
     EXPECT_EQ(folder_.names().size(), 4u);
     // The dots of all sheets, laid out as the sheets are, are those of the whole.
     std::set<std::pair<long, long>> dots;
     for (const auto& [name, left, top] : {std::tuple("big-1-1.svg", 0, 0),
-                                          {"big-1-2.svg", 180, 0},
-                                          {"big-2-1.svg", 0, 267},
-                                          {"big-2-2.svg", 180, 267}}) {
+                                          {"big-1-2.svg", 190, 0},
+                                          {"big-2-1.svg", 0, 277},
+                                          {"big-2-2.svg", 190, 277}}) {
         pugi::xml_document sheet;
         ASSERT_TRUE(sheet.load_file((folder_ / name).c_str()));
         EXPECT_STREQ(sheet.document_element().attribute("width").value(), "210mm");
@@ -253,8 +253,9 @@ TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
         {{"--generations", "x"}, "such as 0:4"},
         {{"--tile", "A9"}, "--tile A9"},
         {{"--tile", "A4", "--overlap", "200mm"}, "no room for an overlap"},
-        {{"--tile", "A4", "--plotter"}, "a plot cannot be cut into sheets"},
-        {{"--dots", "--window", "0,0,5,5"}, "need the whole drawing"},
+        {{"--tile", "A4", "--plotter"}, "sheets cut lines off"},
+        {{"--border", "kaavi", "--window", "0,0,5,5"}, "a window shows a part"},
+        {{"--plotter", "--window", "0,0,5,5"}, "a window cuts lines off"},
     };
     for (const auto& [arguments, message] : cases) {
         std::vector<std::string> all = {"snake-kolam"};

@@ -1,12 +1,8 @@
-#include "art/drawing/draw_view.h"
+#include "art/drawing/seen_drawing.h"
 
-#include "art/drawing/picture.h"
 #include "art/drawing/spline_pieces.h"
 #include "art/drawing/view.h"
 #include "art/raster/raster.h"
-#include "art/vector/pdf.h"
-#include "art/vector/svg.h"
-#include "engine/base/output.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
@@ -16,8 +12,6 @@
 
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <glm/geometric.hpp>
-#include <glm/mat2x2.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -60,17 +54,6 @@ public:
 private:
     PathSink& sink_;
 };
-
-/// What lies on the page between two heights (millimetres from its top), as the drawing sees it.
-Box seen_box(const Print& print, double top, double bottom, double around) {
-    const glm::dmat3x2& to_page = print.placement.to_page;
-    const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
-    Box box;
-    for (const double x : {-around, print.page.width + around}) {
-        for (const double y : {top - around, bottom + around}) box.add(back * (glm::dvec2(x, y) - to_page[2]));
-    }
-    return box;
-}
 
 /// Length of what passes; of curves by chords of an eighth.
 class LengthSink : public PathSink {
@@ -243,6 +226,26 @@ double band_bytes(PixelSize size) {
     return size.width * rows * band_pixel_bytes;
 }
 
+/// Of the window, or of a whole that lies in its box.
+DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const DrawOptions& options) {
+    glm::dvec2 low = whole.low, high = whole.high;
+    if (options.window) {
+        low = glm::dvec2(0.0);
+        high = {static_cast<double>(options.window->x1 - options.window->x0),
+                static_cast<double>(options.window->y1 - options.window->y0)};
+    }
+    DrawnExtent seen;
+    const glm::dmat3x2 turned = orientation(options.placement);
+    if (options.window || whole.draws()) {
+        for (const double x : {low.x, high.x}) {
+            for (const double y : {low.y, high.y}) seen.box.add(turned * glm::dvec3(x, y, 1.0));
+        }
+    }
+    // What a window shows goes on around it.
+    seen.widest = options.window ? 0 : style.pen_width({});
+    return seen;
+}
+
 DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
     constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving tells
     DrawingCost cost;
@@ -277,9 +280,10 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
 
 }  // namespace
 
-std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options) {
-    const auto none = [&](const char* why) -> std::optional<Parts<double>> {
-        if (options.window) throw std::runtime_error(std::string("this drawing has no window: ") + why);
+std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
+                                        std::string& why) {
+    const auto none = [&](const char* reason) -> std::optional<Parts<double>> {
+        why = reason;
         return std::nullopt;
     };
     if (is_vector(options.format) && !options.window) return std::nullopt;
@@ -300,11 +304,26 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
         "in the word in which they open, are seen through a window");
 }
 
-DrawingCost drawing_cost(const Grammar& grammar, const Parts<double>* parts, const Print& given,
-                         const DrawOptions& options) {
-    if (!parts) return cost_of_reading(grammar, given, options);
+void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why) {
+    if (grammar.is_spatial()) throw std::runtime_error("this drawing has no window: " + why);
+    try {
+        require_affordable(grammar, true, options.budget);
+    } catch (const BudgetError&) {
+        throw std::runtime_error("the window of this drawing needs its whole word, which is too long: " + why);
+    }
+}
+
+DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
+    const Grammar grammar = shorten(given_grammar);
+    std::string why;
+    const auto parts = seen_parts(grammar, given.style, options, why);
+    if (!parts) {
+        if (options.window) require_window(grammar, options, why);
+        require_affordable(grammar, true, options.budget);
+        return cost_of_reading(grammar, given, options);
+    }
     Print print = given;
-    DrawnExtent seen = SeenDrawing::extent_of(parts->whole(), print.style, options);
+    const DrawnExtent seen = extent_of(parts->whole(), print.style, options);
     place_seen(print, seen, grammar, options.placement);
     const double step = print.placement.step;
     const double width = print.style.line_width({}, step);
@@ -339,15 +358,18 @@ DrawingCost drawing_cost(const Grammar& grammar, const Parts<double>* parts, con
     return cost;
 }
 
-SeenDrawing::SeenDrawing(const Grammar& grammar, Parts<double> parts, const Style& style, const DrawOptions& options)
-    : grammar_(grammar),
-      options_(options),
+SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> parts, const Style& style,
+                         const DrawOptions& options)
+    : Drawing(options),
+      grammar_(std::move(grammar)),
+      style_(style),
       extent_(extent_of(parts.whole(), style, options)),
       spline_(style.line == Line::spline),
-      longest_step_(longest_step(grammar)) {
+      longest_step_(longest_step(*grammar_)) {
+    if (options.begin) options.begin(1);
     if (!options.window) {
         // Closer than the box of all its headings.
-        const auto folded = fold(grammar_);
+        const auto folded = fold(*grammar_);
         if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
         const glm::dmat3x2 turned = orientation(options_.placement);
         extent_.box = {};
@@ -356,41 +378,18 @@ SeenDrawing::SeenDrawing(const Grammar& grammar, Parts<double> parts, const Styl
         }
     }
     if (extent_.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
-    if (spline_) spline_share_ = spline_share(grammar_);
-    view_ = View::make(grammar_, std::move(parts), options_.window, spline_);
+    if (spline_) spline_share_ = spline_share(*grammar_);
+    view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
     if (!view_) throw std::runtime_error("the drawing is too large to be looked at");
 }
 
-DrawnExtent SeenDrawing::extent_of(const DrawnPart<double>& whole, const Style& style, const DrawOptions& options) {
-    glm::dvec2 low = whole.low, high = whole.high;
-    if (options.window) {
-        low = glm::dvec2(0.0);
-        high = {static_cast<double>(options.window->x1 - options.window->x0),
-                static_cast<double>(options.window->y1 - options.window->y0)};
-    }
-    DrawnExtent seen;
-    const glm::dmat3x2 turned = orientation(options.placement);
-    if (options.window || whole.draws()) {
-        for (const double x : {low.x, high.x}) {
-            for (const double y : {low.y, high.y}) seen.box.add(turned * glm::dvec3(x, y, 1.0));
-        }
-    }
-    // What a window shows goes on around it.
-    seen.widest = options.window ? 0 : style.pen_width({});
-    return seen;
-}
-
-DrawReport SeenDrawing::place(Print& print) const {
-    return place_seen(print, options_.frame.value_or(extent_), grammar_, options_.placement);
-}
-
-ViewReport SeenDrawing::read(const Print& print, double pixel, BlotSink& sink, double budget,
-                             const std::function<void(std::uint64_t)>& watch) const {
+void SeenDrawing::read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
+                       const std::function<void(std::uint64_t)>& watch) const {
     const double step = print.placement.step;
     const double width = print.style.line_width({}, step);
     const bool has_blots = width < pixel;
     Sight sight;
-    sight.box = seen_box(print, 0, print.page.height, width + 2 * pixel + print.press.bleed);
+    sight.box = seen_box(print, window, width + 2 * pixel + print.press.bleed);
     (has_blots ? sight.blot : sight.chord) = (pixel > 0 ? longest_replaced(width, pixel) : width / 4) / step;
     // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
     // wide.
@@ -398,7 +397,7 @@ ViewReport SeenDrawing::read(const Print& print, double pixel, BlotSink& sink, d
     // Curves are told from the lines through their control points only where steps are.
     if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
         sight.ink = spline_ ? spline_share_ : 1;
-        return view_->read(sight, sink, budget, watch);
+        return add(view_->read(sight, sink, budget, watch));
     }
     sight.chord = sight.blot = -1;
     sight.least = 0;
@@ -407,12 +406,24 @@ ViewReport SeenDrawing::read(const Print& print, double pixel, BlotSink& sink, d
     sight.box.low -= around;
     sight.box.high += around;
     SplinePieces pieces(sink, 1e-6 * longest_step_);
-    return view_->read(sight, pieces, budget, watch);
+    add(view_->read(sight, pieces, budget, watch));
 }
 
-ViewReport SeenDrawing::draw_lines(const Print& print, PathSink& writer) const {
-    LinesOnly lines(writer);
-    return read(print, 0, lines, options_.budget, options_.watch);
+void SeenDrawing::add(const ViewReport& report) const {
+    const std::scoped_lock lock(reporting_);
+    found_.lines += report.lines;
+    found_.chords += report.chords;
+    found_.blots += report.blots;
+}
+
+void SeenDrawing::report(DrawReport& report) const {
+    report.replaced = found_.chords + found_.blots;
+    report.is_empty = options_.window && found_.lines + found_.blots == 0;
+}
+
+void SeenDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    LinesOnly lines(sink);
+    read(print, window, 0, lines, options_.budget, options_.watch);
 }
 
 namespace {
@@ -431,95 +442,112 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// Sets `is_blank` if nothing of the drawing is visible.
-ViewReport draw_pixels(const SeenDrawing& drawing, const Print& print, const DrawOptions& options, Output& output,
-                       const std::filesystem::path& file, bool& is_blank) {
-    const PixelSize size = pixel_size(print.page, print.dpi);
-    const double pixel = 25.4 / print.dpi;
-    const int rows = strip_rows(print.style.line_width({}, print.placement.step), pixel, size);
-    const double most = most_nodes(size, options.budget);
-    std::mutex mutex;
-    double nodes = 0;
-    const auto watch = [&](std::uint64_t more) {
-        const std::scoped_lock lock(mutex);
-        nodes += static_cast<double>(more);
-        if (nodes > most) throw too_much(most);
-        if (options.watch) options.watch(more);
-    };
-    const int channels = Strip(print, 0, row_block).raster->channels();
-    Picture picture(print, options, channels, output, file);
-    const int threads = thread_count(options.threads);
+/// A picture made in strips. Memory: what the strips under way take; for render_rows(), all lines that are seen.
+class StripRendering : public Rendering {
+public:
+    StripRendering(const SeenDrawing& drawing, const Print& print, const Window& window)
+        : drawing_(drawing),
+          print_(print),
+          window_(window),
+          size_(pixel_size(print.page, print.dpi)),
+          pixel_(25.4 / print.dpi),
+          most_(most_nodes(size_, drawing.options().budget)) {}
+
+    int channels() const override { return Strip(print_, 0, row_block).raster->channels(); }
+    void watch(std::function<void()> watch) override { watch_ = std::move(watch); }
+    void render(int threads, const RowSink& sink) override;
+    void render_rows(int first, int end, int channels, const RowSink& rows) const override {
+        whole().render_rows(first, end, channels, rows);
+    }
+
+private:
     struct Rows {
         int first = 0;
         int count = 0;
         std::vector<std::uint8_t> pixels;
     };
+    void draw(Rows& rows);
+    void count(std::uint64_t nodes);
+    const Raster& whole() const;
+
+    const SeenDrawing& drawing_;
+    const Print print_;
+    const Window window_;
+    const PixelSize size_;
+    const double pixel_;
+    const double most_;
+    std::function<void()> watch_;
+    std::mutex counting_;
+    double nodes_ = 0;
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<Raster> whole_;
+};
+
+void StripRendering::count(std::uint64_t nodes) {
+    {
+        const std::scoped_lock lock(counting_);
+        nodes_ += static_cast<double>(nodes);
+        if (nodes_ > most_) throw too_much(most_);
+    }
+    if (drawing_.options().watch) drawing_.options().watch(nodes);
+}
+
+void StripRendering::draw(Rows& rows) {
+    const Strip made(print_, rows.first, rows.count);
+    drawing_.read(made.print, whole_page(made.print.page), pixel_, *made.raster, most_,
+                  [this](std::uint64_t nodes) { count(nodes); });
+    if (watch_) made.raster->watch(watch_);
+    rows.pixels.reserve(static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(made.raster->channels()) *
+                        static_cast<std::size_t>(rows.count));
+    made.raster->render(1, [&](int, int, std::span<const std::uint8_t> part) {
+        rows.pixels.insert(rows.pixels.end(), part.begin(), part.end());
+    });
+}
+
+void StripRendering::render(int threads, const RowSink& sink) {
+    nodes_ = 0;
+    const int rows = strip_rows(print_.style.line_width({}, print_.placement.step), pixel_, size_);
+    threads = thread_count(threads);
     using Token = std::shared_ptr<Rows>;
-    ViewReport all;
     int next = 0;
     using oneapi::tbb::filter_mode;
     const auto strips = oneapi::tbb::make_filter<void, Token>(
         filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Token {
-            if (next >= size.height) {
+            if (next >= size_.height) {
                 control.stop();
                 return nullptr;
             }
-            auto strip = std::make_shared<Rows>(Rows{next, std::min(rows, size.height - next), {}});
+            auto strip = std::make_shared<Rows>(Rows{next, std::min(rows, size_.height - next), {}});
             next += strip->count;
             return strip;
         });
-    const auto draw = oneapi::tbb::make_filter<Token, Token>(filter_mode::parallel, [&](Token strip) {
-        const Strip made(print, strip->first, strip->count);
-        const ViewReport report = drawing.read(made.print, pixel, *made.raster, most, watch);
-        strip->pixels.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels) *
-                              static_cast<std::size_t>(strip->count));
-        made.raster->watch([&] { watch(0); });
-        made.raster->render(1, [&](int, int, std::span<const std::uint8_t> part) {
-            strip->pixels.insert(strip->pixels.end(), part.begin(), part.end());
-        });
-        const std::scoped_lock lock(mutex);
-        all.visited += report.visited;
-        all.lines += report.lines;
-        all.chords += report.chords;
-        all.blots += report.blots;
+    const auto drawn = oneapi::tbb::make_filter<Token, Token>(filter_mode::parallel, [&](Token strip) {
+        draw(*strip);
         return strip;
     });
-    const auto hand_on = oneapi::tbb::make_filter<Token, void>(filter_mode::serial_in_order, [&](const Token& strip) {
-        picture.rows(strip->first, strip->count, strip->pixels);
-    });
+    const auto hand_on = oneapi::tbb::make_filter<Token, void>(
+        filter_mode::serial_in_order, [&](const Token& strip) { sink(strip->first, strip->count, strip->pixels); });
     on_threads(threads,
-               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & draw & hand_on); });
-    picture.close();
-    is_blank = picture.is_blank();
-    return all;
+               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & drawn & hand_on); });
+}
+
+/// All that is seen, from one walk.
+const Raster& StripRendering::whole() const {
+    std::call_once(once_, [this] {
+        auto raster = make_raster(print_);
+        raster->expect({});
+        const DrawOptions& options = drawing_.options();
+        drawing_.read(print_, window_, pixel_, *raster, options.budget, options.watch);
+        if (watch_) raster->watch(watch_);
+        whole_ = std::move(raster);
+    });
+    return *whole_;
 }
 
 }  // namespace
 
-std::optional<DrawReport> draw_view(const Grammar& grammar, Print print, const DrawOptions& options,
-                                    const std::filesystem::path& file, Destination& destination) {
-    auto parts = seen_parts(grammar, print.style, options);
-    if (!parts) return std::nullopt;
-    const SeenDrawing drawing(grammar, std::move(*parts), print.style, options);
-    if (options.begin) options.begin(1);
-    const auto opened = destination.open(file);
-    Output& output = *opened;
-    DrawReport report = drawing.place(print);
-    check_spots(print.press, print.style);
-    if (options.format != PrintFormat::pdf) print = as_picture(std::move(print));
-    ViewReport seen;
-    if (is_vector(options.format)) {
-        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
-        seen = drawing.draw_lines(print, *writer);
-        writer->finish();
-    } else {
-        seen = draw_pixels(drawing, print, options, output, file, report.is_blank);
-        report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
-    }
-    report.replaced = seen.chords + seen.blots;
-    report.is_empty = options.window && seen.lines + seen.blots == 0;
-    output.commit();
-    return report;
+std::unique_ptr<Rendering> SeenDrawing::rendering(const Print& print, const Window& window) const {
+    return std::make_unique<StripRendering>(*this, print, window);
 }
 
 }  // namespace sikku

@@ -1,0 +1,145 @@
+#include "art/drawing/composition.h"
+
+#include "art/print/ornaments.h"
+#include "engine/geometry/point_tree.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+
+bool has_ornaments(const Style& style, const DrawOptions& options) {
+    return style.dots || options.border || options.colours_strokes;
+}
+
+Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
+    : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
+    if (grammar.is_spatial()) {
+        throw std::runtime_error("dots, colours by strand and borders are for drawings in the plane");
+    }
+    if (style_.dots || options.colours_strokes) examine(grammar);
+    if (style_.dots) set_spacing();
+    add_colours();
+}
+
+void Composition::examine(const Grammar& grammar) {
+    if (options_.may_be_empty && !lines_->has_ink()) return;
+    KolamOptions examined;
+    examined.spline = style_.line == Line::spline;
+    examined.moves_lift = style_.moves_lift;
+    examined.budget = options_.budget;
+    examined.watch = options_.watch;
+    examined.monitor = options_.monitor;
+    examined.draws = [style = drawn_](const Pen& pen) { return style.draws(pen); };
+    const KolamExamination examination = examine_kolam(grammar, examined);
+    for (const std::uint32_t line : examination.line_of_stroke) {
+        orbit_of_stroke_.push_back(examination.orbit_of_line[line]);
+    }
+    if (!style_.dots) return;
+    dots_ = dot_places(examination);
+    distance_ = least_distance(dots_);
+}
+
+void Composition::set_spacing() {
+    if (options_.dot_spacing && !(options_.may_be_empty && dots_.size() < 2)) {
+        if (!(distance_ > 0)) {
+            throw std::runtime_error(
+                fmt::format("dot spacing needs at least two dots; this drawing has {}", dots_.size()));
+        }
+        options_.placement.step = *options_.dot_spacing / distance_;
+    }
+    if (dots_.empty() && options_.only_dots && !options_.may_be_empty) {
+        throw std::runtime_error("there is nothing to draw: the lines enclose no dots");
+    }
+}
+
+void Composition::add_colours() {
+    if (options_.colours_strokes) add_stroke_colours();
+    if (style_.dots) {
+        dot_pen_.colour = static_cast<int>(style_.palette.size());
+        style_.palette.push_back(style_.dots->colour.value_or(
+            options_.only_dots ? style_.ground.value_or(style_.line_colour({})) : style_.line_colour({})));
+        // To practise on, on white paper.
+        if (options_.only_dots) style_.ground = Colour{255, 255, 255, 255};
+    }
+    if (options_.border) {
+        border_colour_ = static_cast<int>(style_.palette.size());
+        for (const Colour colour : border_colours(style_.ground)) style_.palette.push_back(colour);
+    }
+}
+
+/// Colours of the pattern's own palette if they distinguish lines; otherwise, on dark ground, those of kolams.
+/// None is close to the ground.
+void Composition::add_stroke_colours() {
+    constexpr double least = 0.12;  // in OKLab
+    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : Colour{255, 255, 255, 255};
+    const auto is_seen = [&](Colour colour) { return colour_distance(colour, ground) >= least; };
+    const bool is_dark = lightness(ground) < 0.6;
+    if (!is_dark || style_.palette != default_palette()) {
+        const std::vector<int> slots = style_.line_slots();
+        for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
+            const Pen pen{.colour = i};
+            if (slots[static_cast<std::size_t>(i)] == i && style_.draws(pen) && is_seen(style_.line_colour(pen))) {
+                stroke_colours_.push_back(i);
+            }
+        }
+        if (stroke_colours_.size() > 1) return;
+    }
+    stroke_colours_.clear();
+    for (const Colour colour : is_dark ? kolam_palette() : default_palette()) {
+        if (!is_seen(colour)) continue;
+        stroke_colours_.push_back(static_cast<int>(style_.palette.size()));
+        style_.palette.push_back(colour);
+    }
+}
+
+double Composition::border_space(const Page& page) const {
+    return options_.border ? border_room(border_width(page)) : 0;
+}
+
+void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
+    NotedDiscs noted(sink, print.style);
+    PathSink& own = dots_.empty() ? sink : noted;
+    if (options_.colours_strokes) {
+        StrokeColours coloured(own, drawn_, stroke_colours_, orbit_of_stroke_);
+        lines_->read(print, window, coloured);
+    } else if (!options_.only_dots) {
+        OldColours old(own, drawn_);
+        lines_->read(print, window, old);
+    }
+    read_dots(print, noted.places, sink);
+    if (!options_.border) return;
+    const Page frame{window.width, window.height, window.margin};
+    draw_border(print, window, border_width(frame), border_colour_, sink);
+}
+
+/// @param drawn  by the pattern itself: these are not repeated
+void Composition::read_dots(const Print& print, const std::vector<glm::dvec2>& drawn, PathSink& sink) const {
+    const double radius = dot_radius(print);
+    std::optional<PointTree> own;
+    if (!drawn.empty()) own.emplace(drawn);
+    const double nearby = distance_ > 0 ? distance_ / 4 : 0.25;
+    std::vector<PointTree::Near> found;
+    for (const glm::dvec2 dot : dots_) {
+        if (own) own->nearest(dot, nearby, 1, found);
+        if (found.empty()) sink.disc(dot, radius, dot_pen_);
+    }
+}
+
+/// In steps.
+double Composition::dot_radius(const Print& print) const {
+    if (!print.style.dots) return 0;
+    const auto& size = print.style.dots->size;
+    if (!size) return distance_ > 0 ? distance_ / 12 : 0.25;
+    return size->value / (size->in_steps ? 1.0 : print.placement.step) / 2;
+}
+
+void Composition::report(DrawReport& report) const {
+    lines_->report(report);
+    report.dots = dots_.size();
+}
+
+}  // namespace sikku

@@ -1,0 +1,92 @@
+#include "art/drawing/drawing.h"
+
+#include "art/drawing/composition.h"
+#include "art/drawing/seen_drawing.h"
+#include "art/drawing/word_drawing.h"
+#include "art/print/clip.h"
+
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+
+DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
+                       const PlacementOptions& placement) {
+    double ink_steps = 0;
+    double ink_millimetres = 0;
+    (stroke.in_steps ? ink_steps : ink_millimetres) = seen.widest / 2;
+    print.placement = place(seen.box, print.page, placement, ink_steps, ink_millimetres);
+    const double step = print.placement.step;
+    DrawReport report;
+    report.step = step;
+    report.size = (seen.box.high - seen.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
+    report.room = glm::dvec2(print.page.width, print.page.height) - 2 * print.page.margin;
+    report.overflows = report.size.x > report.room.x + 1e-6 || report.size.y > report.room.y + 1e-6;
+    return report;
+}
+
+Window whole_page(const Page& page) {
+    return {0.0, 0.0, page.width, page.height, false, page.margin};
+}
+
+Box seen_box(const Print& print, const Window& window, double around) {
+    const glm::dmat3x2& to_page = print.placement.to_page;
+    const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
+    Box box;
+    for (const double x : {window.left - around, window.left + window.width + around}) {
+        for (const double y : {window.top - around, window.top + window.height + around}) {
+            box.add(back * (glm::dvec2(x, y) - to_page[2]));
+        }
+    }
+    return box;
+}
+
+const DrawnExtent& Drawing::extent() {
+    const DrawnExtent& found = seen();
+    require_ink(found.box);
+    return found;
+}
+
+DrawReport Drawing::place(Print& print) {
+    PlacementOptions placement = options_.placement;
+    placement.scale = scale();
+    const DrawnExtent& placed = options_.frame ? *options_.frame : extent();
+    // Read for what is known of it in any case.
+    around_ = seen().around;
+    const double border = border_space(print.page);
+    print.page.margin += border;
+    const DrawReport report = place_print(print, placed, style().stroke, placement);
+    print.page.margin -= border;
+    return report;
+}
+
+void Drawing::read_visible(const Print& print, const Window& window, PathSink& sink) const {
+    if (!options_.window) return read(print, window, sink);
+    const double width = around_ * (print.style.stroke.in_steps ? print.placement.step : 1.0);
+    ClipSink clip(sink, seen_box(print, window, width + print.press.bleed));
+    read(print, window, clip);
+}
+
+std::unique_ptr<Rendering> Drawing::rendering(const Print& print, const Window& window) const {
+    auto raster = make_raster(print);
+    read(print, window, *raster);
+    return raster;
+}
+
+std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
+    auto shared = std::make_shared<const Grammar>(resolved(grammar, options));
+    std::string why;
+    if (auto parts = seen_parts(*shared, style, options, why)) {
+        return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);
+    }
+    if (options.window) require_window(*shared, options, why);
+    auto drawing = std::make_unique<WordDrawing>(*shared, style, options);
+    if (!has_ornaments(style, options)) return drawing;
+    return std::make_unique<Composition>(*shared, std::move(drawing), options);
+}
+
+}  // namespace sikku

@@ -1,0 +1,67 @@
+// art/drawing/word_drawing.h: a drawing in the plane or in space that is read from its word.
+#pragma once
+
+#include "art/drawing/drawing.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sikku {
+
+class WordDrawing : public Drawing {
+public:
+    /// Resolves contexts and estimates what the drawing costs. `style` sets what is seen and how lines are drawn.
+    /// The options' format and threads have no effect in the plane. @throws BudgetError, WordError
+    WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
+
+    /// Calculated from the fold where only straight lines are drawn and all are seen, else from one pass over the
+    /// word.
+    const DrawnExtent& seen() override;
+    const Style& style() const override { return drawn_style_; }
+    double scale() const override { return options_.placement.scale * grammar_.scale_percent() / 100; }
+    std::optional<SpaceBounds> bounds() const override;
+    /// One pass over the word; of drawings in space, which are kept, what is behind comes first.
+    using Drawing::read;
+    void read(const Print& print, const Window& window, PathSink& sink) const override;
+    using Drawing::rendering;
+    std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
+    void report(DrawReport& report) const override;
+    /// False if nothing is drawn, whatever the window.
+    bool has_ink();
+
+private:
+    DrawnExtent measured();
+    void read_straight(PathSink& sink) const;
+    bool is_plot() const;
+    bool all_lines_are_seen() const;
+
+    Grammar grammar_;
+    Style style_;
+    Style drawn_style_;  ///< with shades for drawings in space
+    bool spline_;
+    bool has_brackets_ = false;
+    bool has_areas_ = false;
+    bool has_widths_ = false;
+    bool has_colours_ = false;
+    std::vector<bool> closed_;  ///< of a spline's strokes, in their order
+    std::optional<DrawnExtent> extent_;
+    bool has_ink_ = false;
+    bool is_outside_ = false;     ///< nothing is drawn within the window
+    std::optional<Scene> scene_;  ///< of a drawing in space, once it was read
+};
+
+/// Reads a drawing in space. A part of it that is kept takes the memory and time of about `nodes_of_part` nodes.
+/// @throws BudgetError if it does not fit the budget, before it is read
+Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& options, double nodes_of_part);
+
+/// The grammar without contexts, ready to be read. @throws BudgetError, WordError
+Grammar resolved(const Grammar& given, const DrawOptions& options);
+
+/// The extent of a window: no pen is added, as what it shows goes on around it.
+DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation);
+
+/// @throws std::runtime_error if the box is empty
+void require_ink(const Box& box);
+
+}  // namespace sikku

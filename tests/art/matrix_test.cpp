@@ -1,0 +1,262 @@
+// tests/art/matrix_test.cpp: every feature of prints with every kind of output: it is visible there, or refused for a
+// reason. docs/matrix.md is the same table.
+#include "art/print_cell.h"
+#include "art/prints.h"
+#include "art/sheet/sheet.h"
+#include "engine/base/output.h"
+#include "tests/files.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr const char* cmyk_profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
+
+const std::string kolam =
+    "title: Kolam\naxiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle increment: 90\n"
+    "stroke: 0.2 step #f2b632\nground: #8c3b2a\n";
+const std::string shape =
+    "title: Shape\naxiom: F\nF --> {G+G+G+G}F\nG --> G\nderivation length: 1\nangle increment: 90\n"
+    "stroke: 0.4mm #203060\nground: #ffffff\n";
+const std::string solid =
+    "title: Solid\naxiom: F\nF --> F[&F]F\nderivation length: 2\nangle increment: 40\nstroke: 0.2 step #203060\n"
+    "ground: #ffffff\n";
+
+using Values = std::map<std::string, std::string>;
+
+/// What is asked of a print, beside what it is compared with.
+struct Feature {
+    std::string name;
+    std::string pattern;
+    Values keys;    ///< of the pattern
+    Values values;  ///< options
+    Values without;
+    Values without_keys{};
+};
+
+std::vector<Feature> features() {
+    return {{"dots", kolam, {}, {{"dots", ""}}, {}},
+            {"only dots", kolam, {}, {{"dots", "only"}}, {}},
+            {"distance of dots", kolam, {}, {{"dot-spacing", "7mm"}}, {}},
+            {"border", kolam, {}, {{"border", "kaavi"}}, {}},
+            {"colours by strand", kolam, {}, {{"colour-by", "strand"}}, {}},
+            {"fills", shape, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
+            {"splines", kolam, {{"line", "spline"}}, {}, {}, {{"line", "straight"}}},
+            {"window", kolam, {}, {{"window", "-1,-1,2,2"}}, {}},
+            {"view", solid, {}, {{"view", "30,60"}}, {}},
+            {"rotation", kolam, {}, {{"rotate", "30"}}, {}},
+            {"step", kolam, {}, {{"step", "3mm"}}, {}},
+            {"animation", kolam, {}, {{"animate", "5"}}, {}},
+            {"plotter", shape, {}, {{"plotter", "true"}}, {}},
+            {"pen-up travel", kolam, {}, {{"plotter", "true"}, {"travel", "true"}}, {{"plotter", "true"}}},
+            {"bleed", kolam, {}, {{"bleed", "3mm"}}, {}},
+            {"crop marks", kolam, {}, {{"marks", "true"}}, {}},
+            {"spot colours", kolam, {}, {{"spot", "Kaavi=#8c3b2a"}}, {}},
+            {"CMYK", kolam, {}, {{"cmyk", cmyk_profile}}, {}},
+            {"one bit", kolam, {}, {{"bits", "1"}}, {}},
+            {"screening", kolam, {}, {{"bits", "1"}, {"screen", "diffusion"}}, {{"bits", "1"}}},
+            {"tiles", kolam, {}, {{"tile", "60x60mm"}}, {}},
+            {"sheet of generations", kolam, {}, {{"generations", "0:2"}}, {}},
+            {"frames", kolam, {}, {{"generations", "0:2"}, {"frames", "true"}}, {}}};
+}
+
+/// What a print is made into.
+struct Target {
+    std::string name;
+    std::string format;
+    Values values;
+    bool is_cell = false;
+};
+
+std::vector<Target> targets() {
+    const Values one{};
+    const Values growth{{"generations", "0:2"}};
+    return {{"SVG", "svg", one},     {"PDF", "pdf", one},
+            {"PNG", "png", one},     {"TIFF", "tif", one},
+            {"JPEG", "jpg", one},    {"EXR", "exr", one},
+            {"GIF", "gif", growth},  {"HP-GL", "hpgl", one},
+            {"G-code", "gcode", one}, {"OBJ", "obj", one},
+            {"glTF", "glb", one},    {"poster", "svg", one, true},
+            {"sheet", "svg", growth}, {"tile", "svg", {{"tile", "60x60mm"}}},
+            {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
+}
+
+/// Not drawn there, and not refused either. Empty when every feature is.
+const std::set<std::string> lost = {"fills on HP-GL", "fills on G-code", "fills on OBJ"};
+
+using Outputs = std::map<std::string, std::string>;
+
+void erase_between(std::string& text, const std::string& begin, const std::string& end) {
+    for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+        const std::size_t to = text.find(end, at);
+        text.erase(at, to == std::string::npos ? to : to + end.size() - at);
+    }
+}
+
+/// What is drawn, without the texts that say how it was made.
+std::string drawing_of(const std::string& name, std::string bytes, const ScratchFolder& folder) {
+    const std::string format = name.substr(name.rfind('.') + 1);
+    if (format == "svg") {
+        erase_between(bytes, "<metadata>", "</metadata>");
+        return bytes;
+    }
+    if (format == "pdf") return bytes.substr(0, bytes.rfind("/Subject "));
+    if (format == "obj" || format == "mtl") {
+        erase_between(bytes, "#", "\n");
+        return bytes;
+    }
+    if (format == "glb") {
+        const auto length = static_cast<unsigned char>(bytes[12]) + 256U * static_cast<unsigned char>(bytes[13]);
+        return bytes.substr(20 + length);
+    }
+    if (format == "gcode") {
+        erase_between(bytes, "(", "\n");
+        erase_between(bytes, ";", "\n");
+        return bytes;
+    }
+    if (format == "png" || format == "tif" || format == "jpg" || format == "exr") {
+        const std::string file = (folder.path() / ("picture." + format)).string();
+        std::ofstream(file, std::ios::binary) << bytes;
+        std::string told = run("iinfo -v --hash '" + file + "'").text;
+        // Size, channels, bits and pixels; not the texts.
+        std::string result = told.substr(0, told.find('\n'));
+        if (const std::size_t hash = told.find("SHA-1: "); hash != std::string::npos) result += told.substr(hash, 60);
+        return result;
+    }
+    return bytes;
+}
+
+class Matrix : public ::testing::Test {
+protected:
+    Document document(const Feature& feature, const Values& keys) const {
+        Document result = parse("matrix.lsys", feature.pattern);
+        std::vector<Setting> settings;
+        for (const auto& [key, value] : keys) settings.push_back({key, key, value});
+        return settings.empty() ? result : result.with(settings);
+    }
+
+    static OptionValues merged(const Values& one, const Values& two) {
+        Values all = two;
+        all.insert(one.begin(), one.end());
+        all.insert({"size", "100x100mm"});
+        all.insert({"dpi", "60"});
+        OptionValues values;
+        for (const auto& [name, text] : all) values.push_back({name, text});
+        return values;
+    }
+
+    /// @throws SettingError, PatternError
+    Outputs make(const Feature& feature, const Target& target, bool with) const {
+        const Document drawn = document(feature, with ? feature.keys : feature.without_keys);
+        const OptionValues values = merged(with ? feature.values : feature.without, target.values);
+        MemoryDestination memory;
+        if (target.is_cell) {
+            make_cell(drawn, values, memory);
+        } else {
+            prints().plan(drawn, target.format, values)->make(memory, "print." + target.format, {});
+        }
+        Outputs outputs;
+        for (const auto& [name, bytes] : memory.outputs()) {
+            EXPECT_FALSE(bytes.empty()) << name;
+            outputs[name] = drawing_of(name, bytes, folder_);
+        }
+        EXPECT_FALSE(outputs.empty());
+        return outputs;
+    }
+
+    static void make_cell(const Document& drawn, const OptionValues& values, Destination& destination) {
+        for (const OptionValue& value : values) {
+            const auto options = prints().options();
+            const auto row = std::find_if(options.begin(), options.end(),
+                                          [&](const OptionInfo* info) { return info->name == value.name; });
+            if ((*row)->is_alone) {
+                throw SettingError(value.name, value.text, "galleries have one file for each derivation length");
+            }
+        }
+        SheetOptions sheet;
+        sheet.page = {100.0, 100.0, 5.0};
+        draw_sheet({print_cell(drawn, read_draw_settings(values))}, sheet, "poster.svg", destination);
+    }
+
+    /// The table's entry: `yes`, `no change`, or a reason.
+    std::string outcome(const Feature& feature, const Target& target) const {
+        try {
+            const Outputs with = make(feature, target, true);
+            const bool is_visible = with != make(feature, target, false);
+            if (is_visible) return "yes";
+            return target.is_cell ? "no change" : "lost";
+        } catch (const SettingError& error) {
+            return error.what();
+        } catch (const PatternError& error) {
+            return error.diagnostics().front().message;
+        }
+    }
+
+    ScratchFolder folder_;
+};
+
+std::string table(const std::vector<std::vector<std::string>>& outcomes) {
+    std::string text =
+        "# Features and outputs\n\n"
+        "Every feature of prints with every kind of output. `yes`: it is drawn. `=`: it belongs to the file of a\n"
+        "print, and the drawing is the same without it. A number: it is refused, for the reason below the table.\n"
+        "`poster` is a cell of a poster or contact sheet, `sheet` a sheet of generations, `tile` a sheet of a print\n"
+        "that is cut, and `frame` one of several generations in files of their own.\n\n|  |";
+    for (const Target& target : targets()) text += " " + target.name + " |";
+    text += "\n|---|";
+    for (std::size_t i = 0; i < targets().size(); ++i) text += "---|";
+    text += "\n";
+    std::vector<std::string> reasons;
+    for (std::size_t row = 0; row < outcomes.size(); ++row) {
+        text += "| " + features()[row].name + " |";
+        for (const std::string& outcome : outcomes[row]) {
+            std::string entry = outcome == "yes" ? "yes" : outcome == "no change" ? "=" : outcome == "lost" ? "no" : "";
+            if (entry.empty()) {
+                auto place = std::find(reasons.begin(), reasons.end(), outcome);
+                if (place == reasons.end()) place = reasons.insert(place, outcome);
+                entry = std::to_string(place - reasons.begin() + 1);
+            }
+            text += " " + entry + " |";
+        }
+        text += "\n";
+    }
+    text += "\n";
+    for (std::size_t i = 0; i < reasons.size(); ++i) text += std::to_string(i + 1) + ". " + reasons[i] + "\n";
+    return text;
+}
+
+TEST_F(Matrix, EveryFeatureIsDrawnOrRefusedForAReason) {
+    if (!has_program("iinfo")) GTEST_SKIP() << "iinfo is not installed";
+    if (!std::filesystem::exists(cmyk_profile)) GTEST_SKIP() << cmyk_profile << " is not installed";
+    std::vector<std::vector<std::string>> outcomes;
+    for (const Feature& feature : features()) {
+        outcomes.emplace_back();
+        for (const Target& target : targets()) {
+            SCOPED_TRACE(feature.name + " on " + target.name);
+            std::string result;
+            ASSERT_NO_THROW(result = outcome(feature, target));
+            outcomes.back().push_back(result);
+            EXPECT_EQ(result == "lost", lost.contains(feature.name + " on " + target.name)) << result;
+            EXPECT_EQ(result.find("--"), std::string::npos) << result;
+            EXPECT_EQ(result.find('\n'), std::string::npos) << result;
+            EXPECT_GT(result.size(), 2u);
+        }
+    }
+    const std::filesystem::path file = std::filesystem::path(SIKKU_SOURCE_DIR) / "docs/matrix.md";
+    const std::string text = table(outcomes);
+    if (std::getenv("SIKKU_WRITE_DOCS")) std::ofstream(file) << text;
+    EXPECT_EQ(contents(file), text) << "SIKKU_WRITE_DOCS=1 writes it";
+}
+
+}  // namespace
+}  // namespace sikku
