@@ -369,7 +369,10 @@ void run(Options& options, bool quiet) {
 std::string value_name(const GalleryKey& key) {
     if (!key.use) return "VALUE";
     for (const OptionInfo* option : key.use->options()) {
-        if (option->name == key.name && !option->value.empty()) return std::string(option->value);
+        if (option->name != key.name || option->value.empty()) continue;
+        // Brackets: the value may be left out, but not in galleries.
+        const std::string_view value = option->value;
+        return std::string(value.starts_with('[') ? value.substr(1, value.size() - 2) : value);
     }
     return "VALUE";
 }
@@ -437,7 +440,8 @@ void add_gallery(CLI::App& app, bool& quiet) {
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
         CLI::Option* option = nullptr;
         if (key.kind == OptionKind::flag) {
-            option = command->add_flag(names, options->flags[key.name], key.help);
+            const bool turns_off = key.name.starts_with("no-");
+            option = command->add_flag(names, options->flags[key.name], turns_off ? "do not " + key.help : key.help);
         } else {
             option = command->add_option(names, options->texts[key.name], key.help)->type_name(value_name(key));
         }
