@@ -69,13 +69,16 @@ std::string known_gallery(const std::string& name) {
 }
 
 NamedText read_pattern_text(const std::string& pattern) {
+    PatternFile found;
     try {
-        if (pattern == "-") return {"-", read_pattern(stdin, "standard input", stop_monitor())};
-        const PatternFile found = find_pattern(pattern);
-        return {found.name, read_pattern({pattern, found.path}, stop_monitor())};
+        if (pattern != "-") found = find_pattern(pattern);
     } catch (const NotFound& error) {
         throw UsageError(std::string(error.what()) +
                          (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
+    }
+    try {
+        if (pattern == "-") return {"-", read_pattern(stdin, "standard input", stop_monitor())};
+        return {found.name, read_pattern({pattern, found.path}, stop_monitor())};
     } catch (const std::runtime_error& error) {
         throw UsageError(error.what());
     }

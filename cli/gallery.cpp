@@ -3,7 +3,6 @@
 
 #include "art/prints.h"
 #include "cli/command.h"
-#include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "music/scores.h"
 
@@ -181,13 +180,7 @@ void write_script(const GalleryFolder& folder, const std::string& name, const st
         }
         if (!S_ISREG(there->st_mode)) place.remove();
     }
-    try {
-        OutputFile output(place.path());
-        output.write(text);
-        output.commit();
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(place.readable(error.what()));
-    }
+    folder.write(name, text);
 }
 
 /// Writes the script beside the folder of the gallery, which holds nothing but the gallery, and hands it to Slurm.

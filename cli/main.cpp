@@ -9,16 +9,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 int fail(int status, std::string_view message) {
     if (message.ends_with('\n')) message.remove_suffix(1);
     sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
     return status;
+}
+
+/// An argument that no option or positional takes, with the nearest option.
+std::string unexpected(const CLI::App& app, const std::string& argument) {
+    const CLI::App* command = &app;
+    for (const CLI::App* used : app.get_subcommands()) command = used;
+    if (!argument.starts_with("-")) return "unexpected argument '" + sikku::printable(argument, 80) + "'";
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    const std::string given = argument.substr(0, argument.find('='));
+    const std::string_view near = sikku::nearest(given, {names.begin(), names.end()});
+    return fmt::format("unknown option '{}'{}", sikku::printable(given, 80),
+                       near.empty() ? fmt::format("; `sikku {} --help` lists the options", command->get_name())
+                                    : fmt::format("; did you mean '{}'?", near));
 }
 
 /// CLI11 alone would only say that a command is missing.
@@ -69,6 +88,13 @@ int run(int argc, char** argv) {
         return 0;
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
+    } catch (const CLI::ExtrasError&) {
+        const std::vector<std::string> extras = app.remaining(true);
+        // The value of an unknown option stands before it in this list.
+        const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
+            return text.starts_with("-") && text != "-";
+        });
+        return fail(2, unexpected(app, option == extras.end() ? extras.front() : *option));
     } catch (const CLI::ParseError& error) {
         // CLI11 by itself prints without looking whether it can; what is lost here main() sees.
         std::ostringstream help;

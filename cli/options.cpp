@@ -1,6 +1,8 @@
 #include "cli/options.h"
 
+#include "art/prints.h"
 #include "engine/base/diagnostic.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
 
@@ -47,10 +49,39 @@ OptionValues TableOptions::values() const {
     return values;
 }
 
+namespace {
+
+bool is_option(std::string_view name) {
+    for (const Interpreter* interpreter : {&prints(), &scores()}) {
+        for (const OptionInfo* info : interpreter->options()) {
+            if (info->name == name) return true;
+        }
+    }
+    return false;
+}
+
+std::string with_dashes(const std::string& message) {
+    std::string text;
+    for (std::size_t at = 0; at < message.size();) {
+        const std::size_t close = message[at] == '\'' ? message.find('\'', at + 1) : std::string::npos;
+        const std::string name = close == std::string::npos ? "" : message.substr(at + 1, close - at - 1);
+        if (is_option(name)) {
+            text += "--" + name;
+            at = close + 1;
+        } else {
+            text += message[at++];
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string option_message(const SettingError& error) {
-    if (error.option().empty()) return error.what();
+    const std::string message = with_dashes(error.what());
+    if (error.option().empty()) return message;
     const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
-    return fmt::format("--{}{}: {}", error.option(), value, error.what());
+    return fmt::format("--{}{}: {}", error.option(), value, message);
 }
 
 }  // namespace sikku

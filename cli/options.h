@@ -32,7 +32,8 @@ private:
     std::shared_ptr<Given> given_;
 };
 
-/// How users of the command line write what a SettingError says: `--size 3x: expected …`.
+/// How users of the command line write what a SettingError says: `--size 3x: expected …`; quoted names of options in
+/// the message, 'plotter', become `--plotter`.
 std::string option_message(const SettingError& error);
 
 }  // namespace sikku

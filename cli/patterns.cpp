@@ -112,6 +112,12 @@ void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
 
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
+    if (const std::string_view format = known_format(file); !format.empty()) {
+        throw UsageError(
+            fmt::format("{}: this is a {} file, not a pattern; `sikku show` prints the pattern it was made "
+                        "from",
+                        file, format));
+    }
     Diagnostics diagnostics;
     NamedText text = read_pattern_text(file);
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);

@@ -50,7 +50,7 @@ std::vector<Option<S>> make_table() {
     const std::vector<Option<S>> own = {
         {{.name = "from-bar", .help = "first bar, counted from 1 (1)", .value = "BAR", .kind = whole, .least = 1},
          [](S& s, Text t) { set_whole("from-bar", t, s.from_bar); }},
-        {{.name = "bars", .help = "number of bars (all)", .value = "BARS", .kind = whole},
+        {{.name = "bars", .help = "number of bars (all)", .value = "BARS", .kind = whole, .least = 1},
          [](S& s, Text t) { set_whole("bars", t, s.bars); }},
         {{.name = "seconds",
           .help = "maximum length in seconds (all)",

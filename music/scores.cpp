@@ -62,6 +62,7 @@ struct Player {
     Document document;
     Melody melody;
     int first_voice = 0;
+    std::vector<std::string> warnings;  ///< about values of options
 };
 
 /// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
@@ -154,7 +155,7 @@ using FileWitness = std::function<void(const std::string& name, const std::strin
 
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness) {
-    Player player{given, {}, 0};
+    Player player{given, {}, 0, {}};
     for (const Setting& setting : settings.keys) {
         try {
             player.document = player.document.with({setting});
@@ -178,6 +179,12 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
         },
         diagnostics);
     diagnostics.throw_if_errors();
+    // Those about the pattern itself are the document's.
+    for (const Diagnostic& warning : diagnostics.list()) {
+        const bool is_own = std::any_of(settings.keys.begin(), settings.keys.end(),
+                                        [&](const Setting& setting) { return setting.origin == warning.file; });
+        if (is_own) player.warnings.push_back(warning.message);
+    }
     transpose(player.melody, settings.transpose);
     return player;
 }
@@ -344,8 +351,14 @@ PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playi
         return all;
     }
     if (playing.from > 0 && all.past) {
+        Integer ticks = 0;
+        for (const Player& player : players) {
+            const auto known = census(player.document.grammar(), player.melody);
+            if (!known) throw ScoreError("the requested bars contain no notes: the melody ends before them");
+            ticks = std::max(ticks, known->ticks);
+        }
         throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
-                                     bars_of(all.end, players.front().melody.meter).str()));
+                                     bars_of(ticks, players.front().melody.meter).str()));
     }
     std::string why;
     const Melody& melody = players.front().melody;
@@ -538,6 +551,9 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
 
 Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
     Made made;
+    for (const Player& player : players_) {
+        for (const std::string& warning : player.warnings) made.warn(warning);
+    }
     monitor_ = monitor;
     const PlayOptions playing = piece_of(settings_, players_.front().melody, monitor);
     monitor.expect(0);

@@ -194,9 +194,10 @@ TEST(Floor, EveryOptionOfTheTablesIsInTheHelp) {
         }
     }
     const std::string help = run({"gallery", "--help"}).output;
-    for (const GalleryKey& key : GalleryKeys({&prints(), &scores()}).list()) {
-        if (key.is_option)
-            EXPECT_NE(help.find("--" + (key.name == "n" ? "generations" : key.name)), std::string::npos);
+    const GalleryKeys keys({&prints(), &scores()});
+    for (const GalleryKey& key : keys.list()) {
+        if (!key.is_option) continue;
+        EXPECT_NE(help.find("--" + (key.name == "n" ? "generations" : key.name)), std::string::npos) << key.name;
     }
 }
 

@@ -112,7 +112,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     refused("format = 'sgv'\n", "bad.toml:1:1: unknown format 'sgv'; did you mean 'svg'?");
     refused("set = { '' = 1 }\n", "bad.toml:1:9: set: a key is empty");
     refused("set = { title = \"a\\u001Bb\" }\n", "bad.toml:1:9: title: 'a?b' contains a control character");
-    refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: --size 3x");
+    refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: size 3x");
     refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: unknown placeholder {m}");
     refused("pattern = 'hilbert'\nname = '../x'\n", "bad.toml:2:1: name: '../x' cannot be");
     refused("pattern = 'hilbert'\nname = '.x'\n", "cannot be the name");
@@ -165,7 +165,7 @@ TEST_F(GalleryTest, AKilledRunGoesOn) {
         const std::string out = "killed" + std::to_string(round);
         {
             const Child child({"gallery", "--file", "gallery.toml", "-o", out}, {.folder = folder.path()});
-            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % 400));
+            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % (sanitized ? 2000 : 400)));
             child.send(SIGKILL);
         }
         if (std::filesystem::exists(folder / out)) {
@@ -243,7 +243,7 @@ TEST_F(GalleryTest, ShardsOfBatchSystems) {
     EXPECT_EQ(listed({{"JOB_COMPLETION_INDEX", "1"}}, {"--shard", "/3"}), second);
     const Outcome lost = gallery({"hilbert", "--list"}, {{"JOB_COMPLETION_INDEX", "1"}});
     EXPECT_EQ(lost.status, 2);
-    EXPECT_TRUE(has(lost.errors, "--shard /N"));
+    EXPECT_TRUE(has(lost.errors, "'shard', /N"));
 }
 
 TEST_F(GalleryTest, WritesAScriptForSlurm) {
@@ -432,7 +432,7 @@ TEST_F(GalleryTest, NothingDependsOnTheClockOrOnThreads) {
 TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
     const Outcome refused = gallery({"hilbert", "-f", "png", "--size", "A0", "--memory", "1M", "-o", "out"});
     EXPECT_EQ(refused.status, 1);
-    EXPECT_TRUE(has(refused.errors, "more than --memory leaves"));
+    EXPECT_TRUE(has(refused.errors, "of memory, more than is left for it"));
     if (sanitized) return;
     const Outcome outcome = gallery({"snake-kolam", "dragon", "hilbert", "gosper*", "-f", "png", "--size", "A1",
                                      "--memory", "300M", "-o", "out"});
@@ -564,16 +564,16 @@ TEST_F(GalleryTest, MistakesInValuesHavePlaces) {
     refused("set = { 'angle increment' = [60, 'x'] }\n", "bad.toml:2:9: ");
     refused("angle = ['60:70:5', 'x']\n", "bad.toml:2:1: ");
     refused("budget = -4\n", "bad.toml:2:1: budget: expected 1 or more, not '-4'");
-    refused("compression = 77\n", "bad.toml:2:1: compression: expected 9 at most");
+    refused("compression = 77\n", "bad.toml:2:1: compression: expected 1 to 9, not '77'");
     refused("bars = 0\n", "bad.toml:2:1: bars: expected 1 or more");
     refused("n = '3:-2:-1'\n", "bad.toml:2:1: n: expected whole numbers");
-    refused("fit = true\nstep = '1mm'\n", "bad.toml:3:1: step: a print has a step or fits its page");
+    refused("fit = true\nstep = '1mm'\n", "bad.toml:3:1: step: cannot be combined with 'fit'");
     refused("item = []\n", "bad.toml:2:1: item: this list is empty");
-    refused("poster = '3x'\n", "bad.toml:2:1: --poster 3x");
+    refused("poster = '3x'\n", "bad.toml:2:1: poster 3x");
     refused("name = 'a//x'\n", "cannot be the name");
     refused("name = \"a\\nx\"\n", "cannot be the name");
     refused("n = '0:1e300'\n", "this would make 1e+300 jobs");
-    EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "--contact 3x"));
+    EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "contact 3x"));
     EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 holds nothing"));
     EXPECT_EQ(gallery({"hilbert", "--json"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--name", "\xFFx", "--list"}).status, 2);

@@ -93,10 +93,10 @@ TEST_F(Growth, TheEndOfAnAnimationIsHeld) {
     EXPECT_EQ(with({"--hold", "0.1", "--frame-time", "0.2"}), (std::vector{20, 20, 20}));
     EXPECT_EQ(with({"--frame-time", "3"}), (std::vector{300, 300, 300}));
     expect_refused(draw({"dragon", "--generations", "1:3", "--hold", "0"}, "d.gif"), 2,
-                   "--hold: expected 0.01 to 600 seconds");
+                   "--hold 0: expected 0.01 to 600");
     expect_refused(draw({"dragon", "--hold", "1"}, "d.svg"), 2, "--hold");
     expect_refused(draw({"dragon", "--generations", "1:3", "--frames", "--hold", "1"}, "d.svg"), 2,
-                   "apply only to a .gif");
+                   "applies only to a .gif");
 }
 
 TEST_F(Growth, EachFrameFitsThePageOnRequest) {
@@ -164,7 +164,7 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
         EXPECT_EQ(draw({"bush.lsys", "--view", "top", "--dpi", "30"}, file).status, 0) << file;
     }
     expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected 'view: AZIMUTH ELEVATION'");
-    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2, "--set:1:6: this drawing pitches");
+    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2, "--set:1:6: drawings that pitch, roll or bend have straight lines");
     expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2, "more shades than there are inks");
@@ -189,22 +189,22 @@ TEST_F(Growth, ModelsAreMade) {
     for (const char* file : {"b.obj", "b.glb"}) EXPECT_EQ(draw({"bush.lsys"}, file).status, 0) << file;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.mtl"));
     EXPECT_EQ(draw({"dragon"}, "d.glb").status, 0) << "of the plane, too";
-    expect_refused(draw({"snake-kolam"}, "s.glb"), 2, "not of splines");
+    expect_refused(draw({"snake-kolam"}, "s.glb"), 2, "models have straight lines, not splines");
     expect_refused(draw({"bush.lsys", "--view", "top"}, "v.glb"), 2, "a model has no page");
     expect_refused(draw({"bush.lsys"}, "missing/v.glb"), 1, "missing");
     expect_refused(draw({"fibonacci-words"}, "w.obj"), 1, "nothing to draw");
 }
 
 TEST_F(Growth, BadGenerationsAreRefused) {
-    expect_refused(draw({"dragon"}, "d.gif"), 2, "--generations A:B");
-    expect_refused(draw({"dragon", "--frames"}, "d.png"), 2, "goes with --generations");
-    expect_refused(draw({"dragon", "--generations", "4:1"}, "d.gif"), 2, "the lowest derivation length first");
+    expect_refused(draw({"dragon"}, "d.gif"), 2, "--generations: needed for a .gif");
+    expect_refused(draw({"dragon", "--frames"}, "d.png"), 2, "needs --generations");
+    expect_refused(draw({"dragon", "--generations", "4:1"}, "d.gif"), 2, "the lowest first");
     expect_refused(draw({"dragon", "--generations", "1:x"}, "d.gif"), 2, "expected two derivation lengths");
     expect_refused(draw({"dragon", "--generations", "1:3", "--frame-time", "0"}, "d.gif"), 2, "--frame-time");
     expect_refused(draw({"dragon", "--generations", "1:60"}, "d.gif"), 1, "budget");
     expect_refused(draw({"dragon", "--generations", "1:3", "--size", "10000x1000mm", "--dpi", "155"}, "d.gif"), 2,
                    "100 million");
-    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "need --generations");
+    expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "applies only to a .gif");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.obj"), 2, "a model has no page");
     expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "nothing to draw in any");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});

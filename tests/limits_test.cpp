@@ -152,7 +152,7 @@ TEST(Limits, Generations) {
         expect_refused(draw(generations, "x.svg", true), "derivation lengths up to 1000000");
         expect_refused(draw(generations, "x.gif", false), "derivation lengths up to 1000000");
     }
-    expect_refused(draw("0:10000", "x.svg", true), "up to 10000 frames");
+    expect_refused(draw("0:10000", "x.svg", true), "up to 10000 derivation lengths");
     EXPECT_TRUE(folder.names().empty());
 }
 
@@ -299,7 +299,7 @@ TEST(Limits, TheSettingThatSpoilsAPatternIsFound) {
                           "pattern = \"hilbert\"\n\n[set]\n\"derivation length\" = 2\ntitle = \"x\"\nwrong = 1\n"
                           "heading = 0\nalso = 2\n")});
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_TRUE(has(outcome.errors, "g.toml:6:1: --set:1:1: unknown key 'wrong'"));
+    EXPECT_TRUE(has(outcome.errors, "g.toml:6:1: set:1:1: unknown key 'wrong'"));
     EXPECT_FALSE(has(outcome.errors, "'also'"));
 }
 

@@ -72,7 +72,7 @@ TEST(Spot, SaysWhatIsWrong) {
         EXPECT_TRUE(says(complaint([&, &given = text] { parse_spot(given); }), part)) << text;
     }
     const auto both = [](const std::vector<std::string>& texts) { return complaint([&] { parse_spots(texts); }); };
-    EXPECT_TRUE(says(both({"Kaavi=red", "Kaavi=blue"}), "two of that name"));
+    EXPECT_TRUE(says(both({"Kaavi=red", "Kaavi=blue"}), "two spot colours are named 'Kaavi'"));
     EXPECT_TRUE(says(both({"Kaavi=red", "Rot=#f00"}), "'Kaavi' and 'Rot' are both red"));
     EXPECT_EQ(both({"Kaavi=red", "kaavi=blue"}), "");
 }

@@ -121,7 +121,7 @@ TEST(BlankPicture, IsReportedWithItsRemedy) {
     };
     for (const std::string& errors : {draw({"koch-island", "-n", "25"}), draw({"koch-island", "-n", "8"})}) {
         EXPECT_TRUE(has(errors, "the picture looks empty")) << errors;
-        EXPECT_TRUE(has(errors, "--set 'stroke=0.3mm'")) << errors;
+        EXPECT_TRUE(has(errors, "(stroke: 0.3mm)")) << errors;
         EXPECT_FALSE(has(errors, "window")) << errors;
     }
     EXPECT_EQ(draw({"koch-island", "-n", "25", "--set", "stroke=0.3mm"}), "");

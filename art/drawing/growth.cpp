@@ -69,6 +69,8 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
 
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
+    // All are read as words: the largest decides, before the first is drawn.
+    require_affordable(generation_of(grammar, growth.last), true, options.budget);
     const PixelSize size = pixel_size(given.page, given.dpi);
     const auto opened = destination.open(file);
     Output& output = *opened;

@@ -351,7 +351,7 @@ std::optional<Quad> parse_decimal(std::string_view text) {
 BudgetError too_much(double budget) {
     return BudgetError(
         fmt::format("more than {:.0f} parts of the drawing can be told apart: fewer pixels or a smaller window have "
-                    "fewer, and --budget allows more",
+                    "fewer, and a larger budget allows more",
                     budget));
 }
 

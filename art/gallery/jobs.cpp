@@ -453,7 +453,7 @@ void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::v
     for (const std::string& text : request.overrides) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0) {
-            throw GalleryError(fmt::format("--set {}: expected KEY=VALUE", text));
+            throw SettingError("set", text, "expected KEY=VALUE");
         }
         GalleryValue value;
         value.text = text.substr(equals + 1);
@@ -588,7 +588,7 @@ OptionValues GalleryJob::values() const {
 Document GalleryJob::document() const {
     if (!pattern->text) throw std::runtime_error(pattern->problem);
     Overrides settings;
-    for (const auto& [key, value] : overrides) settings.settings.push_back({key, key, value});
+    for (const auto& [key, value] : overrides) settings.settings.push_back({"set", key, value});
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
     if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
     if (keys.contains("variant")) settings.variant = keys.at("variant");

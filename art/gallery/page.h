@@ -1,7 +1,7 @@
 // art/gallery/page.h: the page of a gallery: its prints to search, to look at closely, and to take along.
 #pragma once
 
-#include "music/score/score.h"
+#include "engine/base/output.h"
 
 #include <span>
 #include <string>

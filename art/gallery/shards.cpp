@@ -1,6 +1,7 @@
 #include "art/gallery/shards.h"
 
 #include "art/gallery/values.h"
+#include "engine/base/option.h"
 
 #include "engine/base/diagnostic.h"
 
@@ -46,8 +47,7 @@ Shard read_shard(const std::string& text, const Environment& environment) {
         const auto index =
             slash == 0 ? std::optional<std::size_t>(1) : whole(std::string_view(text).substr(0, slash));
         if (!count || !index || *index < 1 || *index > *count || *count > most_shards) {
-            throw GalleryError(
-                fmt::format("--shard {}: expected a part such as 3/8, from 1/8 to 8/8, or /8", printable(text, 80)));
+            throw SettingError("shard", text, "expected a part such as 3/8, from 1/8 to 8/8, or /8");
         }
         shard = {*index, *count};
         if (slash > 0) return shard;
@@ -72,13 +72,14 @@ Shard read_shard(const std::string& text, const Environment& environment) {
     }
     if (!index) {
         if (count) {
-            throw GalleryError(
-                fmt::format("--shard {}: no batch system says which part this is", printable(text, 80)));
+            throw SettingError("shard", text, "no batch system says which part this is");
         }
         return shard;
     }
     if (!count) count = told;
-    if (!count) throw GalleryError(fmt::format("{} is set, but not of how many: --shard /N tells it", source));
+    if (!count)
+        throw GalleryError(
+            fmt::format("{} is set, but not the number of parts; set it by the option 'shard', /N", source));
     if (*index >= *count || *count > most_shards) {
         throw GalleryError(fmt::format("{} says part {} of {}", source, *index + 1, *count));
     }

@@ -85,6 +85,7 @@ public:
     double rounding() const { return 1e-15 * static_cast<double>(rank_) * largest_ * lattice_.unit + 1e-300; }
     std::size_t size() const { return places_.size(); }
     glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
+    std::span<const glm::dvec2> places() const { return places_; }
 
     std::uint32_t node(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
         if (2 * places_.size() >= table_.size()) grow();
@@ -324,6 +325,7 @@ public:
     double rounding() const { return 2 * steps_are_one; }
     std::size_t size() const { return places_.size(); }
     glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
+    std::span<const glm::dvec2> places() const { return places_; }
 
     std::uint32_t node(std::span<const std::int64_t>, glm::dvec2 place) {
         if (!(std::fabs(place.x) < 1e9 && std::fabs(place.y) < 1e9)) {

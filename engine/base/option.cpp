@@ -28,9 +28,9 @@ void check_option(const OptionInfo& option, const std::string& text) {
         if (text != "true" && text != "false") refuse("expected true or false");
         return;
     }
+    if (option.kind == OptionKind::whole && !is_whole(text)) refuse("expected a whole number, 0 or more");
     double number = 0;
     if (!read_number(text, number)) refuse("expected a number");
-    if (option.kind == OptionKind::whole && !is_whole(text)) refuse("expected a whole number, 0 or more");
     const bool has_least = option.least > -1e300;
     const bool has_most = option.most < 1e300;
     if (number >= option.least && number <= option.most) return;

@@ -2,6 +2,7 @@
 // schedule.
 #pragma once
 
+#include "engine/language/angle.h"
 #include "engine/language/expression.h"
 #include "engine/language/pattern.h"
 
@@ -26,18 +27,6 @@ struct ModuleWord {
     Word symbols;
     std::vector<double> arguments;      ///< SymbolInfo::arity values for each symbol, in order
     std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol, or none: that of an axiom
-};
-
-/// A rational number of whole turns (360 degrees), in lowest terms, denominator > 0.
-struct TurnFraction {
-    std::int64_t numerator = 0;
-    std::int64_t denominator = 1;
-};
-
-/// An angle: exact where the file states one that fits, and always in degrees between -360 and 360, anticlockwise.
-struct Angle {
-    double degrees = 0.0;
-    std::optional<TurnFraction> exact;
 };
 
 /// What a turtle does on a symbol.
@@ -94,6 +83,12 @@ struct Production {
 /// The productions that one derivation step chooses from.
 class Table {
 public:
+    Table() = default;
+    /// @param productions  in the order of the file
+    /// @param symbols      number of symbols of the grammar
+    /// @param is_plain     what Grammar::is_plain() says
+    Table(std::vector<Production> productions, std::size_t symbols, bool is_plain);
+
     /// True if every production replaces one symbol whatever its neighbours are.
     bool context_free() const { return context_free_; }
     /// Context-free tables of plain grammars: the successor of a symbol, or null if it stays as it is.
@@ -113,8 +108,6 @@ public:
     bool has_random_conditions() const { return has_random_conditions_; }
 
 private:
-    friend class GrammarCompiler;
-    friend class Grammar;
     std::vector<Production> productions_;
     bool context_free_ = true;
     bool has_random_conditions_ = false;
@@ -122,6 +115,8 @@ private:
     std::vector<std::uint32_t> candidate_list_;  // grouped by first symbol
     std::vector<std::uint32_t> candidate_begin_;
 };
+
+struct ScheduleItem;
 
 /// A stretch of equal steps of the schedule.
 struct ScheduleRun {
@@ -205,7 +200,6 @@ public:
 
 private:
     friend class GrammarCompiler;
-    struct ScheduleItem;
     bool make_schedule(std::string* problem);
 
     std::vector<SymbolInfo> symbols_;

@@ -149,7 +149,7 @@ void Notator::notes(std::span<const Note> notes) {
     count_ += notes.size();
     if (count_ > most_notes) {
         throw ScoreError(
-            fmt::format("more than {} notes are too many to print; --bars takes some of the bars", most_notes));
+            fmt::format("more than {} notes are too many to print; limit the bars", most_notes));
     }
     for (const Note& note : notes) {
         if (note.voice < 0 || static_cast<std::size_t>(note.voice) >= voices_.size()) {
@@ -176,7 +176,7 @@ void Notator::finish(std::int64_t end) {
     const std::int64_t bar = notation_.bar_length;
     notation_.bars = std::max<std::int64_t>(1, (last + bar - 1) / bar);
     if (notation_.bars > most_bars) {
-        throw ScoreError(fmt::format("{} bars are too many to print (the most are {}); --bars takes some of them",
+        throw ScoreError(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
                                      notation_.bars, most_bars));
     }
     std::size_t first_voice = 0;

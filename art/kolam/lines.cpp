@@ -1,0 +1,220 @@
+#include "art/kolam/lines.h"
+
+#include "art/kolam/union_find.h"
+
+#include <tuple>
+#include <unordered_map>
+
+namespace sikku::kolam_plane {
+namespace {
+
+/// Uses of edges, in the order of drawing, and where each goes on.
+class LineFollower {
+public:
+    LineFollower(const PlanarGraph& graph, const Strokes& strokes, const KolamOptions& options)
+        : graph_(graph), strokes_(strokes), options_(options), pulse_(options.monitor) {}
+
+    Lines follow() {
+        follow_strokes();
+        join_ends();
+        number_lines();
+        find_passes();
+        return std::move(lines_);
+    }
+
+private:
+    void join(std::uint32_t a, std::uint32_t b) {
+        link_[a] = b;
+        link_[b] = a;
+    }
+    /// The half-edge that leaves the vertex at an end.
+    std::uint32_t leaving(std::uint32_t end) const { return end % 2 == 0 ? uses_[end / 2] : uses_[end / 2] ^ 1; }
+
+    /// Finds the uses and links those of one stroke.
+    void follow_strokes() {
+        for (std::size_t i = 0; i < strokes_.count(); ++i) {
+            const auto nodes = strokes_.stroke(i);
+            const auto first = static_cast<std::uint32_t>(uses_.size());
+            first_uses_.push_back(first);
+            for (std::size_t j = 1; j < nodes.size(); ++j) {
+                pulse_();
+                const std::uint32_t segment = graph_.segment_between(nodes[j - 1], nodes[j]);
+                const auto halves = graph_.pieces(segment);
+                const bool forward = graph_.segments[segment].from == nodes[j - 1];
+                for (std::size_t k = 0; k < halves.size(); ++k) {
+                    uses_.push_back(forward ? halves[k] : halves[halves.size() - 1 - k] ^ 1);
+                }
+            }
+            if (uses_.size() >= none / 4) throw BudgetError("the drawing has too many edges to be examined");
+            const auto last = static_cast<std::uint32_t>(uses_.size());
+            link_.resize(2 * uses_.size(), none);
+            for (std::uint32_t use = first; use + 1 < last; ++use) {
+                pulse_();
+                join(2 * use + 1, 2 * use + 2);
+            }
+            if (strokes_.closed[i] && last > first) join(2 * last - 1, 2 * first);
+        }
+        breathe(options_);
+    }
+
+    /// Ends of strokes at one vertex go on into each other: first those that do so straight on.
+    void join_ends() {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // vertex, end
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (link_[end] == none) ends.emplace_back(graph_.tail(leaving(end)), end);
+        }
+        sort(options_, ends, [&](const auto& a, const auto& b) {
+            return std::tuple(a.first, graph_.rank[leaving(a.second)], a.second) <
+                   std::tuple(b.first, graph_.rank[leaving(b.second)], b.second);
+        });
+        for (std::size_t begin = 0; begin < ends.size();) {
+            std::size_t end = begin + 1;
+            while (end < ends.size() && ends[end].first == ends[begin].first) ++end;
+            std::vector<std::uint32_t> left;
+            for (std::size_t i = begin; i < end; ++i) {
+                pulse_();
+                const std::uint32_t ahead = graph_.behind(leaving(ends[i].second));
+                if (link_[ends[i].second] != none || ahead == none) continue;
+                const auto wanted = std::pair(ends[i].first, graph_.rank[ahead]);
+                for (auto other = std::lower_bound(ends.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                   ends.begin() + static_cast<std::ptrdiff_t>(end), wanted,
+                                                   [&](const auto&a, const auto&key) {
+                                                       return std::pair(a.first, graph_.rank[leaving(a.second)]) <
+                                                              key;
+                                                   });
+                     other != ends.begin() + static_cast<std::ptrdiff_t>(end) && leaving(other->second) == ahead;
+                     ++other) {
+                    if (link_[other->second] != none) continue;
+                    join(ends[i].second, other->second);
+                    break;
+                }
+            }
+            for (std::size_t i = begin; i < end; ++i) {
+                if (link_[ends[i].second] == none) left.push_back(ends[i].second);
+            }
+            if (left.size() % 2 == 0) {
+                for (std::size_t i = 0; i < left.size() / 2; ++i) join(left[i], left[i + left.size() / 2]);
+            }
+            begin = end;
+        }
+
+        breathe(options_);
+    }
+
+    void number_lines() {
+        UnionFind lines(uses_.size());
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            pulse_();
+            if (link_[end] != none) lines.join(end / 2, link_[end] / 2);
+        }
+        std::vector<char> is_open(uses_.size(), 0);
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (link_[end] == none) is_open[lines.find(end / 2)] = 1;
+        }
+        for (const std::uint32_t use : first_uses_)
+            lines_.is_stroke_of_open_line.push_back(is_open[lines.find(use)] != 0);
+        std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+        for (const std::uint32_t use : first_uses_) {
+            const auto [found, is_new] =
+                numbers.try_emplace(lines.find(use), static_cast<std::uint32_t>(numbers.size()));
+            lines_.line_of_stroke.push_back(found->second);
+        }
+        lines_.times.assign(graph_.edges.size(), 0);
+        lines_.closed_times.assign(graph_.edges.size(), 0);
+        for (std::uint32_t use = 0; use < uses_.size(); ++use) {
+            pulse_();
+            const std::uint32_t line = lines.find(use);
+            if (line == use) {
+                ++lines_.count;
+                lines_.open += static_cast<std::uint64_t>(is_open[line]);
+            }
+            ++lines_.times[uses_[use] / 2];
+            if (!is_open[line]) lines_.closed_times[uses_[use] / 2] ^= 1;
+        }
+    }
+
+    void find_passes() {
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            pulse_();
+            const std::uint32_t half = leaving(end);
+            if (link_[end] == none) lines_.passes.push_back({graph_.tail(half), half, none});
+            if (link_[end] != none && end < link_[end])
+                lines_.passes.push_back({graph_.tail(half), half, leaving(link_[end])});
+        }
+        sort(options_, lines_.passes, [](const Pass& a, const Pass& b) { return a.vertex < b.vertex; });
+        breathe(options_);
+    }
+
+    const PlanarGraph& graph_;
+    const Strokes& strokes_;
+    const KolamOptions& options_;
+    Pulse pulse_;
+    std::vector<std::uint32_t> uses_;        // half-edges
+    std::vector<std::uint32_t> first_uses_;  // of strokes
+    std::vector<std::uint32_t> link_;  // end 2u is where use u begins, 2u+1 where it ends: the end that it goes on at
+    Lines lines_;
+};
+
+/// Counts a vertex that two strands visit.
+void count_pair(const PlanarGraph& graph, const Lines& lines, const Pass& p, const Pass& q, Meetings& found) {
+    for (const std::uint32_t half : {p.a, p.b, q.a, q.b}) {
+        if (half != none && lines.times[half / 2] > 1) return;  // they run along each other
+    }
+    if (p.b == none || q.b == none) {
+        ++found.touchings;
+        return;
+    }
+    const auto [low, high] = std::minmax(graph.rank[p.a], graph.rank[p.b]);
+    const auto lies_between = [low = low, high = high](std::uint32_t rank) { return low < rank && rank < high; };
+    if (lies_between(graph.rank[q.a]) == lies_between(graph.rank[q.b])) {
+        ++found.touchings;
+        return;
+    }
+    ++found.crossings;
+    if (graph.node[p.vertex] == none) ++found.mid_crossings;
+    if (!graph.are_opposite(p.a, p.b) || !graph.are_opposite(q.a, q.b) || !graph.are_perpendicular(p.a, q.a))
+        ++found.skew;
+}
+
+}  // namespace
+
+Lines follow_strokes(const PlanarGraph& graph, const Strokes& strokes, const KolamOptions& options) {
+    return LineFollower(graph, strokes, options).follow();
+}
+
+Meetings count_meetings(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options) {
+    Meetings found;
+    Pulse pulse(options.monitor);
+    for (std::size_t begin = 0; begin < lines.passes.size();) {
+        std::size_t end = begin + 1;
+        while (end < lines.passes.size() && lines.passes[end].vertex == lines.passes[begin].vertex) ++end;
+        pulse();
+        const std::size_t count = end - begin;
+        if (count > 1) ++found.all;
+        if (count > 2) ++found.multiple;
+        if (count == 2) count_pair(graph, lines, lines.passes[begin], lines.passes[begin + 1], found);
+        begin = end;
+    }
+    return found;
+}
+
+std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions& options) {
+    std::uint64_t count = 0;
+    Pulse pulse(options.monitor);
+    UnionFind joined(graph.edges.size());
+    for (std::uint32_t vertex = 0; vertex < graph.places.size(); ++vertex) {
+        pulse();
+        const auto list = graph.around(vertex);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::uint32_t ahead =
+                list.size() % 2 == 0 ? list[(i + list.size() / 2) % list.size()] : graph.behind(list[i]);
+            if (ahead != none) joined.join(list[i] / 2, ahead / 2);
+        }
+    }
+    for (std::uint32_t edge = 0; edge < graph.edge_count(); ++edge) {
+        count += joined.find(edge) == edge ? 1 : 0;
+    }
+    return count;
+}
+
+}  // namespace sikku::kolam_plane

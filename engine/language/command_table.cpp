@@ -1,0 +1,81 @@
+#include "engine/language/command_table.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+/// What the first parameter of a module changes.
+enum class Parameter : std::uint8_t {
+    none,
+    value,    ///< it is the value of the command
+    degrees,  ///< it is the angle, times `number`; without it the angle is the increment, times `number`
+};
+
+struct Row {
+    std::string_view letter;
+    Action action;  ///< without a parameter
+    double number;  ///< the value without a parameter; of turns, 1 or -1
+    Parameter parameter;
+    Action action_with;  ///< with a parameter
+};
+
+constexpr auto rows = [] {
+    using enum Action;
+    using enum Parameter;
+    return std::array<Row, 18>{{
+        {"+", turn, 1.0, degrees, turn},  // to the side that `turn:` names
+        {"-", turn, -1.0, degrees, turn},
+        {"&", pitch, 1.0, degrees, pitch},
+        {"^", pitch, -1.0, degrees, pitch},
+        {"\\", roll, 1.0, degrees, roll},
+        {"/", roll, -1.0, degrees, roll},
+        {"$", level, 0.0, none, level},
+        {"[", push, 0.0, none, push},
+        {"]", pop, 0.0, none, pop},
+        {"{", polygon_begin, 0.0, none, polygon_begin},
+        {"}", polygon_end, 0.0, none, polygon_end},
+        {"#", width_factor, 1.25, value, width_set},
+        {"!", width_factor, 0.8, value, width_set},
+        {"'", colour_step, 1.0, value, colour_set},
+        {";", colour_step, 1.0, value, colour_set},
+        {",", colour_step, -1.0, value, colour_set},
+        {"@O", disc, 1.0, value, disc},
+        {"@.", disc, 0.0, none, disc},
+    }};
+}();
+
+/// Draws and moves take the length of the step, 1 without a parameter.
+constexpr Row draw_row{"", Action::draw, 1.0, Parameter::value, Action::draw};
+constexpr Row move_row{"", Action::move, 1.0, Parameter::value, Action::move};
+
+const Row* row_of(const std::string& letter, const CommandSettings& settings) {
+    if (settings.forward.contains(letter)) return &draw_row;
+    if (settings.move.contains(letter)) return &move_row;
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.letter == letter; });
+    return found == rows.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Command command_of(const SymbolInfo& symbol, const CommandSettings& settings) {
+    const Row* const row = row_of(symbol.letter, settings);
+    if (!row) {
+        if (symbol.letter == "|") return {Action::turn, 0.0, Angle{180.0, TurnFraction{1, 2}}, false};
+        return {};
+    }
+    const bool takes_argument = symbol.arity > 0;
+    const bool has_value = takes_argument || !symbol.arguments.empty();
+    if (row->parameter == Parameter::degrees) {
+        const bool positive = (row->number > 0) == (row->action != Action::turn || settings.plus_turns_left);
+        if (takes_argument) return {row->action, positive ? 1.0 : -1.0, {}, true};
+        const Angle angle = has_value ? angle_of_degrees(symbol.arguments.front()) : settings.increment;
+        return {row->action, 0.0, positive ? angle : negated(angle), false};
+    }
+    if (row->parameter == Parameter::none || !has_value) return {row->action, row->number, {}, false};
+    return {row->action_with, takes_argument ? 1.0 : symbol.arguments.front(), {}, takes_argument};
+}
+
+}  // namespace sikku

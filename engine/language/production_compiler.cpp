@@ -1,0 +1,233 @@
+#include "engine/language/production_compiler.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+// What tables repeat, together: productions that all of them share.
+constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
+
+/// Productions of equal predecessor and contexts.
+struct Group {
+    std::uint32_t number = 0;
+    bool is_certain = false;      ///< one of them has neither condition nor weight
+    bool has_conditions = false;  ///< that are not constant
+    bool has_variables = false;   ///< weights that are not constant
+    bool is_mixed = false;
+    std::optional<Span> weighted;    ///< the first weight
+    std::optional<Span> unweighted;  ///< the first production without one
+    double sum = 0.0;                ///< of constant weights
+};
+using Groups = std::map<std::tuple<Word, Word, Word>, Group>;
+
+class ProductionCompiler {
+public:
+    ProductionCompiler(const Pattern& pattern, WordReader& reader, Diagnostics& diagnostics)
+        : pattern_(pattern), reader_(reader), diagnostics_(diagnostics) {}
+
+    CompiledProductions run() {
+        std::vector<Production> common;
+        Groups groups;
+        add_productions(common, pattern_.common, groups, false);
+        std::size_t size = 0;
+        for (const Production& production : common) {
+            size += 64 + production.left.size() + production.predecessor.size() + production.right.size() +
+                    production.successor.size();
+        }
+        if (pattern_.tables.size() > 1 && size > most_shared / pattern_.tables.size()) {
+            diagnostics_.error(pattern_.tables.front().name,
+                               "there is too much before the first table for so many tables to share it");
+            return {};
+        }
+        if (pattern_.tables.empty()) {
+            weigh(common, groups);
+            compiled_.tables.push_back(std::move(common));
+        } else {
+            for (const TableText& text : pattern_.tables) {
+                std::vector<Production> table = common;
+                Groups groups_here = groups;
+                add_productions(table, text.productions, groups_here, false);
+                weigh(table, groups_here);
+                compiled_.tables.push_back(std::move(table));
+            }
+        }
+        if (!pattern_.interpret.empty()) {
+            std::vector<Production> table;
+            Groups groups_here;
+            add_productions(table, pattern_.interpret, groups_here, true);
+            weigh(table, groups_here);
+            compiled_.interpretation = std::move(table);
+        }
+        return std::move(compiled_);
+    }
+
+private:
+    std::optional<Word> context(const std::optional<Span>& text, bool right) {
+        if (!text) return Word();
+        if (text->empty()) {
+            diagnostics_.error(*text, "expected a context; '*' is the empty one");
+            return std::nullopt;
+        }
+        auto result = reader_.word(*text, WordPlace::context);
+        if (!result) return std::nullopt;
+        std::size_t depth = 0;
+        for (const Symbol symbol : *result) {
+            const std::string& letter = reader_.symbols()[symbol].letter;
+            if (letter != "[" && letter != "]") continue;
+            if (!right) {
+                diagnostics_.error(text->part(text->view().find(letter)), "a left context holds no brackets");
+                return std::nullopt;
+            }
+            if (letter == "]" && depth == 0) {
+                diagnostics_.error(*text, "this context has a ']' without '['");
+                return std::nullopt;
+            }
+            depth += letter == "[" ? 1 : -1;
+        }
+        if (depth > 0) {
+            diagnostics_.error(*text, "this context has a '[' that is not closed");
+            return std::nullopt;
+        }
+        return result;
+    }
+
+    void add_productions(std::vector<Production>& productions, const std::vector<ProductionText>& texts,
+                         Groups& groups, bool homomorphism) {
+        for (const ProductionText& text : texts) {
+            if (text.predecessor.view() == "*" || text.predecessor.view() == "\xCE\xB5") {
+                diagnostics_.error(text.predecessor, "the empty word is no predecessor");
+                continue;
+            }
+            reader_.begin_production();
+            auto left = context(text.left, false);
+            auto predecessor = reader_.word(text.predecessor, WordPlace::predecessor);
+            auto right = context(text.right, true);
+            if (!left || !predecessor || !right) continue;
+            std::optional<Expression> condition;
+            if (text.condition) {
+                if (text.condition->empty()) {
+                    diagnostics_.error(*text.condition, "expected a condition after ':'");
+                    continue;
+                }
+                condition = reader_.expression(*text.condition);
+                if (!condition) continue;
+            }
+            std::vector<Expression> arguments;
+            auto successor = reader_.word(text.successor, WordPlace::axiom_or_successor, &arguments);
+            if (!successor) continue;
+            std::optional<Expression> weight;
+            if (text.weight) {
+                if (text.weight->empty()) {
+                    diagnostics_.error(*text.weight, "expected a weight after ':'");
+                    continue;
+                }
+                weight = reader_.expression(*text.weight);
+                if (!weight) continue;
+            }
+            if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
+                diagnostics_.error(text.predecessor,
+                                   "an interpretation replaces one symbol, whatever its neighbours are");
+                continue;
+            }
+            if (reader_.is_parametric()) {
+                for (const Word* looked : {&*left, &*predecessor, &*right}) {
+                    for (const Symbol symbol : *looked) compiled_.looked_at.try_emplace(symbol, text.predecessor);
+                }
+            }
+            Group& group = groups.try_emplace({*left, *predecessor, *right}).first->second;
+            if (group.number == 0) group.number = static_cast<std::uint32_t>(groups.size());
+            if (group.is_certain && !text.weight) {
+                diagnostics_.error(text.predecessor,
+                                   "this production can never apply: one with the same predecessor and contexts "
+                                   "stands before it");
+                continue;
+            }
+            if (!text.condition && !text.weight) group.is_certain = true;
+            if (!belongs(text, weight, group)) continue;
+            if (condition) {
+                if (const auto value = condition->constant()) {
+                    if (std::isnan(*value)) {
+                        diagnostics_.error(*text.condition, "this condition is never a number");
+                    }
+                    if (*value == 0) continue;
+                    condition.reset();
+                } else {
+                    group.has_conditions = true;
+                    if (condition->uses_chance()) compiled_.uses_chance = true;
+                }
+            }
+            productions.push_back({std::move(*left), std::move(*predecessor), std::move(*right),
+                                   std::move(*successor), std::move(condition), std::move(weight),
+                                   std::move(arguments), group.number});
+        }
+    }
+
+    /// Does its weight, or that it has none, go with those of the others?
+    bool belongs(const ProductionText& text, const std::optional<Expression>& weight, Group& group) {
+        if (!weight && !group.unweighted) group.unweighted = text.predecessor;
+        if (weight && !group.weighted) group.weighted = *text.weight;
+        if (group.weighted && group.unweighted && !group.is_mixed) {
+            group.is_mixed = true;
+            diagnostics_.error(*group.unweighted,
+                               "this production has no weight, and others of the same predecessor and contexts have");
+        }
+        if (!weight) return true;
+        const auto value = weight->constant();
+        if (!value) {
+            group.has_variables = true;
+        } else if (!(*value >= 0) || !std::isfinite(*value)) {
+            diagnostics_.error(*text.weight, "a weight is a finite number, 0 or more");
+            group.has_variables = true;
+            return false;
+        } else {
+            group.sum += *value;
+        }
+        return true;
+    }
+
+    /// What is left to chance once constant weights are known: nothing where one production alone has any.
+    void weigh(std::vector<Production>& productions, const Groups& groups) {
+        std::vector<const Group*> by_number(groups.size() + 1, nullptr);
+        bool any = false;
+        for (const auto& [pattern, group] : groups) {
+            by_number[group.number] = &group;
+            if (!group.weighted) continue;
+            any = true;
+            if (!group.has_variables && !(group.sum > 0 && std::isfinite(group.sum))) {
+                diagnostics_.error(*group.weighted, group.sum > 0 ? "these weights have no finite sum"
+                                                                  : "the weights of this predecessor are all 0");
+            }
+        }
+        if (!any || diagnostics_.has_errors()) return;
+        const auto is_fixed = [&](const Production& production) {
+            const Group& group = *by_number[production.group];
+            return production.weight && !group.has_variables && !group.has_conditions;
+        };
+        std::erase_if(productions, [&](const Production& production) {
+            return is_fixed(production) && production.weight->constant() == 0.0;
+        });
+        std::vector<std::uint32_t> members(groups.size() + 1, 0);
+        for (const Production& production : productions) ++members[production.group];
+        for (Production& production : productions) {
+            if (is_fixed(production) && members[production.group] == 1) production.weight.reset();
+            if (production.weight) compiled_.uses_chance = true;
+        }
+    }
+
+    const Pattern& pattern_;
+    WordReader& reader_;
+    Diagnostics& diagnostics_;
+    CompiledProductions compiled_;
+};
+
+}  // namespace
+
+CompiledProductions compile_productions(const Pattern& pattern, WordReader& reader, Diagnostics& diagnostics) {
+    return ProductionCompiler(pattern, reader, diagnostics).run();
+}
+
+}  // namespace sikku

@@ -1,0 +1,171 @@
+#include "engine/language/word_reader.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t large_word = std::size_t{1} << 22;  // bytes
+constexpr std::size_t most_parameters = 64;               // of a module that states them for itself
+
+}  // namespace
+
+/// The parameters of one module of a word.
+struct WordReader::Parameters {
+    std::vector<Expression> own;    ///< that it states for itself, in an axiom or a successor
+    std::vector<double> constants;  ///< of a symbol
+    std::uint32_t arity = 0;        ///< number of those that it states for itself
+};
+
+Symbol WordReader::intern(std::string letter, bool is_name, std::vector<double> arguments, std::uint32_t arity) {
+    std::string key = letter;
+    key += '\0';
+    if (arity > 0) key += fmt::format("{}", arity);
+    for (const double value : arguments) key += fmt::format("({}", value == 0 ? 0.0 : value);
+    const auto [found, fresh] = symbol_index_.try_emplace(key, static_cast<Symbol>(symbols_.size()));
+    if (fresh) {
+        const auto [letter_at, new_letter] =
+            letter_index_.try_emplace(letter, static_cast<std::uint32_t>(letters_.size()));
+        if (new_letter) letters_.push_back(letter);
+        symbols_.push_back({std::move(letter), std::move(arguments), is_name, letter_at->second, {}, arity});
+    }
+    return found->second;
+}
+
+std::optional<Word> WordReader::word(const Span& span, WordPlace place, std::vector<Expression>* arguments) {
+    Word result;
+    const std::string_view text = span.view();
+    if (text == "*" || text == "\xCE\xB5") return result;  // ε
+    // A large word is looked through before memory is spent on it.
+    if (text.size() > large_word && !read_word(span, place, [](Symbol, std::vector<Expression>&) {})) {
+        return std::nullopt;
+    }
+    result.reserve(text.size() > large_word ? text.size() : 0);
+    const bool good = read_word(span, place, [&](Symbol symbol, std::vector<Expression>& own) {
+        result.push_back(symbol);
+        if (arguments && !own.empty()) std::move(own.begin(), own.end(), std::back_inserter(*arguments));
+    });
+    if (!good) return std::nullopt;
+    return result;
+}
+
+/// Hands each symbol to `take`, with its parameters if it states them for itself; false after the first mistake.
+template <class Take>
+bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
+    WordScanner scanner(names_, span, &diagnostics_);
+    Parameters read;
+    while (true) {
+        const bool blank_before = scanner.skip_blanks();
+        if (scanner.at_end()) return true;
+        const std::size_t begin = scanner.at();
+        const std::string_view letter = scanner.letter(blank_before);
+        if (letter.empty()) return false;
+        const bool is_name = scanner.is_name();
+        const bool plain = letter.size() == 1 && !scanner.at_parameters();
+        read.own.clear();
+        if (plain) {
+            // Most symbols are single letters that were met before.
+            const Symbol known = plain_symbols_[static_cast<unsigned char>(letter.front())];
+            if (known != no_symbol && letter != "%") {
+                take(known, read.own);
+                continue;
+            }
+        }
+        read.constants.clear();
+        read.arity = 0;
+        if (scanner.at_parameters() && !read_parameters(scanner, span, letter, place, read)) return false;
+        if (letter == "%" && place != WordPlace::list && place != WordPlace::axiom_or_successor) {
+            diagnostics_.error(span.part(begin), "the cut symbol '%' is gone before productions apply");
+            return false;
+        }
+        if (symbols_.size() >= most_symbols) {
+            diagnostics_.error(span.part(begin), "there are more than 524,288 different symbols");
+            return false;
+        }
+        const Symbol symbol = intern(std::string(letter), is_name, read.constants, read.arity);
+        if (letter == "%" && place == WordPlace::axiom_or_successor) cut_ = symbol;
+        if (plain) plain_symbols_[static_cast<unsigned char>(letter.front())] = symbol;
+        take(symbol, read.own);
+    }
+}
+
+/// Reads the parameters of `letter`, which are next.
+bool WordReader::read_parameters(WordScanner& scanner, const Span& span, std::string_view letter, WordPlace place,
+                                 Parameters& read) {
+    const std::size_t open = scanner.at();
+    if (place == WordPlace::list) {
+        diagnostics_.error(span.part(open), "a list of symbols holds no parameters");
+        return false;
+    }
+    std::vector<Span> parts;
+    if (!scanner.parameters(parts)) return false;
+    if (letter == "%") {
+        diagnostics_.error(span.part(open), "the cut symbol '%' has no parameters");
+        return false;
+    }
+    if (place != WordPlace::axiom_or_successor) {
+        if (!read_formals(parts)) return false;
+        read.arity = static_cast<std::uint32_t>(parts.size());
+    } else if (types_.contains(letter, parts.size())) {
+        if (!read_expressions(parts, read.own)) return false;
+        read.arity = static_cast<std::uint32_t>(parts.size());
+    } else {
+        for (const Span& part : parts) {
+            const auto value = defines_.constant(part, diagnostics_);
+            if (!value) return false;
+            read.constants.push_back(*value);
+        }
+    }
+    if (read.arity > most_parameters) {
+        diagnostics_.error(span.part(open), "a module has at most 64 parameters");
+        return false;
+    }
+    return true;
+}
+
+bool WordReader::read_formals(const std::vector<Span>& parts) {
+    for (const Span& part : parts) {
+        const std::string_view name = part.view();
+        if (!is_expression_name(name)) {
+            diagnostics_.error(part, "a predecessor and its contexts hold names of parameters only");
+            return false;
+        }
+        if (!formals_.try_emplace(name, static_cast<std::uint32_t>(formals_.size())).second) {
+            diagnostics_.error(part, fmt::format("the parameter '{}' is named twice", name));
+            return false;
+        }
+    }
+    return true;
+}
+
+std::optional<Expression> WordReader::expression(const Span& text) {
+    const auto names = [this](std::string_view name) -> std::optional<NameMeaning> {
+        if (const auto formal = formals_.find(name); formal != formals_.end()) {
+            return NameMeaning{true, 0.0, formal->second};
+        }
+        return defines_.find(name);
+    };
+    return Expression::compile(text, names, diagnostics_, &draws_);
+}
+
+bool WordReader::read_expressions(const std::vector<Span>& parts, std::vector<Expression>& own) {
+    for (const Span& part : parts) {
+        auto compiled = expression(part);
+        if (!compiled) return false;
+        if (compiled->uses_chance()) uses_chance_ = true;
+        own.push_back(std::move(*compiled));
+    }
+    return true;
+}
+
+std::optional<Word> WordReader::symbol_list(const Key& key) {
+    if (const std::size_t comma = key.value.view().find(','); comma != std::string_view::npos) {
+        diagnostics_.error(key.value.part(comma), "symbols are listed as a word: blanks, no commas, between them");
+        return std::nullopt;
+    }
+    return word(key.value, WordPlace::list);
+}
+
+}  // namespace sikku

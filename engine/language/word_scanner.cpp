@@ -1,0 +1,152 @@
+#include "engine/language/word_scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t longest_allowed_name = 64;
+constexpr std::size_t most_arguments = std::size_t{1} << 16;  // of any module
+
+std::size_t code_point_length(char lead) {
+    const auto byte = static_cast<unsigned char>(lead);
+    return byte < 0x80 ? 1 : byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
+}
+
+}  // namespace
+
+SymbolNames::SymbolNames(const Pattern& pattern, Diagnostics& diagnostics) {
+    const Key* key = pattern.find("symbols");
+    if (!key) return;
+    if (!read(key->value, diagnostics)) names_.clear();
+    for (const std::string& name : names_) longest_ = std::max(longest_, name.size());
+}
+
+bool SymbolNames::read(const Span& list, Diagnostics& diagnostics) {
+    const std::string_view text = list.view();
+    for (std::size_t at = 0; at < text.size();) {
+        if (text[at] == ' ' || text[at] == '\t') {
+            ++at;
+            continue;
+        }
+        const std::size_t begin = at;
+        while (at < text.size() && text[at] != ' ' && text[at] != '\t') ++at;
+        const std::string_view name = text.substr(begin, at - begin);
+        const auto letter = [](char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); };
+        const bool good = letter(name.front()) && std::all_of(name.begin(), name.end(), [&](char byte) {
+                              return letter(byte) || (byte >= '0' && byte <= '9');
+                          });
+        if (!good) {
+            const std::size_t comma = name.find(',');
+            diagnostics.error(list.part(begin + (comma == std::string_view::npos ? 0 : comma)),
+                              comma == std::string_view::npos
+                                  ? "a name is letters and digits, beginning with a letter"
+                                  : "names are separated by blanks, not by commas");
+            return false;
+        }
+        if (name.size() > longest_allowed_name) {
+            diagnostics.error(list.part(begin), "a name has at most 64 characters");
+            return false;
+        }
+        if (names_.size() >= most_symbols) {
+            diagnostics.error(list.part(begin), "there are more than 524,288 different symbols");
+            return false;
+        }
+        if (!names_.insert(std::string(name)).second) {
+            diagnostics.error(list.part(begin), fmt::format("'{}' is listed twice", name));
+        }
+    }
+    return true;
+}
+
+bool WordScanner::skip_blanks() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    return at_ > begin;
+}
+
+std::string_view WordScanner::wrong(const std::string& message) {
+    if (diagnostics_) diagnostics_->error(span_.part(at_), message);
+    return {};
+}
+
+std::string_view WordScanner::letter(bool blank_before) {
+    const auto taken = [&](std::size_t length) {
+        const std::string_view found = text_.substr(at_, length);
+        at_ += length;
+        return found;
+    };
+    const char byte = text_[at_];
+    is_name_ = false;
+    if (const std::size_t length = names_.length_at(text_.substr(at_))) {
+        is_name_ = length > 1;
+        return taken(length);
+    }
+    if (byte == '@') {
+        const std::size_t next = at_ + 1;
+        if (next >= text_.size() || text_[next] == ' ' || text_[next] == '\t' || text_[next] == '(') {
+            return wrong("a lone '@' is no symbol: '@' goes with the character after it");
+        }
+        return taken(1 + code_point_length(text_[next]));
+    }
+    if (byte == '(') {
+        return wrong(blank_before ? "parameters follow their symbol at once, without a blank"
+                                  : "'(' without a symbol before it");
+    }
+    if (byte == ')') return wrong("')' without '('");
+    if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is no symbol", byte));
+    if (byte == ':') return wrong("':' is no symbol");
+    if (byte == '*') return wrong("'*' is the empty word and stands alone");
+    if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F) {
+        return wrong(fmt::format("a control character (0x{:02x}) is no symbol", static_cast<unsigned char>(byte)));
+    }
+    const std::size_t length = code_point_length(byte);
+    const std::string_view point = text_.substr(at_, length);
+    struct Lookalike {
+        std::string_view sign, ascii;
+    };
+    static constexpr std::array<Lookalike, 4> lookalikes = {
+        {{"\xE2\x88\x92", "-"}, {"\xE2\x88\xA7", "^"}, {"\xE2\x80\x99", "'"}, {"\xE2\x86\x92", "-->"}}};
+    for (const Lookalike& pair : lookalikes) {
+        if (point == pair.sign) return wrong(fmt::format("'{}' is no symbol: write '{}'", pair.sign, pair.ascii));
+    }
+    // C1 controls are control characters too.
+    if (length == 2 && byte == '\xC2' && static_cast<unsigned char>(point[1]) < 0xA0) {
+        return wrong("a control character is no symbol");
+    }
+    return taken(length);
+}
+
+bool WordScanner::parameters(std::vector<Span>& parts) {
+    const auto wrong = [&](const Span& where, const std::string& message) {
+        if (diagnostics_) diagnostics_->error(where, message);
+        return false;
+    };
+    const std::size_t open = at_;
+    std::size_t depth = 0;
+    std::size_t begin = at_ + 1;
+    for (; at_ < text_.size(); ++at_) {
+        if (text_[at_] == '(') ++depth;
+        const bool last = text_[at_] == ')' && --depth == 0;
+        if (!last && !(text_[at_] == ',' && depth == 1)) continue;
+        const Span part = span_.part(begin, at_ - begin).trimmed();
+        if (part.empty()) {
+            return wrong(span_.part(begin), "expected a parameter");
+        }
+        if (parts.size() >= most_arguments) {
+            return wrong(part, "a module has at most 65,536 parameters");
+        }
+        parts.push_back(part);
+        begin = at_ + 1;
+        if (last) {
+            ++at_;
+            return true;
+        }
+    }
+    return wrong(span_.part(open), "this '(' is not closed");
+}
+
+}  // namespace sikku

@@ -1,0 +1,70 @@
+// engine/language/word_scanner.h: cuts the text of a word into letters and parameters.
+#pragma once
+
+#include "engine/language/pattern.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// The most symbols of a grammar.
+constexpr std::size_t most_symbols = std::size_t{1} << 19;
+
+/// Names of several characters, listed under `symbols:`.
+class SymbolNames {
+public:
+    SymbolNames(const Pattern& pattern, Diagnostics& diagnostics);
+
+    /// Bytes of the longest name at the front of `text`, or 0.
+    std::size_t length_at(std::string_view text) const {
+        for (std::size_t length = std::min(longest_, text.size()); length > 0; --length) {
+            if (names_.contains(text.substr(0, length))) return length;
+        }
+        return 0;
+    }
+    std::vector<std::string> sorted() const { return {names_.begin(), names_.end()}; }
+
+private:
+    bool read(const Span& list, Diagnostics& diagnostics);
+    std::set<std::string, std::less<>> names_;
+    std::size_t longest_ = 0;
+};
+
+/// Walks through one word.
+class WordScanner {
+public:
+    /// @param diagnostics  null: errors are not reported
+    WordScanner(const SymbolNames& names, const Span& span, Diagnostics* diagnostics)
+        : names_(names), diagnostics_(diagnostics), span_(span), text_(span.view()) {}
+
+    /// Bytes before the next letter or parenthesis.
+    std::size_t at() const { return at_; }
+    /// Skips blanks and tabs; true if there were any.
+    bool skip_blanks();
+    bool at_end() const { return at_ >= text_.size(); }
+    /// Is a parenthesis next?
+    bool at_parameters() const { return at_ < text_.size() && text_[at_] == '('; }
+
+    /// Reads the next letter, which may be a name; empty after an error. @param blank_before  what skip_blanks() said
+    std::string_view letter(bool blank_before);
+    /// Was the last letter a name of several characters?
+    bool is_name() const { return is_name_; }
+    /// Reads from the parenthesis at() to the one that closes it; false after an error.
+    bool parameters(std::vector<Span>& parts);
+
+private:
+    std::string_view wrong(const std::string& message);
+
+    const SymbolNames& names_;
+    Diagnostics* diagnostics_;
+    Span span_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+    bool is_name_ = false;
+};
+
+}  // namespace sikku
