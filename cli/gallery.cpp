@@ -358,6 +358,12 @@ void run(Options& options, bool quiet) {
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
+/// What a flag does; the table describes flags that hold by default by what they do while on.
+std::string flag_help(const GalleryKey& key) {
+    if (!key.name.starts_with("no-")) return key.help;
+    return "do not " + key.help.substr(0, key.help.rfind(" (default)"));
+}
+
 /// The placeholder of a key's value, as the interpreter's table has it.
 std::string value_name(const GalleryKey& key) {
     if (!key.use) return "VALUE";
@@ -433,8 +439,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
         CLI::Option* option = nullptr;
         if (key.kind == OptionKind::flag) {
-            const bool turns_off = key.name.starts_with("no-");
-            option = command->add_flag(names, options->flags[key.name], turns_off ? "do not " + key.help : key.help);
+            option = command->add_flag(names, options->flags[key.name], flag_help(key));
         } else {
             option = command->add_option(names, options->texts[key.name], key.help)->type_name(value_name(key));
         }
