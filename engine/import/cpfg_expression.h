@@ -1,0 +1,83 @@
+// engine/import/cpfg_expression.h: expressions of cpfg, written anew in the pattern language.
+#pragma once
+
+#include "engine/import/cpfg_preprocessor.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace sikku::cpfg {
+
+constexpr std::size_t most_parameters = 64;  // of a module of a pattern
+
+/// An expression in the pattern language.
+struct Value {
+    std::string text;
+    int precedence = 9;  ///< of its outermost operator, as in engine/language/expression.cpp; 9 for none
+    bool is_random = false;
+    bool is_enclosed = false;  ///< in parentheses, which are not written
+};
+
+/// The value in parentheses if its outermost operator binds less than `lowest`.
+std::string in_parentheses(const Value& value, int lowest);
+
+/// Reads the expressions of one file. Powers associate to the left there, signs bind tighter, and angles are degrees.
+/// Defines that are numbers stay names.
+class Expressions {
+public:
+    Expressions(Defines& defines, Report& report) : defines_(defines), report_(report) {}
+
+    /// Reads as much as is an expression. @throws Fault
+    Value read(Reader& reader) { return binary(reader, 1); }
+    /// Reads the rest of a line as a whole number.
+    long long whole_number(Reader& reader);
+    /// The next character of an expression that is no blank; 0 at the end.
+    char next(Reader& reader) {
+        return reader.peek([this](const std::string& name, Macro& macro) { return is_number(name, macro); });
+    }
+    /// Reads an identifier; empty if none stands here.
+    std::string identifier(Reader& reader);
+
+    /// Makes `name` a define of the pattern.
+    void define(const std::string& name, const Value& value);
+    /// What the pattern calls each define that is a number.
+    const std::map<std::string, std::string, std::less<>>& numbers() const { return number_texts_; }
+    /// The defines that the pattern needs: those in its expressions, and those in them.
+    std::set<std::string> used() const;
+
+    /// Forgets the parameters of the production before.
+    void forget_formals() { formals_.clear(); }
+    /// Adds a parameter of the production; false if it is one of them.
+    bool add_formal(const std::string& name) { return formals_.insert(name).second; }
+
+    /// The derivation length, for the variable Z.
+    long long steps = 0;
+
+private:
+    struct Operator {
+        std::string_view sign;  ///< in the pattern language
+        std::size_t bytes = 0;  ///< 0: none stands here
+        int level = 0;
+    };
+    Operator operator_here(Reader& reader);
+    Value binary(Reader& reader, int lowest);
+    Value unary(Reader& reader);
+    Value operand(Reader& reader);
+    Value call(Reader& reader, const std::string& name, std::size_t at);
+    bool is_number(const std::string& name, Macro& macro);
+    double evaluate(const std::string& text) const;
+
+    Defines& defines_;
+    Report& report_;
+    std::map<std::string, double, std::less<>> values_;
+    std::map<std::string, std::string, std::less<>> number_texts_;
+    std::set<std::string> used_;
+    std::set<std::string, std::less<>> formals_;
+    std::size_t number_depth_ = 0;
+    std::size_t unwritten_ = 0;  // expressions being read that the pattern does not hold
+    std::size_t nesting_ = 0;
+};
+
+}  // namespace sikku::cpfg

@@ -1,0 +1,305 @@
+#include "engine/import/cpfg_pattern.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace sikku::cpfg {
+namespace {
+
+std::string written(const std::vector<Formal>& modules, std::string_view between) {
+    std::string text;
+    for (const Formal& module : modules) {
+        if (!text.empty()) text += between;
+        text += module.letter;
+        for (std::size_t i = 0; i < module.names.size(); ++i) text += (i == 0 ? '(' : ',') + module.names[i];
+        if (!module.names.empty()) text += ')';
+    }
+    return text;
+}
+
+/// A blank before a backslash at the end would go on with the next line.
+std::string line_of(std::string text) {
+    if (text.ends_with(" \\")) text.erase(text.size() - 2, 1);
+    return text + '\n';
+}
+
+std::string written(const Rule& rule) {
+    std::string text;
+    if (!rule.left.empty()) text += written(rule.left, " ") + " < ";
+    text += written(rule.predecessor, " ");
+    if (!rule.right.empty()) text += " > " + written(rule.right, " ");
+    if (rule.condition) text += " : " + rule.condition->text;
+    text += " --> " + (rule.successor.empty() ? "*" : rule.successor);
+    if (rule.weight) text += " : " + rule.weight->text;
+    return line_of(std::move(text));
+}
+
+/// A condition with the parameters of another predecessor; nullopt if one of those is the name of a define in it.
+std::optional<std::string> renamed(const Value& condition, const std::vector<Formal>& from,
+                                   const std::vector<Formal>& to) {
+    std::map<std::string, std::string, std::less<>> names;
+    std::set<std::string, std::less<>> taken;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        for (std::size_t k = 0; k < from[i].names.size(); ++k) names[from[i].names[k]] = to[i].names[k];
+    }
+    for (const Formal& module : to) taken.insert(module.names.begin(), module.names.end());
+    std::string result;
+    const std::string& text = condition.text;
+    for (std::size_t i = 0; i < text.size();) {
+        if (!continues_identifier(text[i]) && text[i] != '.') {
+            result += text[i++];
+            continue;
+        }
+        std::size_t end = i;
+        while (end < text.size() && (continues_identifier(text[end]) || text[end] == '.')) ++end;
+        const std::string_view name = std::string_view(text).substr(i, end - i);
+        const auto found = names.find(name);
+        const bool is_function = end < text.size() && text[end] == '(';
+        if (found != names.end()) {
+            result += found->second;
+        } else if (!is_function && taken.contains(name)) {
+            return std::nullopt;
+        } else {
+            result += name;
+        }
+        i = end;
+    }
+    return result;
+}
+
+/// What stands after a production that always applies to the same never does.
+void drop_dead(std::vector<Rule>& rules, Report& report) {
+    std::set<std::string> certain;
+    std::erase_if(rules, [&](const Rule& rule) {
+        const std::string key = type_of(rule.left) + "<" + type_of(rule.predecessor) + ">" + type_of(rule.right);
+        if (certain.contains(key) && !rule.weight) {
+            report.loss(rule.at, "a production that can never apply: one before it always does");
+            return true;
+        }
+        if (!rule.condition && !rule.weight) certain.insert(key);
+        return false;
+    });
+}
+
+class PatternWriter {
+public:
+    PatternWriter(System system, const View& view, Report& report)
+        : system_(std::move(system)), view_(view), report_(report) {}
+
+    std::string write(const std::string& name, const SourcePointer& file) {
+        weigh();
+        if (!system_.seed) restore_order();
+        drop_dead(system_.rules, report_);
+        const std::string contexts = list();
+        const std::string drawing = interpretation();
+        for (const char letter : system_.letters.called) {
+            if (system_.letters.named.contains(letter)) {
+                report_.once("called", system_.at, "that productions apply to the letters of @ functions");
+            }
+        }
+        if (report_.failed()) return {};
+        std::string body;
+        for (const auto& [define, text] : system_.defines) body += fmt::format("define {} = {}\n", define, text);
+        if (!body.empty()) body += '\n';
+        body += fmt::format("derivation length: {}\n{}\nturn: left\nforward: F G\nmove: f g\n", system_.steps,
+                            view_.angle.empty() ? "angle increment: 45" : view_.angle);
+        if (system_.seed) body += fmt::format("seed: {}\n", std::abs(*system_.seed));
+        if (!view_.scale.empty()) body += view_.scale + '\n';
+        const std::string stroke = view_.stroke.empty() && system_.letters.sets_width ? "stroke: 1 px" : view_.stroke;
+        if (!stroke.empty()) body += stroke + '\n';
+        body += contexts;
+        body += line_of("axiom: " + (system_.axiom->empty() ? std::string("*") : *system_.axiom));
+        for (const Rule& rule : system_.rules) {
+            body += written(rule);
+            if (body.size() > most_import_bytes) break;  // as is told then
+        }
+        body += drawing;
+        std::string comments;
+        for (const auto& [letter, free] : system_.letters.surfaces) {
+            comments +=
+                fmt::format("// The surface ~{} is ~{} here, as {} would move the turtle.\n", letter, free, letter);
+        }
+        const bool is_number = std::all_of(system_.label.begin(), system_.label.end(), is_digit);
+        const std::string title = is_number ? name : system_.label;
+        return import_head(title, import_base_name(file->name()), "Imported from a file of cpfg.",
+                           report_.losses().list()) +
+               '\n' + comments + body;
+    }
+
+private:
+    /// cpfg takes the first production that matches. A context-free one before one with contexts is so kept from
+    /// being overtaken.
+    void restore_order() {
+        std::size_t written_bytes = 0;
+        std::map<std::string, std::vector<std::size_t>> plain;  // context-free ones so far, by their first letter
+        std::vector<Rule> kept;
+        for (Rule& rule : system_.rules) {
+            std::vector<std::size_t>& before = plain[rule.predecessor.front().letter];
+            bool is_dead = false;
+            if (rule.has_context()) {
+                for (const std::size_t i : before) {
+                    if (is_dead) break;
+                    const Rule& other = kept[i];
+                    const std::size_t common = std::min(other.predecessor.size(), rule.predecessor.size());
+                    const std::vector<Formal> ours(rule.predecessor.begin(),
+                                                   rule.predecessor.begin() + static_cast<std::ptrdiff_t>(common));
+                    const std::vector<Formal> theirs(other.predecessor.begin(),
+                                                     other.predecessor.begin() + static_cast<std::ptrdiff_t>(common));
+                    if (type_of(ours) != type_of(theirs)) continue;
+                    if (other.predecessor.size() > common) {
+                        report_.loss(rule.at, "that a production of several symbols before this one is tried first");
+                    } else if (!other.condition) {
+                        report_.loss(rule.at, "a production that can never apply: one before it always does");
+                        is_dead = true;
+                    } else {
+                        const auto condition = renamed(*other.condition, theirs, ours);
+                        if (!condition || other.condition->is_random) {
+                            report_.loss(rule.at,
+                                         "that a production without contexts before this one is tried first");
+                            continue;
+                        }
+                        const std::string also = "!(" + *condition + ")";
+                        const std::string own = rule.condition ? in_parentheses(*rule.condition, 2) + "&&" : "";
+                        rule.condition = Value{own + also, 2, rule.condition && rule.condition->is_random};
+                        written_bytes += rule.condition->text.size();
+                        if (written_bytes > most_import_bytes) {
+                            report_.error(rule.at, "the productions together become longer than 64 MB");
+                            return;
+                        }
+                    }
+                }
+            } else {
+                before.push_back(kept.size());
+            }
+            if (!is_dead) kept.push_back(std::move(rule));
+        }
+        system_.rules = std::move(kept);
+    }
+
+    void weigh() {
+        if (!system_.seed) {
+            for (Rule& rule : system_.rules) {
+                if (!rule.weight) continue;
+                report_.once("weight", rule.at, "probabilities, which cpfg does not look at either without 'seed:'");
+                rule.weight.reset();
+            }
+            return;
+        }
+        std::map<std::string, std::set<std::string>> contexts;
+        std::map<std::string, std::size_t> members;
+        const auto context_of = [](const Rule& rule) { return type_of(rule.left) + "<>" + type_of(rule.right); };
+        for (const Rule& rule : system_.rules) {
+            const std::string predecessor = type_of(rule.predecessor);
+            contexts[predecessor].insert(context_of(rule));
+            if (contexts[predecessor].size() == 2) {
+                report_.once(
+                    "mixed" + predecessor, rule.at,
+                    "that with 'seed:' chance decides among all productions that match, whatever their contexts");
+            }
+            ++members[predecessor + "|" + context_of(rule)];
+        }
+        for (Rule& rule : system_.rules) {
+            if (members[type_of(rule.predecessor) + "|" + context_of(rule)] < 2) {
+                rule.weight.reset();
+            } else if (!rule.weight) {
+                rule.weight = Value{"1"};
+            }
+        }
+    }
+
+    /// What cpfg's turtle does otherwise than a pattern's, said by productions.
+    std::string interpretation() {
+        std::string lines;
+        std::set<std::string> certain;
+        if (system_.homomorphism_depth > 0) {
+            drop_dead(system_.homomorphism, report_);
+            std::set<std::string> letters;
+            for (const Rule& rule : system_.homomorphism) letters.insert(rule.predecessor.front().letter);
+            for (const Rule& rule : system_.homomorphism) {
+                lines += written(rule);
+                if (!rule.condition) certain.insert(type_of(rule.predecessor));
+                const bool recurs = std::any_of(letters.begin(), letters.end(), [&](const std::string& letter) {
+                    return rule.successor.find(letter) != std::string::npos;
+                });
+                if (system_.homomorphism_depth > 1 && recurs) {
+                    report_.once("depth", system_.homomorphism_depth_at,
+                                 "that the homomorphism is applied to its own successors; here it is applied once");
+                }
+            }
+        }
+        for (const auto& [letter, count] : system_.letters.modules) {
+            std::vector<std::string> names;
+            for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("a{}", i + 1));
+            std::string successor;
+            std::string condition;
+            if (letter == "'" || letter == "@." || letter == "$") {
+            } else if (letter == "@v") {
+                successor = "$";
+            } else if (letter == "/" || letter == "\\") {
+                // Up is away from the reader there, as the code of cpfg has it.
+                successor = letter == "/" ? "\\" : "/";
+                if (count > 0) successor += "(a1)";
+            } else if ((letter == "!" || letter == "#") && count == 0 && view_.width_increment == 0) {
+            } else if (letter == "@O" && count == 0) {
+                report_.loss(system_.at, "discs as wide as the line");
+            } else if ((letter == "@o" || letter == "@c" || letter == "@O") && count > 0) {
+                successor = "@O(a1/2)";
+            } else if ((letter == "{" || letter == "}") && count > 0) {
+                condition = " : a1 != 0";
+            } else {
+                continue;
+            }
+            const std::vector<Formal> predecessor = {{letter, names}};
+            if (certain.contains(type_of(predecessor))) continue;
+            lines += line_of(written(predecessor, "") + condition + " --> " + (successor.empty() ? "*" : successor));
+        }
+        return lines.empty() ? "" : "\ninterpret:\n" + lines;
+    }
+
+    /// `ignore:` or `consider:`; a pattern's `consider:` never ignores brackets, and its lists hold no comma.
+    std::string list() {
+        if (!system_.has_list) return "";
+        const auto is_listed = [&](const std::string& letter) {
+            const bool first = system_.listed.contains(letter[0]);
+            if (letter.size() > 1 && first != system_.listed.contains(letter[1])) {
+                report_.once("@list", system_.at, "that contexts see one half of an @ function");
+            }
+            return first && (letter.size() == 1 || system_.listed.contains(letter[1]));
+        };
+        std::set<std::string> symbols = system_.letters.symbols;
+        for (const char letter : system_.listed) {
+            if (letter != '@') symbols.insert(std::string(1, letter));
+        }
+        symbols.insert({"[", "]"});
+        std::string yes;
+        std::string no;
+        for (const std::string& letter : symbols) (is_listed(letter) ? yes : no) += ' ' + letter;
+        const auto has = [](const std::string& letters, char letter) {
+            return letters.find(letter) != std::string::npos;
+        };
+        const std::string& ignored = system_.considers ? no : yes;
+        const std::string& seen = system_.considers ? yes : no;
+        const bool brackets_seen = has(seen, '[') && has(seen, ']');
+        if (!has(ignored, ',') && (!system_.considers || !brackets_seen)) {
+            return ignored.empty() ? "" : line_of("ignore:" + ignored);
+        }
+        if (has(seen, ',')) report_.loss(system_.at, "that contexts see ','");
+        if (!brackets_seen) report_.loss(system_.at, "that contexts pass through brackets");
+        std::string considered;
+        for (const char letter : seen) considered += letter == ',' ? ' ' : letter;
+        return line_of("consider:" + considered);
+    }
+
+    System system_;
+    const View& view_;
+    Report& report_;
+};
+
+}  // namespace
+
+std::string write_pattern(System system, const View& view, const std::string& name, const SourcePointer& file,
+                          Report& report) {
+    return PatternWriter(std::move(system), view, report).write(name, file);
+}
+
+}  // namespace sikku::cpfg

@@ -1,0 +1,173 @@
+#include "engine/import/cpfg_preprocessor.h"
+
+#include <charconv>
+
+namespace sikku::cpfg {
+namespace {
+
+bool is_comment(const std::string& text, std::size_t slashes) {
+    std::size_t before = slashes;
+    while (before > 0 && is_blank(text[before - 1]) && text[before - 1] != '\n') --before;
+    if (before == 0 || text[before - 1] == '\n') return true;
+    return before < slashes && (slashes + 2 == text.size() || is_blank(text[slashes + 2]));
+}
+
+bool holds_for(std::string_view word, std::size_t at) {
+    long long number = 0;
+    const auto [last, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (problem == std::errc() && last == word.data() + word.size()) return number != 0;
+    if (!word.empty() && begins_identifier(word[0])) return false;  // what is not defined is 0
+    mistake(at, "this condition is not read: expected a number or a name");
+}
+
+}  // namespace
+
+std::size_t Reader::split(std::string_view text, std::size_t open, std::vector<std::string_view>& arguments,
+                          std::size_t used_at) {
+    std::size_t depth = 0;
+    std::size_t begin = open + 1;
+    for (std::size_t i = open; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        const bool last = text[i] == ')' && --depth == 0;
+        if (!last && !(text[i] == ',' && depth == 1)) continue;
+        std::string_view argument = text.substr(begin, i - begin);
+        while (!argument.empty() && is_blank(argument.front())) argument.remove_prefix(1);
+        while (!argument.empty() && is_blank(argument.back())) argument.remove_suffix(1);
+        arguments.push_back(argument);
+        begin = i + 1;
+        if (last) return i + 1;
+    }
+    mistake(used_at, "the arguments of this define have no ')'");
+}
+
+std::string Reader::filled_in(const Macro& macro, const std::vector<std::string_view>& arguments) const {
+    std::string result;
+    const std::string& body = macro.body;
+    for (std::size_t i = 0; i < body.size() && result.size() <= defines_.budget;) {
+        std::size_t end = i;
+        while (end < body.size() && continues_identifier(body[end])) ++end;
+        if (end == i) {
+            result += body[i++];
+            continue;
+        }
+        const std::string_view name = std::string_view(body).substr(i, end - i);
+        const auto found = std::find(macro.parameters.begin(), macro.parameters.end(), name);
+        result += found == macro.parameters.end()
+                      ? name
+                      : arguments[static_cast<std::size_t>(found - macro.parameters.begin())];
+        i = end;
+    }
+    return result;
+}
+
+void blank_comments(std::string& text, Report& report) {
+    for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+        if (text[at] != '/') continue;
+        std::size_t end = at;
+        if (text[at + 1] == '*') {
+            end = text.find("*/", at + 2);
+            if (end == std::string::npos) {
+                report.error(at, "this comment has no end: expected '*/'");
+                end = text.size() - 2;
+            }
+            end += 2;
+        } else if (text[at + 1] == '/' && is_comment(text, at)) {
+            end = std::min(text.find('\n', at), text.size());
+        } else {
+            continue;
+        }
+        for (std::size_t i = at; i < end; ++i) {
+            if (text[i] != '\n') text[i] = ' ';
+        }
+        at = end - 1;
+    }
+}
+
+std::string_view Preprocessor::word_at(std::size_t& at, std::size_t end) const {
+    while (at < end && is_blank(text_[at])) ++at;
+    const std::size_t begin = at;
+    while (at < end && continues_identifier(text_[at])) ++at;
+    return std::string_view(text_).substr(begin, at - begin);
+}
+
+void Preprocessor::directive(std::size_t begin, std::size_t end) {
+    std::size_t at = begin + 1;
+    const std::string_view what = word_at(at, end);
+    if (what == "if" || what == "ifdef" || what == "ifndef") {
+        const bool was_active = is_active();
+        bool holds = false;
+        if (was_active) {
+            const std::size_t place = at;
+            const std::string_view name = word_at(at, end);
+            if (name.empty()) mistake(std::min(place, text_.size() - 1), "expected a name or a number");
+            const auto found = defines_.macros.find(name);
+            holds = what == "ifdef"    ? found != defines_.macros.end()
+                    : what == "ifndef" ? found == defines_.macros.end()
+                                       : holds_for(found == defines_.macros.end() ? name : found->second.body, place);
+            if (!is_empty(at, end)) mistake(at, "conditions of more than one word are not read");
+        }
+        if (conditions_.size() >= most_defines_deep) mistake(begin, "conditions nest more than 200 deep");
+        conditions_.push_back({begin, holds, was_active});
+    } else if (what == "else" || what == "endif") {
+        if (conditions_.empty() || (what == "else" && conditions_.back().has_else)) {
+            mistake(begin, fmt::format("this #{} has no #if", what));
+        }
+        if (what == "endif") {
+            conditions_.pop_back();
+        } else {
+            conditions_.back().holds = !conditions_.back().holds;
+            conditions_.back().has_else = true;
+        }
+    } else if (!is_active()) {
+        return;
+    } else if (what == "define") {
+        define(at, end);
+    } else if (what == "undef") {
+        defines_.macros.erase(std::string(word_at(at, end)));
+    } else if (what == "include") {
+        report_.loss(begin, "what #include would bring");
+    } else if (what.empty() ? !is_empty(at, end) : what != "pragma" && what != "line" && !is_digit(what[0])) {
+        mistake(begin, "unknown preprocessor directive; a production cannot begin with '#'");
+    }
+}
+
+bool Preprocessor::is_empty(std::size_t at, std::size_t end) const {
+    while (at < end && is_blank(text_[at])) ++at;
+    return at >= end;
+}
+
+void Preprocessor::define(std::size_t at, std::size_t end) {
+    Macro macro;
+    const std::string name(word_at(at, end));
+    macro.at = at - name.size();
+    if (name.empty() || is_digit(name[0])) mistake(std::min(macro.at, text_.size() - 1), "expected a name");
+    if (at < end && text_[at] == '(') {
+        macro.has_parameters = true;
+        ++at;
+        while (true) {
+            const std::string parameter(word_at(at, end));
+            while (at < end && is_blank(text_[at])) ++at;
+            if (parameter.empty() && macro.parameters.empty() && at < end && text_[at] == ')') break;
+            if (parameter.empty() || at >= end || (text_[at] != ',' && text_[at] != ')')) {
+                mistake(std::min(at, text_.size() - 1), "expected names, separated by ',', and ')'");
+            }
+            macro.parameters.push_back(parameter);
+            if (macro.parameters.size() > 64) mistake(macro.at, "a define has at most 64 parameters");
+            if (text_[at] == ')') break;
+            ++at;
+        }
+        ++at;
+    }
+    while (at < end && is_blank(text_[at])) ++at;
+    macro.body = text_.substr(at, end - at);
+    while (!macro.body.empty() && is_blank(macro.body.back())) macro.body.pop_back();
+    // A name that means two things in one file is expanded where it stands.
+    if (!defined_once_.insert(name).second) macro.kind = Macro::Kind::text;
+    defines_.macros.insert_or_assign(name, std::move(macro));
+}
+
+void Preprocessor::finish() {
+    if (!conditions_.empty()) report_.error(conditions_.back().at, "this condition has no #endif");
+}
+
+}  // namespace sikku::cpfg

@@ -1,0 +1,176 @@
+// engine/import/cpfg_preprocessor.h: the C preprocessor that a file of cpfg goes through: comments, conditions and
+// defines.
+#pragma once
+
+#include "engine/import/cpfg_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sikku::cpfg {
+
+constexpr std::size_t most_defines_deep = 200;
+
+struct Macro {
+    bool has_parameters = false;
+    std::vector<std::string> parameters;
+    std::string body;
+    std::size_t at = 0;
+    enum class Kind { unknown, asked, number, text } kind = Kind::unknown;
+};
+using Macros = std::map<std::string, Macro, std::less<>>;
+
+/// The defines in force.
+struct Defines {
+    Macros macros;
+    /// Bytes that defines may still expand to.
+    std::size_t budget = std::size_t{16} << 20;
+};
+
+/// What is left of a logical line, with the defines that are being expanded.
+class Reader {
+public:
+    Reader(Defines& defines, std::string_view line, std::size_t at) : defines_(defines) {
+        frames_.push_back({{}, line, 0, 0, nullptr, at});
+    }
+
+    /// The next character that is no blank, defines expanded; 0 at the end. `keep` says which are left as they are.
+    template <class Keep>
+    char peek(Keep keep) {
+        while (true) {
+            Frame& frame = frames_.back();
+            const std::string_view text = frame.text;
+            while (frame.at < text.size() && is_blank(text[frame.at])) ++frame.at;
+            if (frame.at >= text.size()) {
+                if (frames_.size() == 1) return 0;
+                frames_.pop_back();
+                continue;
+            }
+            if (frame.at < frame.checked || !expand(frame, keep)) return text[frame.at];
+        }
+    }
+    /// Defines expanded, all of them.
+    char peek() {
+        return peek([](const std::string&, Macro&) { return false; });
+    }
+
+    /// The text right here, up to where a define that is being expanded ends.
+    std::string_view ahead() const { return frames_.back().text.substr(frames_.back().at); }
+    void take(std::size_t bytes = 1) { frames_.back().at += bytes; }
+
+    /// An offset into the file: of a define that is being expanded, where it is used.
+    std::size_t where() const {
+        return frames_.size() > 1 ? frames_[1].used_at : frames_.front().used_at + frames_.front().at;
+    }
+
+private:
+    struct Frame {
+        std::string own;
+        std::string_view text;
+        std::size_t at;
+        std::size_t checked;  // up to here nothing is a define
+        const Macro* macro;
+        std::size_t used_at;  // of the first frame, where the line begins
+    };
+
+    /// If a define stands here, its text is read next; else what stands here is looked at no more.
+    template <class Keep>
+    bool expand(Frame& frame, Keep keep) {
+        const std::string_view text = frame.text;
+        std::size_t end = frame.at;
+        if (is_digit(text[end]) || (text[end] == '.' && end + 1 < text.size() && is_digit(text[end + 1]))) {
+            while (end < text.size() && (continues_identifier(text[end]) || text[end] == '.')) ++end;
+            frame.checked = end;
+            return false;
+        }
+        if (!begins_identifier(text[end])) return false;
+        while (end < text.size() && continues_identifier(text[end])) ++end;
+        frame.checked = end;
+        const auto found = defines_.macros.find(text.substr(frame.at, end - frame.at));
+        if (found == defines_.macros.end()) return false;
+        const std::size_t used_at = where();
+        Macro& macro = found->second;
+        std::vector<std::string_view> arguments;
+        if (macro.has_parameters) {
+            std::size_t open = end;
+            while (open < text.size() && is_blank(text[open])) ++open;
+            if (open >= text.size() || text[open] != '(') return false;
+            end = split(text, open, arguments, used_at);
+            if (arguments.size() != macro.parameters.size() &&
+                !(macro.parameters.empty() && arguments.size() == 1 && arguments[0].empty())) {
+                mistake(used_at, fmt::format("'{}' takes {} arguments, not {}", printable(found->first, 80),
+                                             macro.parameters.size(), arguments.size()));
+            }
+        } else if (keep(found->first, macro)) {
+            return false;
+        }
+        const bool is_open =
+            std::any_of(frames_.begin(), frames_.end(), [&](const Frame& other) { return other.macro == &macro; });
+        if (is_open) mistake(used_at, fmt::format("'{}' is defined by itself", printable(found->first, 80)));
+        if (frames_.size() > most_defines_deep) mistake(used_at, "defines stand in defines more than 200 deep");
+        std::string replaced = macro.has_parameters ? filled_in(macro, arguments) : macro.body;
+        if (replaced.size() + 1 > defines_.budget) mistake(used_at, "the defines expand to more than 16 MB");
+        defines_.budget -= replaced.size() + 1;
+        frame.at = end;
+        frames_.push_back({std::move(replaced), {}, 0, 0, &macro, used_at});
+        frames_.back().text = frames_.back().own;
+        return true;
+    }
+
+    static std::size_t split(std::string_view text, std::size_t open, std::vector<std::string_view>& arguments,
+                             std::size_t used_at);
+    std::string filled_in(const Macro& macro, const std::vector<std::string_view>& arguments) const;
+
+    Defines& defines_;
+    std::deque<Frame> frames_;  // their texts stay where they are
+};
+
+/// Blanks comments; keeps the ends of lines. In words `//` is two rolls: younger preprocessors than those that these
+/// files were written for would take the rest of the line away. A comment stands at the beginning of a line or
+/// between blanks.
+void blank_comments(std::string& text, Report& report);
+
+/// Obeys the lines that begin with '#'.
+class Preprocessor {
+public:
+    /// @param text  of the file, without comments
+    Preprocessor(const std::string& text, Defines& defines, Report& report)
+        : text_(text), defines_(defines), report_(report) {}
+
+    /// Are the lines here part of what cpfg reads?
+    bool is_active() const {
+        return conditions_.empty() || (conditions_.back().holds && conditions_.back().was_active);
+    }
+    /// Obeys one line, from its '#' to its end.
+    void directive(std::size_t begin, std::size_t end);
+    /// Reports a condition that has no end.
+    void finish();
+
+private:
+    struct Condition {
+        std::size_t at;
+        bool holds;
+        bool was_active;
+        bool has_else = false;
+    };
+    std::string_view word_at(std::size_t& at, std::size_t end) const;
+    bool is_empty(std::size_t at, std::size_t end) const;
+    void define(std::size_t at, std::size_t end);
+
+    const std::string& text_;
+    Defines& defines_;
+    Report& report_;
+    std::set<std::string> defined_once_;
+    std::vector<Condition> conditions_;
+};
+
+}  // namespace sikku::cpfg

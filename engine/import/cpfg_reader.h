@@ -1,0 +1,14 @@
+// engine/import/cpfg_reader.h: reads the L-system of a file of cpfg.
+#pragma once
+
+#include "engine/import/cpfg_system.h"
+#include "engine/import/cpfg_view.h"
+
+#include <string>
+
+namespace sikku::cpfg {
+
+/// Reads the first L-system of a file, `text`. Errors and losses go to `report`.
+System read_system(std::string text, const View& view, Report& report);
+
+}  // namespace sikku::cpfg

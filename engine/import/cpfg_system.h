@@ -1,0 +1,63 @@
+// engine/import/cpfg_system.h: an L-system of cpfg, read and not yet written as a pattern.
+#pragma once
+
+#include "engine/import/cpfg_expression.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku::cpfg {
+
+/// A module of a predecessor or a context.
+struct Formal {
+    std::string letter;
+    std::vector<std::string> names;
+};
+
+struct Rule {
+    std::vector<Formal> left;
+    std::vector<Formal> predecessor;
+    std::vector<Formal> right;
+    std::optional<Value> condition;
+    std::string successor;
+    std::optional<Value> weight;
+    std::size_t at = 0;
+    bool has_context() const { return !left.empty() || !right.empty(); }
+};
+
+/// A key of the types of modules: their letters and numbers of parameters.
+std::string type_of(const std::vector<Formal>& modules);
+
+/// The letters of a system, as words and productions use them.
+struct Letters {
+    std::set<std::string> symbols;                          ///< of words, predecessors and contexts
+    std::set<std::pair<std::string, std::size_t>> modules;  ///< of the words that are derived, with their parameters
+    std::set<char> called;                                  ///< of functions, behind an '@'
+    std::set<char> named;                                   ///< by predecessors and contexts
+    std::map<char, std::string> surfaces;                   ///< the letters that stand for surfaces
+    bool sets_width = false;                                ///< a module states a width
+};
+
+struct System {
+    std::size_t at = std::string::npos;  ///< the line `Lsystem:`; npos if there is none
+    std::string label;
+    long long steps = 0;
+    std::optional<long long> seed;
+    std::set<char> listed;  ///< under `ignore:` or `consider:`
+    bool has_list = false;
+    bool considers = false;
+    std::optional<std::string> axiom;
+    std::vector<Rule> rules;
+    std::vector<Rule> homomorphism;
+    long long homomorphism_depth = 1;
+    std::size_t homomorphism_depth_at = 0;
+    Letters letters;
+    std::map<std::string, std::string> defines;  ///< numbers that the expressions name
+};
+
+}  // namespace sikku::cpfg

@@ -1,0 +1,48 @@
+// engine/import/cpfg_words.h: words of cpfg, and the modules of its predecessors and contexts.
+#pragma once
+
+#include "engine/import/cpfg_system.h"
+#include "engine/import/cpfg_view.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku::cpfg {
+
+/// Reads the words of one file, written anew in the pattern language. Collects their letters.
+class Words {
+public:
+    Words(const View& view, Defines& defines, Expressions& expressions, Report& report)
+        : view_(view), defines_(defines), expressions_(expressions), report_(report) {}
+
+    /// Reads a word. @param is_drawn  a homomorphism's successor: nothing is between it and the turtle
+    /// @throws Fault
+    std::string word(Reader& reader, bool is_drawn);
+    /// Reads up to '<', '>', ':' or an arrow; `*` is nothing. @throws Fault
+    std::vector<Formal> formal_modules(Reader& reader);
+
+    Letters letters;
+
+private:
+    std::string symbol(Reader& reader);
+    std::string surface(char byte);
+    void note(char letter, std::size_t at);
+    void finish(std::string& result, const std::string& letter, std::vector<std::string> arguments, std::size_t at);
+    void note_width(const std::string& letter, const std::vector<std::string>& arguments);
+    std::vector<std::string> parameters(Reader& reader);
+    Formal formal_module(Reader& reader);
+
+    const View& view_;
+    Defines& defines_;
+    Expressions& expressions_;
+    Report& report_;
+    bool after_tilde_ = false;
+};
+
+/// Is the reader at the arrow of a production?
+bool is_arrow(const Reader& reader);
+/// @throws Fault if `byte` is not a symbol of cpfg
+void check_symbol(char byte, std::size_t at);
+
+}  // namespace sikku::cpfg

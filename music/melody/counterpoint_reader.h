@@ -1,0 +1,159 @@
+// music/melody/counterpoint_reader.h: a curve as two voices.
+#pragma once
+
+#include "music/melody/reader.h"
+
+namespace sikku::mapping {
+
+/// Two voices: one sounds y for as long as it stays, the other x, an octave lower.
+template <class Walk>
+class CounterpointReader final : public Reader {
+public:
+    CounterpointReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody,
+                       Emitter& emitter, Origin origin, const PlayOptions& options)
+        : grammar_(grammar),
+          melody_(melody),
+          emitter_(emitter),
+          options_(options),
+          walk_(grammar, lattice, first),
+          lower_(static_cast<std::int64_t>(melody.scale.size())),
+          is_piece_(melody.anchor == Anchor::piece) {
+        at_ = walk_.start;
+        voices_[0].origin = origin.y == unknown ? 0 : origin.y;
+        emitter_.take(voices_[0].line, 0);
+        emitter_.take(voices_[1].line, 1);
+    }
+
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            const Command& command = grammar_.symbols()[symbol].command;
+            switch (const Kind kind = kind_of(command)) {
+                case Kind::draw:
+                case Kind::move:
+                    advance(walk_.step(at_, symbol), kind == Kind::draw);
+                    break;
+                case Kind::turn:
+                    walk_.turn(at_, symbol);
+                    turned_ = sign_of(command.angle);
+                    break;
+                case Kind::open:
+                    stack_.open(at_, position_);
+                    break;
+                case Kind::close:
+                    at_ = stack_.close(position_);
+                    break;
+                case Kind::not_finite:
+                    fault(position_, "its parameter is not finite");
+                case Kind::nothing:
+                    break;
+            }
+        }
+        if (!Walk::in_range(at_) || time_ >= farthest) {
+            throw WordError("the turtle leaves the range of its coordinates");
+        }
+    }
+
+    void finish() override {
+        stack_.require_closed();
+        for (Voice& voice : voices_) end_note(voice);
+        emitter_.finish(ticks(time_));
+    }
+
+    bool skip(const GridStretch& stretch) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            const Integer length = stretch.length[0] + stretch.length[1];
+            const std::int64_t room = options_.from / melody_.unit - margin_units - time_;
+            if (room < 0 || length > room) return false;
+            for (Voice& voice : voices_) end_note(voice);
+            walk_.skip(at_, stretch);
+            here_ = point();
+            time_ += length.convert_to<std::int64_t>();
+            return true;
+        } else {
+            (void)stretch;
+            return false;
+        }
+    }
+
+    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
+    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
+    std::int64_t lowest_degree() const override { return lowest_degree_; }
+
+private:
+    using Number = typename Walk::Number;
+    struct Voice {
+        std::int64_t origin = 0;          // doubled
+        std::int64_t sounding = unknown;  // its height, in whole steps
+        Number onset = 0;
+        int turned = 0;
+        glm::dvec2 from{0.0};
+        Emitter::Line line;
+    };
+
+    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
+    glm::dvec2 point() const { return {static_cast<double>(at_.x), static_cast<double>(at_.y)}; }
+
+    /// The note that the turtle comes to sounds while it makes this step.
+    void advance(const typename Walk::Step& step, bool is_drawn) {
+        at_.x += step.x;
+        at_.y += step.y;
+        lowest_ = std::min(lowest_, at_.y);
+        highest_ = std::max(highest_, at_.y);
+        const Number length = Walk::length(step);
+        if (is_piece_ && ticks(time_ + length) > options_.from) {
+            voices_[0].origin = 2 * Walk::degree(2 * at_.y);
+            voices_[1].origin = 2 * Walk::degree(2 * at_.x);
+            is_piece_ = false;
+        }
+        for (Voice& voice : voices_) {
+            const bool is_upper = &voice == &voices_[0];
+            const std::int64_t height = is_drawn ? Walk::degree(2 * (is_upper ? at_.y : at_.x)) : unknown;
+            if (height == voice.sounding) continue;
+            end_note(voice);
+            voice.sounding = height;
+            voice.onset = time_;
+            voice.turned = turned_;
+            // The picture of a note is where its coordinate stays.
+            voice.from = Walk::is_level(is_upper ? step.y : step.x) ? here_ : point();
+            if (is_drawn && is_upper) {
+                lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, height);
+            }
+        }
+        time_ += length;
+        here_ = point();
+        if (ticks(time_) < options_.to) return;
+        for (Voice& voice : voices_) end_note(voice);
+        throw Enough();
+    }
+
+    void end_note(Voice& voice) {
+        if (voice.sounding == unknown) return;
+        const bool is_upper = &voice == &voices_[0];
+        const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
+                                  ticks(voice.onset));
+        emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
+                      ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_);
+        voice.sounding = unknown;
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    const PlayOptions& options_;
+    Walk walk_;
+    std::int64_t lower_;
+    bool is_piece_;  ///< its tonic is still to come
+    typename Walk::Position at_;
+    glm::dvec2 here_{0.0};
+    Brackets<typename Walk::Position> stack_;
+    std::array<Voice, 2> voices_;
+    Number time_ = 0;
+    int turned_ = 0;
+    std::uint64_t position_ = 0;
+    Number lowest_ = 0;
+    Number highest_ = 0;
+    std::int64_t lowest_degree_ = unknown;
+};
+
+}  // namespace sikku::mapping

@@ -1,0 +1,95 @@
+#include "music/melody/emitter.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace sikku::mapping {
+
+void Emitter::finish(std::int64_t end) {
+    flush();
+    const bool past = end <= options_.from;
+    end = std::max<std::int64_t>(0, std::min(end, options_.to) - options_.from);
+    for (const std::int64_t busy : busy_until_) {
+        end = std::max(end, std::min(busy, options_.to) - options_.from);
+    }
+    report.end = end;
+    report.past = past;
+    report.voices = static_cast<int>(busy_until_.size());
+    sink_.finish(end);
+}
+
+int Emitter::free_voice(std::int64_t onset) {
+    for (int voice = 0;; ++voice) {
+        const auto at = static_cast<std::size_t>(voice);
+        if (at >= held_.size()) held_.resize(at + 1, false);
+        if (held_[at] || (at < busy_until_.size() && busy_until_[at] > onset)) continue;
+        if (voice >= options_.most_voices) {
+            throw ScoreError(
+                fmt::format("too many voices: more than {} branches sound at once; a smaller n has fewer", voice));
+        }
+        held_[at] = true;
+        return voice;
+    }
+}
+
+Emitter::Placed Emitter::look_up(std::int64_t degree, bool falling) {
+    const auto raw = melody_.key(degree, falling);
+    if (!raw) {
+        if (melody_.range == Range::refuse) refuse(degree, "no key at all");
+        return {0, false, true};
+    }
+    if (is_within(*raw)) return {*raw, false, false};
+    switch (melody_.range) {
+        case Range::refuse:
+            refuse(degree, fmt::format("key {:.0f}", *raw));
+        case Range::fold: {
+            const double period = std::fabs(melody_.scale.period) / 100;
+            double key = *raw;
+            if (std::isfinite(key) && period > 0 && period <= melody_.highest - melody_.lowest) {
+                key += key > melody_.highest ? -period * std::ceil((key - melody_.highest) / period)
+                                             : period * std::ceil((melody_.lowest - key) / period);
+            }
+            return {std::clamp(key, melody_.lowest, melody_.highest), true, false};
+        }
+        case Range::clamp:
+        case Range::reflect:
+            break;
+    }
+    find_bounds();
+    std::int64_t inside = std::clamp(degree, low_, high_);
+    if (melody_.range == Range::reflect && high_ > low_) {
+        const std::int64_t width = high_ - low_;
+        std::int64_t phase = (degree - low_) % (2 * width);
+        if (phase < 0) phase += 2 * width;
+        inside = low_ + (phase <= width ? phase : 2 * width - phase);
+    }
+    return {std::clamp(melody_.key(inside, falling).value_or(60.0), melody_.lowest, melody_.highest), true, false};
+}
+
+void Emitter::refuse(std::int64_t degree, const std::string& key) const {
+    throw ScoreError(
+        fmt::format("degree {} of the scale would be {}, beyond the keys {:.0f} to {:.0f}: `range: fold`, another "
+                    "tonic or a smaller n helps",
+                    degree, key, melody_.lowest, melody_.highest));
+}
+
+/// The degrees around the tonic whose keys are within.
+void Emitter::find_bounds() {
+    if (low_ <= high_) return;
+    const auto fits = [&](std::int64_t degree) {
+        const auto up = melody_.key(degree, false);
+        const auto down = melody_.key(degree, true);
+        return up && down && is_within(*up) && is_within(*down);
+    };
+    low_ = 0;
+    // The tonic may itself be beyond: go to where the keys are.
+    const auto tonic = melody_.key(0, false);
+    const std::int64_t towards = tonic && *tonic > melody_.highest ? -1 : 1;
+    while (std::abs(low_) < 10'000 && !fits(low_)) low_ += towards;
+    high_ = low_;
+    while (high_ < 10'000 && fits(high_ + 1)) ++high_;
+    while (low_ > -10'000 && fits(low_ - 1)) --low_;
+}
+
+}  // namespace sikku::mapping

@@ -1,0 +1,121 @@
+// music/melody/emitter.h: notes on their way from readers of words to a sink.
+#pragma once
+
+#include "music/melody/mapping.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sikku::mapping {
+
+/// Stands for a height, a degree or a place that is not known yet.
+constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
+
+/// Degrees become keys, and notes reach the sink: cut to the piece that is wanted, counted, a block at a time.
+class Emitter {
+public:
+    Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
+        : melody_(melody), sink_(sink), options_(options) {
+        block_.reserve(notes_in_block);
+        for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
+    }
+
+    /// What a voice remembers between its notes.
+    struct Line {
+        int voice = -1;
+        std::int64_t last_degree = unknown;
+        bool falling = false;
+    };
+
+    void note(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
+              glm::dvec2 to) {
+        if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
+        line.last_degree = degree;
+        if (end <= onset) {
+            ++report.lost;
+            return;
+        }
+        // Also before the piece, so that its voices are those of the whole.
+        if (line.voice < 0) line.voice = free_voice(onset);
+        if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
+        busy_until_[static_cast<std::size_t>(line.voice)] = end;
+        if (end <= options_.from || onset >= options_.to) return;
+        const Placed placed = key_of(degree, line.falling);
+        if (placed.is_silent) {
+            ++report.lost;
+            return;
+        }
+        report.moved += placed.is_moved ? 1 : 0;
+        ++report.notes;
+        report.lowest = std::min(report.lowest, placed.key);
+        report.highest = std::max(report.highest, placed.key);
+        onset = std::max(onset, options_.from);
+        block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
+                          static_cast<std::int16_t>(line.voice),
+                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to});
+        if (block_.size() == notes_in_block) flush();
+    }
+
+    /// Lines that are there from the beginning have their voices from the beginning.
+    void take(Line& line, int voice) {
+        line.voice = voice;
+        if (held_.size() <= static_cast<std::size_t>(voice)) held_.resize(voice + 1U, 0);
+        held_[static_cast<std::size_t>(voice)] = 1;
+    }
+
+    /// A branch may take the voice of one that has ended.
+    void release(const Line& line) {
+        if (line.voice >= 0) held_[static_cast<std::size_t>(line.voice)] = false;
+    }
+
+    void finish(std::int64_t end);
+
+    PlayReport report;
+
+private:
+    struct Placed {
+        double key = std::numeric_limits<double>::quiet_NaN();  // not looked up yet
+        bool is_moved = false;
+        bool is_silent = false;
+    };
+
+    void flush() {
+        if (!block_.empty()) sink_.notes(block_);
+        block_.clear();
+    }
+
+    int free_voice(std::int64_t onset);
+
+    Placed key_of(std::int64_t degree, bool falling) {
+        if (degree < -cached_degrees || degree >= cached_degrees) return look_up(degree, falling);
+        Placed& known = keys_[falling ? 1 : 0][static_cast<std::size_t>(degree + cached_degrees)];
+        if (std::isnan(known.key)) known = look_up(degree, falling);
+        return known;
+    }
+
+    bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
+
+    Placed look_up(std::int64_t degree, bool falling);
+    [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
+    void find_bounds();
+
+    static constexpr std::size_t notes_in_block = 1024;
+    static constexpr std::int64_t cached_degrees = 8192;
+    const Melody& melody_;
+    NoteSink& sink_;
+    const PlayOptions& options_;
+    std::vector<Note> block_;
+    std::array<std::vector<Placed>, 2> keys_;
+    std::int64_t low_ = 1;
+    std::int64_t high_ = 0;
+    std::vector<std::int64_t> busy_until_;  // of each voice
+    std::vector<char> held_;                // by a branch that has not ended
+};
+
+}  // namespace sikku::mapping

@@ -1,0 +1,119 @@
+// music/melody/reader.h: what all readers of words have in common.
+#pragma once
+
+#include "music/melody/emitter.h"
+#include "music/melody/walks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sikku::mapping {
+
+constexpr std::int64_t margin_units = 64;  // walked before a bar, so that what leads up to it is known
+constexpr std::size_t deepest = std::size_t{1} << 20;
+
+/// The end of the piece was reached; nothing after it is of interest.
+struct Enough {};
+
+[[noreturn]] inline void fault(std::uint64_t position, std::string_view what) {
+    throw WordError(fmt::format("symbol {} of the word: {}", position, what));
+}
+
+/// What is kept between '[' and ']'.
+template <class State>
+class Brackets {
+public:
+    void open(State state, std::uint64_t position) {
+        if (saved_.size() >= deepest) fault(position, "brackets nest deeper than 1,048,576");
+        saved_.push_back({std::move(state), position});
+    }
+    State close(std::uint64_t position) {
+        if (saved_.empty()) fault(position, "']' without '['");
+        State state = std::move(saved_.back().first);
+        saved_.pop_back();
+        return state;
+    }
+    void require_closed() const {
+        if (!saved_.empty()) fault(saved_.back().second, "this '[' is not closed");
+    }
+    std::size_t depth() const { return saved_.size(); }
+
+private:
+    std::vector<std::pair<State, std::uint64_t>> saved_;
+};
+
+/// The velocity of a note.
+/// @param turned  the sign of the turn that led into it: to the left is louder
+/// @param steps   how long it is
+/// @param depth   brackets around it: softer with each
+inline int loudness(const Melody& melody, int turned, double steps, std::size_t depth, std::int64_t onset) {
+    switch (melody.loudness) {
+        case Loudness::fixed:
+            break;
+        case Loudness::by_turn:
+            return 80 + 18 * turned;
+        case Loudness::by_depth:
+            return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
+        case Loudness::by_length: {
+            // Long notes carry weight; a phrase of four bars swells towards its middle.
+            const double weight = 8.0 * std::min(4.0, steps);
+            const auto phrase = static_cast<double>(4 * melody.meter.bar());
+            const double within = std::fmod(static_cast<double>(onset), phrase) / phrase;
+            return static_cast<int>(std::lround(58 + weight + 40 * within * (1 - within)));
+        }
+    }
+    return 80;
+}
+
+/// 1 to the left, -1 to the right.
+inline int sign_of(const Angle& turn) {
+    const double degrees = std::remainder(turn.degrees, 360.0);
+    return degrees > 0 ? 1 : degrees < 0 ? -1 : 0;
+}
+
+/// The y that sounds the tonic, doubled; unknown: that of the first note. The x is where the turtle starts.
+struct Origin {
+    std::int64_t y = unknown;
+};
+
+class Reader : public SymbolSink {
+public:
+    /// Times and positions after a part that is passed over. Of Readers on the grid only.
+    virtual bool skip(const GridStretch&) { return false; }
+    virtual std::int64_t lowest_vertex() const { return 0; }
+    virtual std::int64_t highest_vertex() const { return 0; }
+    /// Of the first note and of the lowest, before the origin is taken off; unknown without notes.
+    virtual std::int64_t first_degree() const { return 0; }
+    virtual std::int64_t lowest_degree() const { return 0; }
+    bool seeks_first_note = false;  ///< Enough is thrown there
+};
+
+/// What a symbol is to the reader of runs.
+enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, not_finite };
+
+inline Kind kind_of(const Command& command) {
+    const bool is_finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
+    switch (command.action) {
+        case Action::draw:
+            return is_finite ? Kind::draw : Kind::not_finite;
+        case Action::move:
+            return is_finite ? Kind::move : Kind::not_finite;
+        case Action::turn:
+            return is_finite ? Kind::turn : Kind::not_finite;
+        case Action::push:
+            return Kind::open;
+        case Action::pop:
+            return Kind::close;
+        default:
+            return Kind::nothing;
+    }
+}
+
+}  // namespace sikku::mapping

@@ -1,0 +1,395 @@
+// music/melody/run_reader.h: the straight runs of a curve as notes.
+#pragma once
+
+#include "music/melody/reader.h"
+
+namespace sikku::mapping {
+
+template <class Walk>
+class RunReader final : public Reader {
+public:
+    RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, Emitter& emitter,
+              Origin origin, const PlayOptions& options, bool has_brackets)
+        : grammar_(grammar),
+          melody_(melody),
+          emitter_(emitter),
+          origin_(origin),
+          options_(options),
+          walk_(grammar, lattice, first),
+          may_stop_(!has_brackets) {
+        for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command));
+        state_.at = walk_.start;
+        state_.run.from = state_.at;
+        emitter_.take(state_.line, 0);
+        if (melody.vertical == Vertical::voice) emitter_.take(state_.other, 1);
+    }
+
+    void symbols(const Run& run) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            if (run.block >= 0 && play_block(run)) return;
+        }
+        for (const Symbol symbol : run.symbols) {
+            ++position_;
+            switch (kinds_[symbol]) {
+                case Kind::draw:
+                    draw(walk_.step(state_.at, symbol));
+                    break;
+                case Kind::move:
+                    move(symbol);
+                    break;
+                case Kind::turn:
+                    walk_.turn(state_.at, symbol);
+                    break;
+                case Kind::open:
+                    open();
+                    break;
+                case Kind::close:
+                    close();
+                    break;
+                case Kind::not_finite:
+                    fault(position_, "its parameter is not finite");
+                case Kind::nothing:
+                    break;
+            }
+        }
+        require_in_range();
+    }
+
+    void finish() override {
+        stack_.require_closed();
+        end_run();
+        release_held();
+        emitter_.finish(ticks(std::max(state_.time, state_.other_time)));
+    }
+
+    bool skip(const GridStretch& stretch) override {
+        if constexpr (std::is_same_v<Walk, GridWalk>) {
+            const bool is_level = state_.at.heading % 2 == 0;
+            const Integer& across = stretch.length[is_level ? 0 : 1];
+            const Integer& up = stretch.length[is_level ? 1 : 0];
+            const bool both = melody_.vertical == Vertical::rest || melody_.vertical == Vertical::extend ||
+                              melody_.vertical == Vertical::glissando;
+            Integer longest = both ? Integer(across + up) : across;
+            if (melody_.vertical == Vertical::voice) longest = std::max(across, up);
+            const std::int64_t room =
+                options_.from / melody_.unit - margin_units - std::max(state_.time, state_.other_time);
+            if (room < 0 || longest > room) return false;
+            end_run();
+            release_held();
+            walk_.skip(state_.at, stretch);
+            state_.time += (both ? Integer(across + up) : across).convert_to<std::int64_t>();
+            if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
+            state_.has_sounded = true;
+            return true;
+        } else {
+            (void)stretch;
+            return false;
+        }
+    }
+
+    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
+    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
+    std::int64_t first_degree() const override { return first_degree_; }
+    std::int64_t lowest_degree() const override { return lowest_degree_; }
+
+private:
+    using Number = typename Walk::Number;
+    using Position = typename Walk::Position;
+    using Step = typename Walk::Step;
+
+    struct Pending {
+        bool is_open = false;
+        Step direction{};
+        Position from;
+        Number steps = 0;  // drawn so far: their number times their length
+        int turned = 0;    // sign of the turn that led into it
+    };
+    struct Sounding {
+        bool is_open = false;
+        Number twice = 0;  // its height, doubled
+        Number onset = 0, end = 0;
+        int velocity = 80;
+        glm::dvec2 from{0.0}, to{0.0};
+    };
+    struct State {
+        Position at;
+        Pending run;
+        Emitter::Line line;
+        Emitter::Line other;  // of vertical runs as a voice
+        Number time = 0;      // steps
+        Number other_time = 0;
+        Sounding held;    // a note that the next vertical run may make longer
+        Number lead = 0;  // vertical steps before the first note
+        bool has_sounded = false;
+    };
+    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
+    static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
+
+    /// A part of the word that recurs, as its straight runs.
+    struct Block {
+        struct Straight {
+            std::uint32_t turn;  ///< quarters, before it
+            std::int64_t length;
+        };
+        std::vector<Straight> runs;
+        std::uint32_t turn = 0;  ///< after the last
+        bool is_known = false;
+        bool is_simple = false;  ///< nothing but steps drawn and turns
+    };
+
+    /// False if the block holds what has to be read symbol by symbol.
+    bool play_block(const Run& run) {
+        const auto number = static_cast<std::size_t>(run.block);
+        if (number >= blocks_.size()) blocks_.resize(number + 1);
+        Block& block = blocks_[number];
+        if (!block.is_known) learn(block, run.symbols);
+        if (!block.is_simple) return false;
+        position_ += run.symbols.size();
+        for (const auto& [turn, length] : block.runs) {
+            state_.at.heading = (state_.at.heading + turn) & 3;
+            draw(walk_.ahead(state_.at, length));
+        }
+        state_.at.heading = (state_.at.heading + block.turn) & 3;
+        require_in_range();
+        return true;
+    }
+
+    void require_in_range() const {
+        if (Walk::in_range(state_.at) && state_.time < farthest && state_.other_time < farthest) return;
+        throw WordError(fmt::format("before symbol {} of the word the turtle leaves the range of its coordinates",
+                                    position_ + 1));
+    }
+
+    void learn(Block& block, std::span<const Symbol> symbols) {
+        block.is_known = true;
+        for (const Symbol symbol : symbols) {
+            if (kinds_[symbol] == Kind::turn) {
+                block.turn = (block.turn + walk_.quarters(symbol)) & 3;
+            } else if (kinds_[symbol] == Kind::draw) {
+                const std::int64_t length = walk_.steps(symbol);
+                const bool goes_on = block.turn == 0 && !block.runs.empty() && melody_.runs == Runs::merged &&
+                                     length > 0 && block.runs.back().length > 0;
+                if (goes_on) {
+                    block.runs.back().length += length;
+                } else {
+                    block.runs.push_back({block.turn, length});
+                }
+                block.turn = 0;
+            } else if (kinds_[symbol] != Kind::nothing) {
+                return;
+            }
+        }
+        block.is_simple = true;
+    }
+
+    void draw(const Step& step) {
+        if (step.x == 0 && step.y == 0) return;
+        Pending& run = state_.run;
+        if (!run.is_open || !Walk::same_direction(run.direction, step) || melody_.runs == Runs::each_step) {
+            int turned = 0;
+            if (run.is_open) {
+                const double cross = static_cast<double>(run.direction.x) * static_cast<double>(step.y) -
+                                     static_cast<double>(run.direction.y) * static_cast<double>(step.x);
+                turned = cross > 0 ? 1 : cross < 0 ? -1 : 0;
+            }
+            end_run();
+            run.is_open = true;
+            run.direction = step;
+            run.from = state_.at;
+            run.turned = turned;
+        }
+        state_.at.x += step.x;
+        state_.at.y += step.y;
+    }
+
+    void move(Symbol symbol) {
+        end_run();
+        const Step step = walk_.step(state_.at, symbol);
+        state_.at.x += step.x;
+        state_.at.y += step.y;
+        note_vertex();
+        const Number wide = step.x < 0 ? -step.x : step.x;
+        const Number high = step.y < 0 ? -step.y : step.y;
+        release_held();
+        state_.time += wide;
+        if (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice && Walk::is_level(step.x)) {
+            state_.time += high;
+        }
+        if (melody_.vertical == Vertical::voice) state_.other_time += high;
+    }
+
+    void note_vertex() {
+        lowest_ = std::min(lowest_, state_.at.y);
+        highest_ = std::max(highest_, state_.at.y);
+    }
+
+    void end_run() {
+        Pending& run = state_.run;
+        if (!run.is_open) return;
+        run.is_open = false;
+        note_vertex();
+        const Number wide = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
+        const Number high = state_.at.y > run.from.y ? state_.at.y - run.from.y : run.from.y - state_.at.y;
+        const int velocity = loudness(melody_, run.turned, static_cast<double>(wide > high ? wide : high),
+                                      stack_.depth(), ticks(state_.time));
+        if (Walk::is_level(high)) {
+            sound(run.from.y + state_.at.y, wide, velocity, run);
+        } else if (Walk::is_level(wide)) {
+            vertical_run(run, high, velocity);
+        } else if (melody_.sloped == Sloped::project) {
+            sound(run.from.y + state_.at.y, wide, velocity, run);
+        } else if (melody_.sloped == Sloped::refuse) {
+            throw ScoreError(fmt::format(
+                "before symbol {} of the word the curve slopes, and `sloped: refuse` is asked for", position_));
+        }
+        if (may_stop_ && ticks(state_.time) >= options_.to &&
+            (melody_.vertical != Vertical::voice || ticks(state_.other_time) >= options_.to)) {
+            release_held();
+            throw Enough();
+        }
+    }
+
+    /// A note at the height `twice` / 2 was met: the first one sounds the tonic, if the melody says so.
+    void meet(Number twice, Number end) {
+        if (melody_.anchor == Anchor::piece && ticks(end) <= options_.from) return;
+        if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
+        if (origin_.y == unknown) origin_.y = 2 * Walk::degree(twice);
+        if (seeks_first_note) throw Enough();
+    }
+
+    void emit(const Sounding& note) {
+        meet(note.twice, note.end);
+        if (origin_.y == unknown) return;  // before the piece
+        emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
+                      ticks(note.end), note.velocity, note.from, note.to);
+    }
+
+    void sound(Number twice, Number steps, int velocity, const Pending& run) {
+        meet(twice, state_.time + steps);
+        lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, Walk::degree(twice));
+        const bool is_held = melody_.vertical == Vertical::extend;
+        if (is_held) {
+            release_held();
+            steps += state_.lead;
+            state_.lead = 0;
+            state_.has_sounded = true;
+        }
+        const Sounding note = {true,     twice,           state_.time,     state_.time + steps,
+                               velocity, point(run.from), point(state_.at)};
+        state_.time += steps;
+        if (is_held) {
+            state_.held = note;
+        } else {
+            emit(note);
+        }
+    }
+
+    void release_held() {
+        if (!state_.held.is_open) return;
+        state_.held.is_open = false;
+        emit(state_.held);
+    }
+
+    void vertical_run(const Pending& run, Number steps, int velocity) {
+        switch (melody_.vertical) {
+            case Vertical::ignore:
+                break;
+            case Vertical::rest:
+                state_.time += steps;
+                break;
+            case Vertical::extend:
+                if (state_.held.is_open) {
+                    state_.held.end += steps;
+                    state_.time += steps;
+                } else if (!state_.has_sounded) {
+                    state_.lead += steps;
+                } else {
+                    state_.time += steps;
+                }
+                break;
+            case Vertical::glissando:
+                glissando(run, velocity);
+                break;
+            case Vertical::voice: {
+                const std::int64_t degree = Walk::degree(2 * state_.at.x);
+                emitter_.note(state_.other, degree, ticks(state_.other_time), ticks(state_.other_time + steps),
+                              velocity, point(run.from), point(state_.at));
+                state_.other_time += steps;
+                break;
+            }
+        }
+    }
+
+    /// A note for each height on the way, the last included.
+    void glissando(const Pending& run, int velocity) {
+        const Number sign = state_.at.y > run.from.y ? 1 : -1;
+        Position from = run.from;
+        while (from.y * sign < state_.at.y * sign) {
+            Position to = from;
+            to.y += sign;
+            if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
+            const Number steps = (to.y - from.y) * sign;
+            emit({true, 2 * to.y, state_.time, state_.time + steps, velocity, point(from), point(to)});
+            state_.time += steps;
+            from = to;
+        }
+    }
+
+    /// The branch begins where and when the stem is, which may be within a run.
+    void open() {
+        if (state_.run.is_open) {
+            const Pending& run = state_.run;
+            const Number wide = std::abs(state_.at.x - run.from.x);
+            const Number high = std::abs(state_.at.y - run.from.y);
+            const Number before = state_.time;
+            const bool is_note = Walk::is_level(high) || (!Walk::is_level(wide) && melody_.sloped == Sloped::project);
+            // What sounds already counts as met before what the branch will play.
+            if (is_note) meet(run.from.y + state_.at.y, before + wide);
+            stack_.open(state_, position_);
+            if (is_note) {
+                state_.time += wide;
+            } else if (Walk::is_level(wide)) {
+                if (melody_.vertical == Vertical::voice) {
+                    state_.other_time += high;
+                } else if (melody_.vertical != Vertical::ignore) {
+                    state_.time += high;
+                }
+            }
+        } else {
+            stack_.open(state_, position_);
+        }
+        state_.time += state_.lead;
+        state_.run.is_open = false;
+        state_.held.is_open = false;
+        state_.line = state_.other = {};
+        state_.has_sounded = false;
+        state_.lead = 0;
+    }
+
+    void close() {
+        end_run();
+        release_held();
+        emitter_.release(state_.line);
+        emitter_.release(state_.other);
+        state_ = stack_.close(position_);
+    }
+
+    const Grammar& grammar_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    Origin origin_;
+    const PlayOptions& options_;
+    Walk walk_;
+    bool may_stop_;
+    std::vector<Kind> kinds_;
+    State state_;
+    Brackets<State> stack_;
+    std::vector<Block> blocks_;
+    std::uint64_t position_ = 0;
+    Number lowest_ = 0;
+    Number highest_ = 0;
+    std::int64_t first_degree_ = unknown;
+    std::int64_t lowest_degree_ = unknown;
+};
+
+}  // namespace sikku::mapping
