@@ -358,11 +358,20 @@ void run(Options& options, bool quiet) {
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
+/// What a flag does; the table describes flags that hold by default by what they do while on.
+std::string flag_help(const GalleryKey& key) {
+    if (!key.name.starts_with("no-")) return key.help;
+    return "do not " + key.help.substr(0, key.help.rfind(" (default)"));
+}
+
 /// The placeholder of a key's value, as the interpreter's table has it.
 std::string value_name(const GalleryKey& key) {
     if (!key.use) return "VALUE";
     for (const OptionInfo* option : key.use->options()) {
-        if (option->name == key.name && !option->value.empty()) return std::string(option->value);
+        if (option->name != key.name || option->value.empty()) continue;
+        // Brackets: the value may be left out, but not in galleries.
+        const std::string_view value = option->value;
+        return std::string(value.starts_with('[') ? value.substr(1, value.size() - 2) : value);
     }
     return "VALUE";
 }
@@ -430,7 +439,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
         CLI::Option* option = nullptr;
         if (key.kind == OptionKind::flag) {
-            option = command->add_flag(names, options->flags[key.name], key.help);
+            option = command->add_flag(names, options->flags[key.name], flag_help(key));
         } else {
             option = command->add_option(names, options->texts[key.name], key.help)->type_name(value_name(key));
         }

@@ -46,8 +46,12 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 /// The placeholder of an option's value: `LENGTH`, without what CLI11 appends to it.
 std::string value_name(const CLI::Option& option) {
     if (option.get_expected_max() == 0) return {};
-    const std::string type = option.get_type_name();
-    return type.substr(0, type.find(':'));
+    std::string type = option.get_type_name();
+    // CLI11 appends what its checks say: `:INT in [0 - 1024]`, `:{bash,zsh}`.
+    for (std::size_t at = type.find(':'); at != std::string::npos; at = type.find(':', at + 1)) {
+        if (type.compare(at, 2, ":{") == 0 || type.find(" in [", at) != std::string::npos) type.erase(at);
+    }
+    return type;
 }
 
 /// `-n, --steps N`, `--dots[=SIZE COLOUR|only]`; of an argument `PATTERN...`.

@@ -65,23 +65,23 @@ std::string roff(const std::string& text) {
     return result;
 }
 
-std::string upper(std::string text) {
-    for (char& letter : text) {
-        if (letter == ' ') letter = '-';
-        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
-    }
-    return text;
-}
-
 std::string hyphenated(std::string name) {
     std::replace(name.begin(), name.end(), ' ', '-');
     return name;
 }
 
+std::string upper(std::string text) {
+    for (char& letter : text) {
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    }
+    return text;
+}
+
 /// @param others  names of further pages
 std::string man_page(const HelpPage& page, const std::vector<std::string>& others) {
-    std::string text = fmt::format(".TH {} 1 \"\" \"Sikku {}\" \"Sikku\"\n.SH NAME\n{} \\- {}\n", upper(page.name),
-                                   SIKKU_VERSION, roff(hyphenated(page.name)), roff(page.summary));
+    std::string text =
+        fmt::format(".TH {} 1 \"\" \"Sikku {}\" \"Sikku\"\n.SH NAME\n{} \\- {}\n", upper(hyphenated(page.name)),
+                    SIKKU_VERSION, roff(hyphenated(page.name)), roff(page.summary));
     text += ".SH SYNOPSIS\n.B " + roff(page.usage) + '\n';
     for (const HelpGroup& group : page.groups) {
         text += ".SH \"" + upper(group.heading) + "\"\n";
