@@ -7,12 +7,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
 #include <system_error>
 #include <vector>
 
@@ -29,33 +25,13 @@ std::span<const std::uint8_t> span_of(const std::string& bytes) {
 
 /// @throws UsageError if there are more than can be checked
 std::string read_bytes(const std::string& file) {
-    if (std::error_code error; std::filesystem::is_directory(file, error)) {
-        throw UsageError(fmt::format("{} is a folder", file));
+    try {
+        std::string bytes = read_file(file, file, most_midi_bytes, stop_monitor());
+        if (bytes.size() <= most_midi_bytes) return bytes;
+    } catch (const std::runtime_error& error) {
+        throw UsageError(error.what());
     }
-    std::FILE* opened = nullptr;
-    // Opening a named pipe waits for its writer.
-    while (!(opened = std::fopen(file.c_str(), "rb"))) {
-        if (interrupted()) throw Interrupted();
-        if (errno != EINTR) throw UsageError(fmt::format("{}: {}", file, std::strerror(errno)));
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(opened, &std::fclose);
-    std::string bytes;
-    std::vector<char> block(std::size_t{1} << 16);
-    for (;;) {
-        const std::size_t got = std::fread(block.data(), 1, block.size(), stream.get());
-        const int error = errno;
-        bytes.append(block.data(), got);
-        if (bytes.size() > most_midi_bytes) {
-            throw UsageError(fmt::format("{}: MIDI files of more than 128 MB cannot be checked", file));
-        }
-        if (interrupted()) throw Interrupted();
-        if (std::ferror(stream.get()) != 0) {
-            if (error != EINTR) throw UsageError(fmt::format("{}: {}", file, std::strerror(error)));
-            std::clearerr(stream.get());
-        } else if (got == 0) {
-            return bytes;
-        }
-    }
+    throw UsageError(fmt::format("{}: MIDI files of more than 128 MB cannot be checked", file));
 }
 
 }  // namespace

@@ -28,19 +28,18 @@ double now() {
 
 void add_pattern_options(CLI::App& command, PatternOptions& options) {
     command
-        .add_option("PATTERN", options.pattern,
-                    "A pattern file, the name of one that comes along, or - for standard input")
+        .add_option("PATTERN", options.pattern, "pattern file, name of a bundled pattern, or - for standard input")
         ->required();
     add_override_options(command, options);
 }
 
 void add_override_options(CLI::App& command, PatternOptions& options) {
-    command.add_option("-n,--steps", options.steps, "Derivation length, instead of the pattern's")->type_name("N");
-    command.add_option("--set", options.settings, "KEY=VALUE: another value for a key or a define of the pattern")
+    command.add_option("-n,--steps", options.steps, "derivation length, instead of the pattern's")->type_name("N");
+    command.add_option("--set", options.settings, "value of a key or define of the pattern; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    command.add_option("--variant", options.variant, "One of the pattern's variants");
-    command.add_option("--seed", options.seed, "Where chance starts, instead of the pattern's seed")->type_name("N");
+    command.add_option("--variant", options.variant, "variant of the pattern")->type_name("NAME");
+    command.add_option("--seed", options.seed, "random seed, instead of the pattern's")->type_name("N");
 }
 
 std::uint64_t seed_of(const PatternOptions& options) {
@@ -54,12 +53,12 @@ std::uint64_t seed_of(const PatternOptions& options) {
 }
 
 void add_budget_option(CLI::App& command, double& budget) {
-    command.add_option("--budget", budget, "Most nodes of the derivation that are visited")
+    command.add_option("--budget", budget, "maximum number of derivation nodes visited (2e8)")
+        ->type_name("NODES")
         ->check([](const std::string& text) {
             double value = 0;
             return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
-        })
-        ->capture_default_str();
+        });
 }
 
 std::string known_gallery(const std::string& name) {

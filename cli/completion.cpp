@@ -1,5 +1,6 @@
 // cli/completion.cpp: `sikku completion`: scripts for bash and zsh, made from the commands themselves.
 #include "cli/command.h"
+#include "cli/help.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ std::string options_of(const CLI::App& command) {
 std::string script(const CLI::App& app, bool zsh) {
     std::string commands;
     std::string cases;
-    for (const CLI::App* command : app.get_subcommands({})) {
+    for (const CLI::App* command : listed_commands(app)) {
         commands += (commands.empty() ? "" : " ") + command->get_name();
         cases += fmt::format("        {}) options=\"{}\" ;;\n", command->get_name(), options_of(*command));
     }
@@ -46,7 +47,7 @@ complete -o filenames -F _sikku sikku
 }  // namespace
 
 void add_completion(CLI::App& app) {
-    auto* command = app.add_subcommand("completion", "Print a completion script for bash or zsh");
+    auto* command = app.add_subcommand("completion", "Print a completion script for a shell");
     auto shell = std::make_shared<std::string>();
     command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
     command->footer(

@@ -118,13 +118,13 @@ private:
 }  // namespace
 
 void add_derive(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("derive", "Print the derived word on standard output");
+    auto* command = app.add_subcommand("derive", "Print the derived word");
     auto options = std::make_shared<PatternOptions>();
     auto interpreted = std::make_shared<bool>(false);
     add_pattern_options(*command, *options);
-    command->add_flag("--interpreted", *interpreted, "The word as interpreters see it, after `interpret:`");
+    command->add_flag("--interpreted", *interpreted, "apply the productions under `interpret:`");
     command->footer(
-        "There is no limit to its length: it is streamed.\n\n"
+        "The word is streamed to standard output; its length has no limit.\n\n"
         "Examples:\n"
         "  sikku derive fibonacci-words\n"
         "  sikku derive koch-island -n 8 | wc -c");

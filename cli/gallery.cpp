@@ -3,7 +3,6 @@
 
 #include "art/prints.h"
 #include "cli/command.h"
-#include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "music/scores.h"
 
@@ -181,13 +180,7 @@ void write_script(const GalleryFolder& folder, const std::string& name, const st
         }
         if (!S_ISREG(there->st_mode)) place.remove();
     }
-    try {
-        OutputFile output(place.path());
-        output.write(text);
-        output.commit();
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(place.readable(error.what()));
-    }
+    folder.write(name, text);
 }
 
 /// Writes the script beside the folder of the gallery, which holds nothing but the gallery, and hands it to Slurm.
@@ -365,53 +358,83 @@ void run(Options& options, bool quiet) {
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
+/// The placeholder of a key's value, as the interpreter's table has it.
+std::string value_name(const GalleryKey& key) {
+    if (!key.use) return "VALUE";
+    for (const OptionInfo* option : key.use->options()) {
+        if (option->name == key.name && !option->value.empty()) return std::string(option->value);
+    }
+    return "VALUE";
+}
+
 }  // namespace
 
 void add_gallery(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("gallery", "Many prints and scores, in parallel; goes on where it was");
+    auto* command =
+        app.add_subcommand("gallery", "Make many prints and scores in parallel; resumes where it stopped");
     auto options = std::make_shared<Options>();
     command->add_option("PATTERNS", options->request.patterns,
-                        "Names, globs, folders or files; without any, all patterns that come along and draw");
-    auto* output = command->add_option("-o,--output", options->output, "The folder")->capture_default_str();
-    command->add_option(
-        "--file", options->request.gallery_file,
-        "A gallery file, gallery.toml: what is to be made; or the name of one that comes along, such as figure-2.5");
-    command->add_option("--manifest", options->request.manifest, "A file of jobs, one a line of JSON");
+                        "names, kinds, globs, folders or files (all bundled patterns that draw)");
+    auto* output = command->add_option("-o,--output", options->output, "folder of the gallery")
+                       ->type_name("FOLDER")
+                       ->capture_default_str();
+    command
+        ->add_option("--file", options->request.gallery_file,
+                     "gallery file (TOML) that lists what to make, or the name of a bundled one such as figure-2.5")
+        ->type_name("FILE");
+    command->add_option("--manifest", options->request.manifest, "file of jobs, one line of JSON each")
+        ->type_name("FILE");
     command
         ->add_option("--poster", options->request.poster,
-                     "All prints on one sheet of this size, with captions: poster.svg, poster.pdf, poster.png")
+                     "make a poster of all prints, with captions: poster.svg, poster.pdf, poster.png")
         ->type_name("SIZE");
-    command->add_option("--contact", options->request.contact, "A contact sheet likewise, with names: contact.svg, …")
+    command->add_option("--contact", options->request.contact, "make a contact sheet, with names: contact.svg, …")
         ->type_name("SIZE");
-    auto* list = command->add_flag("--list", options->list, "Show the jobs, make nothing");
-    command->add_flag("--json", options->json, "With --list: as a manifest")->needs(list);
-    command->add_flag("--dry-run", options->dry_run, "Forecast symbols, time, bytes and memory of each job");
-    command->add_option("--only", options->only, "Make this job anew, and no other")->allow_extra_args(false);
-    command->add_flag("--force", options->force, "Make all anew, and replace files of others that are in the way");
-    command->add_flag("--keep-going", options->keep_going, "Go on with other jobs after one failed");
-    command->add_option("--memory", options->memory, "Most memory, such as 1G; jobs wait rather than exceed it");
-    command->add_option("-j,--jobs", options->threads, "Jobs at a time; 0: one for each core")
+    auto* list = command->add_flag("--list", options->list, "list the jobs and make nothing");
+    command->add_flag("--json", options->json, "print the list as a manifest")->needs(list);
+    command->add_flag("--dry-run", options->dry_run, "forecast symbols, time, bytes and memory of each job");
+    command->add_option("--only", options->only, "make this job again, and no other; may be repeated")
+        ->type_name("JOB")
+        ->allow_extra_args(false);
+    command->add_flag("--force", options->force, "make everything again, and replace other files in the way");
+    command->add_flag("--keep-going", options->keep_going, "continue with other jobs after one failed");
+    command
+        ->add_option("--memory", options->memory,
+                     "maximum memory, such as 1G; jobs wait for it (half of the available memory)")
+        ->type_name("BYTES");
+    command->add_option("-j,--jobs", options->threads, "jobs at a time; 0: one for each core (0)")
         ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-    command->add_option("--shard", options->shard,
-                        "i/N: part i of N, balanced by forecast; without it, as Slurm, Open MPI or Kubernetes say");
-    command->add_option("--slurm", options->slurm, "Write a script for an array of N tasks, and submit it")
-        ->check(CLI::Range(1, 100'000));
-    command->add_option(
-        "-f,--format", options->texts["format"],
-        "svg, pdf, png, tif, jpg, exr, mid, musicxml, ly, wav, flac, notes.svg, html; several with commas");
-    command->add_option("--name", options->texts["name"], "Names of the files: {pattern}-n{n}, any key in braces");
-    command->add_option("--set", options->request.overrides, "KEY=VALUE of the pattern; 60:90:5 makes several")
+        ->type_name("N");
+    command
+        ->add_option("--shard", options->shard,
+                     "make part I of N, balanced by forecast (read from Slurm, Open MPI or Kubernetes)")
+        ->type_name("I/N");
+    command->add_option("--slurm", options->slurm, "write a script for an array of N tasks, and submit it")
+        ->check(CLI::Range(1, 100'000))
+        ->type_name("N");
+    command
+        ->add_option(
+            "-f,--format", options->texts["format"],
+            "svg, pdf, png, tif, jpg, exr, mid, musicxml, ly, wav, flac, notes.svg, html; several with commas")
+        ->type_name("FORMATS");
+    command
+        ->add_option("--name", options->texts["name"], "names of the files: {pattern}-n{n}, with any key in braces")
+        ->type_name("TEXT");
+    command
+        ->add_option("--set", options->request.overrides,
+                     "value of a key or define of the patterns; 60:90:5 makes several; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     for (const GalleryKey& key : gallery_keys().list()) {
         if (!key.is_option) continue;
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
+        CLI::Option* option = nullptr;
         if (key.kind == OptionKind::flag) {
-            command->add_flag(names, options->flags[key.name], key.help);
+            option = command->add_flag(names, options->flags[key.name], key.help);
         } else {
-            command->add_option(names, options->texts[key.name], key.help)->type_name("VALUE");
+            option = command->add_option(names, options->texts[key.name], key.help)->type_name(value_name(key));
         }
+        if (key.use) option->group(key.use == &prints() ? "Prints" : "Scores");
     }
     command->footer(
         "An interrupted run resumes when it is started again: finished and unchanged files are kept. Files not made "

@@ -165,20 +165,19 @@ void import_file(const ImportOptions& options, bool quiet) {
 }  // namespace
 
 void add_import(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("import", "Make pattern files of L-systems of cpfg and Fractint");
+    auto* command = app.add_subcommand("import", "Turn L-systems of cpfg and Fractint into pattern files");
     auto options = std::make_shared<ImportOptions>();
-    command->add_option("FILE", options->file, "A cpfg file, a Fractint collection, or - for standard input")
-        ->required();
-    command->add_option("NAMES", options->names, "Only these entries of a collection");
-    command->add_option("-o,--output", options->output,
-                        "A folder, or a file NAME.lsys for a single system; standard output if absent");
+    command->add_option("FILE", options->file, "cpfg file, Fractint collection, or - for standard input")->required();
+    command->add_option("NAMES", options->names, "entries of a collection (all)");
     command
-        ->add_option("--view-file", options->view,
-                     "View file of a cpfg file, for the angle (default: that beside it, NAME.v)")
+        ->add_option("-o,--output", options->output,
+                     "folder, or a file NAME.lsys for a single system (standard output)")
+        ->type_name("PATH");
+    command->add_option("--view-file", options->view, "view file of a cpfg file, for the angle (NAME.v beside it)")
         ->type_name("FILE");
-    command->add_flag("--list", options->list, "Tell what the file holds");
+    command->add_flag("--list", options->list, "list the entries of the file");
     command->footer(
-        "What cannot be carried over is told with its place, and in the pattern's description.\n\n"
+        "Features without a counterpart are reported with their place, and in the description of the pattern.\n\n"
         "Examples:\n"
         "  sikku import fractint.l -o imported\n"
         "  sikku import fractint.l Dragon | sikku draw - -n 10 -o dragon.svg\n"

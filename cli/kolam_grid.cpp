@@ -152,48 +152,63 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
 }  // namespace
 
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
-    auto* grid = command.add_option(
-        "--grid", options.grid, "Make a kolam on dots: ROWSxCOLUMNS, as 7x7, or the dots of each row, as 1-3-5-3-1");
+    auto* grid =
+        command.add_option("--grid", options.grid, "make a kolam on dots: 7x7, or the dots of each row: 1-3-5-3-1")
+            ->type_name("ROWS")
+            ->group(grid_heading);
     auto* symmetry = command
                          .add_option("--symmetry", options.symmetry,
                                      "none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), mirror-y "
-                                     "(top and bottom), mirrors (both) or D4 (all)")
-                         ->needs(grid)
-                         ->capture_default_str();
+                                     "(top and bottom), mirrors (both) or D4 (all); excludes --crossings (none)")
+                         ->type_name("GROUP")
+                         ->group(grid_heading)
+                         ->needs(grid);
     auto* density =
-        command
-            .add_option("--density", options.density, "Of the gaps between dots that lines cross in (default 0.7)")
+        command.add_option("--density", options.density, "share of the gaps in which lines cross, 0 to 1 (0.7)")
+            ->type_name("SHARE")
+            ->group(grid_heading)
             ->needs(grid);
     auto* crossings = command
                           .add_option("--crossings", options.crossings,
                                       "all, none, or 0 or 1 for each gap: for each row from the top those within it, "
-                                      "then those to the next row; @FILE reads them")
+                                      "then those to the next row; @FILE reads them from a file")
+                          ->type_name("GAPS")
+                          ->group(grid_heading)
                           ->needs(grid)
                           ->excludes(symmetry)
                           ->excludes(density);
-    auto* single = command
-                       .add_flag("--single-line", options.single_line,
-                                 "One line; without a symmetry, changing the fewest gaps that can do it")
-                       ->needs(grid);
-    command.add_option("--attempts", options.attempts, "At a single line with a symmetry")
+    auto* single =
+        command
+            .add_flag("--single-line", options.single_line, "make a single line, changing as few gaps as possible")
+            ->group(grid_heading)
+            ->needs(grid);
+    command
+        .add_option("--attempts", options.attempts,
+                    "attempts to find a single line with a symmetry, 1 to 1000000 (1000)")
+        ->type_name("N")
+        ->group(grid_heading)
         ->needs(single)
-        ->check(CLI::Range(1, 1'000'000))
-        ->capture_default_str();
-    auto* colours = command.add_flag("--colours", options.colours, "Each line in a colour of its own")->needs(grid);
-    auto* dots = command.add_flag("--dots", options.dots, "The pattern draws the dots, too")->needs(grid);
+        ->check(CLI::Range(1, 1'000'000));
+    auto* colours = command.add_flag("--colours", options.colours, "give each line its own colour")
+                        ->needs(grid)
+                        ->group(grid_heading);
+    auto* dots =
+        command.add_flag("--dots", options.dots, "draw the dots in the pattern")->needs(grid)->group(grid_heading);
     auto* enumerate = command
                           .add_flag("--enumerate", options.enumerate,
-                                    "Count all kolams of one line, with --symmetry those that have it, and list them")
+                                    "count and list all kolams of a single line, with --symmetry those that have it")
+                          ->group(grid_heading)
                           ->needs(grid)
                           ->excludes(crossings)
                           ->excludes(density)
                           ->excludes(single)
                           ->excludes(colours)
                           ->excludes(dots);
-    command.add_option("--limit", options.limit, "Most kolams that --enumerate lists")
+    command.add_option("--limit", options.limit, "how many kolams --enumerate lists, up to 10000000 (100)")
+        ->type_name("N")
+        ->group(grid_heading)
         ->needs(enumerate)
-        ->check(CLI::Range(0, 10'000'000))
-        ->capture_default_str();
+        ->check(CLI::Range(0, 10'000'000));
 }
 
 void kolam_grid(const KolamGridOptions& options, bool quiet) {

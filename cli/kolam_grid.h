@@ -10,6 +10,9 @@
 
 namespace sikku {
 
+/// Heading of these options in help.
+inline constexpr const char* grid_heading = "Kolams on a grid of dots";
+
 /// Every option, as it was given.
 struct KolamGridOptions {
     std::string grid;

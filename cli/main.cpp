@@ -1,6 +1,7 @@
 // cli/main.cpp: the program: its commands and its errors.
 #include "art/gallery/values.h"
 #include "cli/command.h"
+#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/signals.h"
 #include "engine/derivation/derivation.h"
@@ -8,16 +9,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 int fail(int status, std::string_view message) {
     if (message.ends_with('\n')) message.remove_suffix(1);
     sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
     return status;
+}
+
+/// An argument that no option or positional takes, with the nearest option.
+std::string unexpected(const CLI::App& app, const std::string& argument) {
+    const CLI::App* command = &app;
+    for (const CLI::App* used : app.get_subcommands()) command = used;
+    if (!argument.starts_with("-")) return "unexpected argument '" + sikku::printable(argument, 80) + "'";
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command->get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    const std::string given = argument.substr(0, argument.find('='));
+    const std::string_view near = sikku::nearest(given, {names.begin(), names.end()});
+    return fmt::format("unknown option '{}'{}", sikku::printable(given, 80),
+                       near.empty() ? fmt::format("; `sikku {} --help` lists the options", command->get_name())
+                                    : fmt::format("; did you mean '{}'?", near));
 }
 
 /// CLI11 alone would only say that a command is missing.
@@ -37,12 +57,13 @@ void require_command(const CLI::App& app, const std::string& wanted) {
 int run(int argc, char** argv) {
     using namespace sikku;
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
-    app.set_version_flag("--version", "sikku " SIKKU_VERSION);
+    app.set_version_flag("--version", "sikku " SIKKU_VERSION, "show the version");
     bool quiet = false;
-    app.add_flag("-q,--quiet", quiet, "No progress, no warnings");
+    app.set_help_flag("-h,--help", "show this help");
+    app.add_flag("-q,--quiet", quiet, "show no progress and no warnings");
+    app.formatter(std::make_shared<HelpFormatter>());
     app.require_subcommand(1);
     app.fallthrough();
-    app.get_formatter()->column_width(34);
     add_draw(app, quiet);
     add_kolam(app, quiet);
     add_play(app, quiet);
@@ -55,13 +76,25 @@ int run(int argc, char** argv) {
     add_show(app, quiet);
     add_check(app);
     add_completion(app);
-    app.footer("`sikku COMMAND --help` tells more, with examples.");
+    add_manual(app);
+    app.footer(
+        "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
+        "Exit status: 0; 2 for usage, unknown names and patterns with errors; 1 for other failures; 130, 143 and 129 "
+        "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
+        "once. Output files appear whole or not at all.");
     try {
         if (argc > 1 && argv[1][0] != '-') require_command(app, argv[1]);
         app.parse(argc, argv);
         return 0;
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
+    } catch (const CLI::ExtrasError&) {
+        const std::vector<std::string> extras = app.remaining(true);
+        // The value of an unknown option stands before it in this list.
+        const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
+            return text.starts_with("-") && text != "-";
+        });
+        return fail(2, unexpected(app, option == extras.end() ? extras.front() : *option));
     } catch (const CLI::ParseError& error) {
         // CLI11 by itself prints without looking whether it can; what is lost here main() sees.
         std::ostringstream help;

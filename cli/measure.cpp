@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "engine/base/text.h"
 #include "engine/measure/extent.h"
+#include "engine/measure/measurement_text.h"
 
 #include <fmt/format.h>
 
@@ -11,134 +12,18 @@
 #include <vector>
 
 namespace sikku {
-namespace {
-
-std::string number(double value) {
-    if (!std::isfinite(value)) return "null";
-    if (value == 0) return "0";  // never -0
-    if (value == std::floor(value) && std::fabs(value) < 0x1p53) return fmt::format("{:.0f}", value);
-    return fmt::format("{}", value);
-}
-
-std::string json(const Quantity& quantity) {
-    return quantity.digits.empty() ? number(quantity.value) : json_string(quantity.digits);
-}
-
-std::string json(const std::vector<Quantity>& list) {
-    std::string text = "[";
-    for (const Quantity& quantity : list) text += (text.size() > 1 ? ", " : "") + json(quantity);
-    return text + "]";
-}
-
-/// What the plane and space have in common: numbers of two axes or of three.
-struct Geometry {
-    std::vector<Quantity> box, ink, end;
-    std::optional<double> heading;  ///< of the plane
-    bool closed = false;
-    std::int64_t depth = 0;
-};
-
-std::vector<Quantity> numbers(const SpaceBounds& bounds) {
-    std::vector<Quantity> result;
-    for (const glm::dvec3& corner : {bounds.low, bounds.high}) {
-        for (int axis = 0; axis < 3; ++axis) result.push_back(Quantity::of(corner[axis]));
-    }
-    return result;
-}
-
-std::optional<Geometry> geometry_of(const Measurement& m) {
-    if (m.space) {
-        const SpaceSurvey& s = *m.space;
-        return Geometry{numbers(s.box),
-                        s.ink ? numbers(*s.ink) : std::vector<Quantity>(),
-                        {Quantity::of(s.end.x), Quantity::of(s.end.y), Quantity::of(s.end.z)},
-                        std::nullopt,
-                        s.closed,
-                        s.depth};
-    }
-    if (!m.geometry) return std::nullopt;
-    const Fold& f = *m.geometry;
-    Geometry result{{f.box.begin(), f.box.end()}, {}, {f.end.begin(), f.end.end()}, f.heading, f.closed, f.depth};
-    if (f.ink) result.ink.assign(f.ink->begin(), f.ink->end());
-    return result;
-}
-
-std::string json(const std::string& title, const Measurement& m) {
-    std::string counts;
-    for (const auto& [letter, count] : m.counts) {
-        counts += fmt::format("{}{}: {}", counts.empty() ? "" : ", ", json_string(letter), json(count));
-    }
-    std::string length = json(m.length);
-    if (m.length.digits.empty() && length.find_first_not_of("0123456789") == std::string::npos) length += ".0";
-    const std::optional<Geometry> g = geometry_of(m);
-    return fmt::format(
-        "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
-        "\"length\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, \"depth\": {}, "
-        "\"derived\": {}}}\n",
-        json_string(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
-        json(m.symbols), counts, json(m.drawn), json(m.moves), length, g ? json(g->box) : "null",
-        g && !g->ink.empty() ? json(g->ink) : "null", g ? json(g->end) : "null",
-        g && g->heading ? number(*g->heading) : "null",
-        !g          ? "null"
-        : g->closed ? "true"
-                    : "false",
-        g ? fmt::format("{}", g->depth) : "null", m.derived ? "true" : "false");
-}
-
-std::string plain(const Quantity& quantity) {
-    if (!quantity.digits.empty()) return quantity.digits;
-    if (quantity.value == std::floor(quantity.value)) return number(quantity.value);
-    return fmt::format("{:.6g}", quantity.value);
-}
-
-std::string plain(const std::vector<Quantity>& list) {
-    std::string text;
-    for (const Quantity& quantity : list) text += (text.empty() ? "" : " ") + plain(quantity);
-    return text;
-}
-
-std::string prose(const std::string& title, const Measurement& m) {
-    std::string text = fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), m.n);
-    const auto line = [&](std::string_view name, const std::string& value) {
-        text += fmt::format("{:<9}{}\n", name, value);
-    };
-    line("symbols", plain(m.symbols));
-    std::string counts;
-    for (const auto& [letter, count] : m.counts) {
-        counts += fmt::format("{}{} {}", counts.empty() ? "" : "   ", printable(letter), plain(count));
-    }
-    if (!counts.empty()) line("counts", counts);
-    line("drawn", plain(m.drawn));
-    line("moves", plain(m.moves));
-    line("length", plain(m.length));
-    if (const std::optional<Geometry> g = geometry_of(m)) {
-        line("box", plain(g->box));
-        line("ink", g->ink.empty() ? "none" : plain(g->ink));
-        line("end", plain(g->end));
-        if (g->heading) line("heading", fmt::format("{:.6g} degrees", *g->heading));
-        line("closed", g->closed ? "yes" : "no");
-        line("depth", fmt::format("{}", g->depth));
-    } else {
-        text += "The word is too long for its box to be worked out.\n";
-    }
-    line("derived", m.derived ? "yes" : "no");
-    return text;
-}
-
-}  // namespace
 
 void add_measure(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("measure", "Tell length, counts, box and end of the word, of any order");
+    auto* command = app.add_subcommand("measure", "Measure the word of a pattern: length, counts, box, end");
     auto options = std::make_shared<PatternOptions>();
     auto as_json = std::make_shared<bool>(false);
     auto budget = std::make_shared<double>(200e6);
     add_pattern_options(*command, *options);
-    command->add_flag("--json", *as_json, "One line of JSON, for programs");
+    command->add_flag("--json", *as_json, "print one line of JSON");
     add_budget_option(*command, *budget);
     command->footer(
-        "In unit steps of the turtle, which starts at 0 0; in space, x y z. Systems without contexts are not "
-        "derived:\n"
-        "order 60 costs as little as order 6.\n\n"
+        "Lengths are in steps of the turtle, which starts at 0 0; in space, places have x, y and z. Systems without "
+        "contexts are not derived: order 60 costs as little as order 6.\n\n"
         "Examples:\n"
         "  sikku measure snake-kolam\n"
         "  sikku measure hilbert -n 60 --json");
@@ -147,7 +32,7 @@ void add_measure(CLI::App& app, bool& quiet) {
         Progress progress(quiet);
         const Measurement measured = measure(loaded.grammar(), *budget, progress.watch());
         const std::string title = loaded.pattern().text("title");
-        fmt::print("{}", *as_json ? json(title, measured) : prose(title, measured));
+        fmt::print("{}", *as_json ? measurement_json(title, measured) : measurement_text(title, measured));
     });
 }
 

@@ -112,6 +112,12 @@ void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
 
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
+    if (const std::string_view format = known_format(file); !format.empty()) {
+        throw UsageError(
+            fmt::format("{}: this is a {} file, not a pattern; `sikku show` prints the pattern it was made "
+                        "from",
+                        file, format));
+    }
     Diagnostics diagnostics;
     NamedText text = read_pattern_text(file);
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
@@ -126,35 +132,38 @@ bool check(const std::string& file) {
 }  // namespace
 
 void add_patterns(CLI::App& app) {
-    auto* command = app.add_subcommand("patterns", "List the patterns that come along");
+    auto* command = app.add_subcommand("patterns", "List the bundled patterns");
     auto kind = std::make_shared<std::string>();
     auto names_only = std::make_shared<bool>(false);
-    command->add_option("KIND", *kind, "Only those of one kind: kolams, tilings, curves, plants, words, melodies");
-    command->add_flag("--names", *names_only, "Names only, one a line");
+    command->add_option("KIND", *kind, "kolams, tilings, curves, plants, words or melodies (all)");
+    command->add_flag("--names", *names_only, "print names only, one in each line");
     command->footer("Examples:\n  sikku patterns\n  sikku patterns kolams");
     command->callback([kind, names_only] { list_patterns(*kind, *names_only); });
 }
 
 void add_show(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("show", "Print the text of a pattern, also of one that a print was made from");
+    auto* command =
+        app.add_subcommand("show", "Print the text of a pattern, or of the pattern a print was made from");
     auto what = std::make_shared<std::string>();
     command
         ->add_option("PATTERN", *what,
-                     "A name, a pattern file, -, a print (SVG, PDF, PNG, TIFF, JPEG, EXR) or a MIDI file")
+                     "bundled pattern, pattern file, -, print (SVG, PDF, PNG, TIFF, JPEG, EXR) or MIDI file")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });
 }
 
 void add_check(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "check", "Tell every mistake of pattern, .scl and .kbm files, and every fault of MIDI files, with its place");
+    auto* command =
+        app.add_subcommand("check", "Report every error of pattern, Scala and MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
-    command->add_option("FILE", *files, "Pattern files, names, -, scales, key maps, or MIDI files")->required();
+    command
+        ->add_option("FILE", *files,
+                     "pattern files, bundled patterns, -, scales (.scl), key maps (.kbm) or MIDI files")
+        ->required();
     command->footer(
-        "Says nothing and exits with 0 if there is none, with 2 else, with 1 for MIDI files.\n\nExamples:\n  sikku "
-        "check my.lsys "
-        "patterns/*/*.lsys");
+        "Prints nothing and exits with 0 if there is no error; otherwise exits with 2, or with 1 for MIDI files.\n\n"
+        "Examples:\n  sikku check my.lsys patterns/*/*.lsys");
     command->callback([files] {
         bool good = true;
         bool is_score_good = true;

@@ -16,7 +16,8 @@ namespace {
 constexpr long patience_milliseconds = 500;
 
 std::atomic<int> signal_seen{0};
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<bool> is_reported{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 timer_t patience;
 bool has_patience = false;
 
@@ -37,11 +38,11 @@ extern "C" void stop_signal(int signal) {
     errno = error;
 }
 
-/// The work did not check for the request in time.
+/// The work did not check for the request in time, or the program is slow to exit.
 extern "C" void patience_signal(int) {
     constexpr std::string_view message = "sikku: interrupted\n";
     // A lost terminal must not delay the exit.
-    if (::write(STDERR_FILENO, message.data(), message.size()) < 0) {
+    if (!is_reported && ::write(STDERR_FILENO, message.data(), message.size()) < 0) {
     }
     end_at_once();
 }
@@ -83,6 +84,7 @@ bool interrupted() {
 }
 
 int interruption_status() {
+    is_reported = true;
     return 128 + signal_seen;
 }
 

@@ -18,7 +18,8 @@ void catch_signals();
 /// Whether work should stop.
 bool interrupted();
 
-/// Exit status after an interruption: 128 plus the signal number.
+/// Exit status after an interruption: 128 plus the signal number. Call before reporting it: a program that is slow to
+/// exit afterwards is still ended in time, but without a second message.
 int interruption_status();
 
 /// Monitor for library work: stops when interrupted() does.

@@ -23,12 +23,30 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
     return text + after;
 }
 
+namespace {
+
+/// @throws SettingError for a name that is no option, no key and no define
+void require_known(const Interpreter& interpreter, const Document& document, const std::string& name) {
+    std::vector<std::string_view> known;
+    for (const OptionInfo* option : interpreter.options()) known.push_back(option->name);
+    for (const KeyInfo& key : language_keys()) known.push_back(key.name);
+    for (const Define& define : document.pattern().defines) known.push_back(define.name.view());
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const std::string_view near = nearest(name, known);
+    throw SettingError(name, "",
+                       near.empty() ? std::string("unknown option or key")
+                                    : "unknown option or key; did you mean '" + std::string(near) + "'?");
+}
+
+}  // namespace
+
 std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
                            const OptionValues& values) {
     const auto options = interpreter.options();
     OptionValues own;
     std::vector<Setting> settings;
     for (const OptionValue& value : values) {
+        require_known(interpreter, document, value.name);
         const auto row = std::find_if(options.begin(), options.end(),
                                       [&](const OptionInfo* info) { return info->name == value.name; });
         const KeyInfo* key = find_language_key(value.name);
@@ -43,6 +61,10 @@ std::string make_in_memory(const Interpreter& interpreter, const Document& docum
     MemoryDestination memory;
     const std::string name = "memory." + std::string(format);
     interpreter.plan(set, format, own)->make(memory, name, {});
+    if (!memory.outputs().contains(name)) {
+        throw std::runtime_error(std::to_string(memory.outputs().size()) +
+                                 " files instead of one: plan the work and make it into a destination");
+    }
     return memory.take(name);
 }
 

@@ -85,7 +85,7 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
                    const std::string& after = {});
 
 /// Plans and makes a work whose output is a single one. Names in `values` that are no options of the interpreter are
-/// keys or defines of the pattern. @throws as plan() and make()
+/// keys or defines of the pattern. @throws as plan() and make(); SettingError for other names
 std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
                            const OptionValues& values);
 

@@ -182,7 +182,13 @@ TEST(BadInput, SymbolsBeyondAscii) {
     EXPECT_EQ(outcome.output, "FF😀F日本\n") << outcome.errors;
     expect_mistake("axiom: F−F", "-:1:9: '−' is no symbol: write '-'");
     expect_mistake("axiom: åF→F", "-:1:10: ");
-    expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is no arrow here: write '-->'");
+    expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is not the arrow of a production; expected '-->'");
+    expect_mistake("axiom: F\nF -> FF", "-:2:3: '->' is not the arrow of a production; expected '-->'");
+    expect_mistake("axiom: F\nF => FF", "-:2:3: '=>' is not the arrow of a production; expected '-->'");
+    expect_mistake("axiom: A(1)\nA(x) : x => 4 --> F", "'=>' is not an operator; did you mean '>='?");
+    expect_mistake("axiom: A(1)\nA(x) : x =< 4 --> F", "'=<' is not an operator; did you mean '<='?");
+    expect_mistake("axiom: F\nstroke: 0.3 stp white",
+                   "-:2:13: 'stp' is not a unit; expected mm, cm, in, pt, px or step");
     expect_mistake("axiom: F\x1B[31mF", "-:1:9: a control character");
     expect_mistake("axiom: F\n\x1B[31mfoo: 3\n", "-:2:1: ");
     expect_mistake("axiom: F\xC2\x85", "-:1:9: a control character");
@@ -581,6 +587,23 @@ TEST(BadInput, Settings) {
     }
     expect_refused(run({"measure", "hilbert", "-n", "-1"}), 2, "-1");
     expect_refused(run({"measure", "hilbert", "-n", "1000000000"}), 1, "1000000000");
+}
+
+TEST(BadInput, UnknownOptionsNameTheNearest) {
+    expect_refused(run({"draw", "hilbert", "--siez", "A4", "-o", "x.svg"}), 2,
+                   "unknown option '--siez'; did you mean '--size'?");
+    expect_refused(run({"play", "hilbert", "--tempi=90"}), 2, "unknown option '--tempi'; did you mean '--tempo'?");
+    expect_refused(run({"measure", "hilbert", "--zzzzzzzz"}), 2, "`sikku measure --help` lists the options");
+    expect_refused(run({"draw", "hilbert", "again", "-o", "x.svg"}), 2, "unexpected argument 'again'");
+}
+
+TEST(BadInput, PicturesAreNotPatterns) {
+    const ScratchFolder folder;
+    for (const char* name : {"a.svg", "a.png", "a.pdf"}) {
+        const std::string file = folder.file(name);
+        ASSERT_EQ(run({"draw", "hilbert", "--size", "20x20mm", "--margin", "1mm", "-o", file}).status, 0);
+        expect_refused(run({"check", file}), 2, "not a pattern; `sikku show` prints the pattern it was made from");
+    }
 }
 
 }  // namespace

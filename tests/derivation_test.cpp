@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -247,11 +247,11 @@ TEST(Limits, AMillionStepsOfLinearGrowth) {
 }
 
 TEST(Limits, UnitChainsCollapseHoweverManyThereAre) {
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();  // processor time: the machine may be busy
     struct TooSlow {};
     DerivationOptions options;
     options.watch = [&](std::uint64_t) {
-        if (std::chrono::steady_clock::now() - begin > std::chrono::seconds(10)) throw TooSlow();
+        if (std::clock() - begin > 10 * CLOCKS_PER_SEC) throw TooSlow();
     };
     const std::string head = "derivation length: 1000000\naxiom: A\n";
     EXPECT_NO_THROW(EXPECT_EQ(ends_of(grammar_of(head + "A --> Ab\nb --> b\n"), options).count, 1'000'001u));

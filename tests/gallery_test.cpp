@@ -165,7 +165,7 @@ TEST_F(GalleryTest, AKilledRunGoesOn) {
         const std::string out = "killed" + std::to_string(round);
         {
             const Child child({"gallery", "--file", "gallery.toml", "-o", out}, {.folder = folder.path()});
-            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % 400));
+            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % (sanitized ? 2000 : 400)));
             child.send(SIGKILL);
         }
         if (std::filesystem::exists(folder / out)) {

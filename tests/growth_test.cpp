@@ -164,7 +164,8 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
         EXPECT_EQ(draw({"bush.lsys", "--view", "top", "--dpi", "30"}, file).status, 0) << file;
     }
     expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected 'view: AZIMUTH ELEVATION'");
-    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2, "--set:1:6: drawings that pitch, roll or bend have straight lines");
+    expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2,
+                   "--set:1:6: drawings that pitch, roll or bend have straight lines");
     expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2, "more shades than there are inks");

@@ -340,7 +340,7 @@ TEST(Notation, RefusesWhatNobodyPrints) {
         FAIL();
     } catch (const ScoreError& error) {
         EXPECT_NE(std::string(error.what()).find("200000"), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("--bars"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("limit the bars"), std::string::npos) << error.what();
     }
     Notator long_one(score.head);
     EXPECT_THROW(long_one.finish(std::int64_t{1920} * 100'001), ScoreError);

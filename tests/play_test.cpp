@@ -170,7 +170,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
     refused(hilbert, {"-n", "11"}, 2, "limit the bars", "x.musicxml");
     refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
-    refused(hilbert, {"--from-bar", "1000"}, 2, "the melody ends at bar 9");
+    refused(hilbert, {"--from-bar", "1000"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--range", "fold C5-C4"}, 2, "the lowest and the highest note");
     refused(hilbert, {"--scale", ""}, 2, "there is no scale ''");
     refused(hilbert, {"--keyboard", "/dev/zero"}, 2, "over 1 MB");

@@ -1,5 +1,7 @@
 #include "art/gallery/folder.h"
 
+#include "engine/base/output_file.h"
+
 #include "art/gallery/jobs.h"
 
 #include <dirent.h>
@@ -196,6 +198,17 @@ std::vector<std::string> GalleryFolder::names(const std::string& below) const {
 
 GalleryPlace GalleryFolder::place(const std::string& file) const {
     return {parent(file, true), std::filesystem::path(file).filename().string(), path_ / file};
+}
+
+void GalleryFolder::write(const std::string& file, const std::string& text) const {
+    const GalleryPlace there = place(file);
+    try {
+        OutputFile output(there.path());
+        output.write(text);
+        output.commit();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(there.readable(error.what()));
+    }
 }
 
 }  // namespace sikku

@@ -77,6 +77,9 @@ public:
     std::string read(const std::string& file, std::size_t most = std::string::npos) const;
     /// Hash of a regular file's bytes; empty if it cannot be read.
     std::string content_hash(const std::string& file) const;
+    /// Replaces a file, which appears whole or not at all. @throws std::runtime_error, with the path as the user sees
+    /// it
+    void write(const std::string& file, const std::string& text) const;
     /// Removes a file or a link; a missing file is not an error.
     void remove(const std::string& file) const;
     /// Names of all entries of the folder, or of a folder below it.

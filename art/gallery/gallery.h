@@ -19,10 +19,10 @@ namespace sikku {
 struct GalleryOptions {
     std::filesystem::path folder = "gallery";
     std::vector<std::string> only{};  ///< names or files of jobs that are made anew; empty: all that are not there
-    bool force = false;             ///< make all anew, and replace files of others that are in the way
-    bool keep_going = false;        ///< make other jobs after one failed
-    double memory = 1e9;            ///< bytes in all; jobs wait rather than exceed it
-    int threads = 0;                ///< jobs at a time; 0: one for each core
+    bool force = false;               ///< make all anew, and replace files of others that are in the way
+    bool keep_going = false;          ///< make other jobs after one failed
+    double memory = 1e9;              ///< bytes in all; jobs wait rather than exceed it
+    int threads = 0;                  ///< jobs at a time; 0: one for each core
     Shard shard{};
     bool exact = false;  ///< forecasts report the length of each word to the last digit
 };

@@ -435,14 +435,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
 }
 
 void GalleryRecord::replace(const std::string& text) const {
-    const GalleryPlace place = folder_.place(name_);
-    try {
-        OutputFile output(place.path());
-        output.write(text);
-        output.commit();
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(place.readable(error.what()));
-    }
+    folder_.write(name_, text);
 }
 
 }  // namespace sikku

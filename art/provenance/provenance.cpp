@@ -53,6 +53,17 @@ constexpr std::array<Format, 8> formats = {{
 
 }  // namespace
 
+std::string_view known_format(const std::filesystem::path& file) {
+    try {
+        const std::string head = InputFile(file).read(0, head_bytes);
+        const auto format =
+            std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
+        return format == formats.end() ? std::string_view() : format->name;
+    } catch (const std::system_error&) {
+        return {};
+    }
+}
+
 std::optional<Provenance> read_provenance(const std::filesystem::path& file) {
     std::optional<InputFile> input;
     try {

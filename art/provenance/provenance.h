@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace sikku {
 
@@ -12,6 +13,9 @@ struct Provenance {
     /// Program, version and options that made the print; empty if over 2 MB. Untrusted, like the pattern.
     std::string made;
 };
+
+/// The name of the file format that a file begins as, `SVG`, or empty: none of those below, or it cannot be opened.
+std::string_view known_format(const std::filesystem::path& file);
 
 /// Reads the pattern that the writers of this folder put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF. Recognises the
 /// format by the first bytes, not by the name; never decodes pixels. Returns nullopt if the format is unknown or the

@@ -454,7 +454,7 @@ private:
     }
 
     const Scene& scene_;
-    const Style& style_;
+    const Style style_;
     PixelSize size_;
     Stage stage_;
     Colour ground_;

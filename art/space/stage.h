@@ -35,7 +35,7 @@ public:
 
 private:
     const Scene& scene_;
-    const Style& style_;
+    const Style style_;  ///< of its own: a sheet keeps the stage longer than the print
     Projection projection_;
     glm::dmat3x2 units_;
     double unit_;

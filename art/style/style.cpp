@@ -175,14 +175,18 @@ private:
         if (unit_at.empty()) {
             std::size_t after = at;
             const Span next = next_word(key_.value, after, false);
-            if (is_unit(lower_case(next.view()))) {
+            std::size_t beyond = after;
+            const Span last = next_word(key_.value, beyond, false);
+            // A word between the number and a colour can only be meant as a unit.
+            const bool is_meant = !last.empty() && !parse_colour(next.view()) && parse_colour(last.view());
+            if (is_unit(lower_case(next.view())) || is_meant) {
                 unit_at = next;
                 at = after;
             }
         }
         const std::string unit = lower_case(unit_at.view());
         if (!unit.empty() && !is_unit(unit)) {
-            diagnostics_.error(unit_at, fmt::format("{} is no unit of a width: expected mm, cm, in, pt, px or step",
+            diagnostics_.error(unit_at, fmt::format("{} is not a unit; expected mm, cm, in, pt, px or step",
                                                     quoted(unit_at.view())));
             return;
         }

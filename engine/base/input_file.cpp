@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
+#include <stdexcept>
 #include <system_error>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -90,6 +93,47 @@ bool InputStream::skip_text(std::string_view text) {
     if (!ahead(text.size()).starts_with(text)) return false;
     skip(text.size());
     return true;
+}
+
+namespace {
+
+[[noreturn]] void fail_reading(const std::string& name, int error) {
+    throw std::runtime_error(name + ": " + std::generic_category().message(error));
+}
+
+}  // namespace
+
+std::string read_stream(std::FILE* stream, const std::string& name, std::size_t most, const Monitor& monitor) {
+    std::string text;
+    std::vector<char> block(std::size_t{1} << 16);
+    while (text.size() <= most) {
+        const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most + 1 - text.size()), stream);
+        const int error = errno;
+        text.append(block.data(), got);
+        monitor.check();
+        if (std::ferror(stream) != 0) {
+            if (error != EINTR) fail_reading(name, error);
+            std::clearerr(stream);
+        } else if (got == 0) {
+            break;
+        }
+    }
+    return text;
+}
+
+std::string read_file(const std::filesystem::path& file, const std::string& name, std::size_t most,
+                      const Monitor& monitor) {
+    std::error_code unknown;
+    if (std::filesystem::is_directory(file, unknown)) throw std::runtime_error(name + " is a folder");
+    std::FILE* stream = nullptr;
+    // A signal interrupts waiting for the writer of a pipe.
+    while (!(stream = std::fopen(file.c_str(), "rb"))) {
+        const int error = errno;
+        monitor.check();
+        if (error != EINTR) fail_reading(name, error);
+    }
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(stream, &std::fclose);
+    return read_stream(stream, name, most, monitor);
 }
 
 }  // namespace sikku

@@ -1,9 +1,12 @@
 // engine/base/input_file.h: reads untrusted files piece by piece.
 #pragma once
 
+#include "engine/base/monitor.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -62,5 +65,15 @@ private:
     std::string block_;
     std::size_t next_ = 0;
 };
+
+/// Reads an open stream to its end, or `most` + 1 bytes. Signals interrupt waiting, not reading.
+/// @param name  for messages
+/// @throws std::runtime_error; Stopped
+std::string read_stream(std::FILE* stream, const std::string& name, std::size_t most, const Monitor& monitor = {});
+
+/// The same of a file; waits for the writer of a named pipe.
+/// @throws std::runtime_error if it is a folder or cannot be read; Stopped
+std::string read_file(const std::filesystem::path& file, const std::string& name, std::size_t most,
+                      const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -1,26 +1,17 @@
 #include "engine/language/document.h"
 
+#include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <memory>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 namespace sikku {
-namespace {
-
-[[noreturn]] void fail_reading(const std::string& name, int error) {
-    throw std::runtime_error(fmt::format("{}: {}", name, std::generic_category().message(error)));
-}
-
-}  // namespace
-
 Document Document::compile(std::string name, std::string text, const Overrides& overrides, Diagnostics& diagnostics) {
     auto content = std::make_shared<Content>();
     content->pattern = parse_pattern(std::move(name), std::move(text), diagnostics);
@@ -80,38 +71,11 @@ PatternFile find_pattern(const std::string& pattern, const PatternLibrary& libra
 }
 
 std::string read_pattern(std::FILE* stream, const std::string& name, const Monitor& monitor) {
-    std::string text;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (text.size() <= most_pattern_bytes) {
-        const std::size_t wanted = std::min(block.size(), most_pattern_bytes + 1 - text.size());
-        const std::size_t got = std::fread(block.data(), 1, wanted, stream);
-        const int cause = errno;
-        text.append(block.data(), got);
-        monitor.check();
-        if (std::ferror(stream) != 0) {
-            if (cause != EINTR) fail_reading(name, cause);
-            std::clearerr(stream);
-        } else if (got == 0) {
-            break;
-        }
-    }
-    return text;
+    return read_stream(stream, name, most_pattern_bytes, monitor);
 }
 
 std::string read_pattern(const PatternFile& file, const Monitor& monitor) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file.path, error)) {
-        throw std::runtime_error(fmt::format("{} is a folder", file.name));
-    }
-    std::FILE* stream = nullptr;
-    // Opening a named pipe waits for its writer, and a signal ends the wait.
-    while (!(stream = std::fopen(file.path.c_str(), "rb"))) {
-        const int cause = errno;
-        monitor.check();
-        if (cause != EINTR) fail_reading(file.name, cause);
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> closer(stream, &std::fclose);
-    return read_pattern(stream, file.name, monitor);
+    return read_file(file.path, file.name, most_pattern_bytes, monitor);
 }
 
 Document load(const std::string& pattern, const Overrides& overrides, const PatternLibrary& library) {

@@ -261,6 +261,10 @@ private:
                 operation = with_equals ? Operation::greater_equal : Operation::greater;
                 break;
             case '=':
+                if (at_ < view_.size() && (view_[at_] == '>' || view_[at_] == '<')) {
+                    return wrong(begin, view_[at_] == '>' ? "'=>' is not an operator; did you mean '>='?"
+                                                          : "'=<' is not an operator; did you mean '<='?");
+                }
                 if (!with_equals) return wrong(begin, "expected '==' (a single '=' compares nothing)");
                 operation = Operation::equal;
                 break;

@@ -98,12 +98,15 @@ private:
         }
         if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
         if (colon == std::string_view::npos) {
-            const std::size_t wrong_arrow = text.find("\xE2\x86\x92");  // →
+            for (const std::string_view arrow : {"\xE2\x86\x92", "->", "=>", "::="}) {
+                const std::size_t at = find_outside(text, arrow);
+                if (at == std::string_view::npos) continue;
+                return diagnostics_.error(
+                    whole.part(at, arrow.size()),
+                    fmt::format("'{}' is not the arrow of a production; expected '-->'", arrow));
+            }
             return diagnostics_.error(
-                wrong_arrow != std::string_view::npos ? whole.part(wrong_arrow) : whole,
-                wrong_arrow != std::string_view::npos
-                    ? "'→' is no arrow here: write '-->'"
-                    : "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a production with '-->'");
+                whole, "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a production with '-->'");
         }
         if (key == "interpret") return interpret(whole, colon);
         if (starts_with_word(key, "table")) return table(whole, colon);

@@ -2,7 +2,7 @@
 
 #include "engine/base/text.h"
 
-#include <scales_data.h>
+#include <embedded/scales.h>
 
 #include <fmt/format.h>
 
@@ -319,7 +319,7 @@ struct Catalogue {
     std::unordered_map<std::string, std::vector<std::size_t>> ambiguous;  ///< folded word → scales
 
     Catalogue() {
-        read(scales_data);
+        read(scales_txt);
         for (int n = 1; n <= 72; ++n) scales.push_back(melakarta(n));
         for (std::size_t i = 0; i < scales.size(); ++i) {
             claim(scales[i].id, i);

@@ -148,8 +148,7 @@ Notator::Notator(const ScoreHead& head) : parts_(head.parts), meter_(head.meter)
 void Notator::notes(std::span<const Note> notes) {
     count_ += notes.size();
     if (count_ > most_notes) {
-        throw ScoreError(
-            fmt::format("more than {} notes are too many to print; limit the bars", most_notes));
+        throw ScoreError(fmt::format("more than {} notes are too many to print; limit the bars", most_notes));
     }
     for (const Note& note : notes) {
         if (note.voice < 0 || static_cast<std::size_t>(note.voice) >= voices_.size()) {

@@ -1,8 +1,8 @@
 // A user of the installed libraries.
 #include <cstdio>
 
-#include "art/style/style.h"
-#include "engine/measure/extent.h"
+#include <sikku/art/style/style.h>
+#include <sikku/engine/measure/extent.h>
 
 int main() {
     sikku::Diagnostics diagnostics;

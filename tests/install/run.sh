@@ -1,5 +1,6 @@
 #!/bin/sh
-# Installs a build into an empty folder, then builds and runs another project against it.
+# Installs a build into an empty folder, then builds and runs other projects against it, among them every program of
+# docs/library.md.
 # Usage: run.sh CMAKE BUILD_FOLDER
 set -eu
 cmake=$1
@@ -7,14 +8,31 @@ build=$2
 here=$(dirname "$(readlink -f "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$cmake" --install "$build" --prefix "$work/prefix" > "$work/log" || { cat "$work/log"; exit 1; }
+quietly() { "$@" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }; }
+quietly "$cmake" --install "$build" --prefix "$work/prefix"
+
+# Blocks of C++ in the manual are complete programs: program-1.cpp, program-2.cpp, …
+mkdir "$work/programs"
+awk -v folder="$work/programs" '/^```cpp$/ { file = folder "/program-" ++count ".cpp"; next }
+    /^```/ { file = "" }
+    file { print > file }' "$here/../../docs/library.md"
+
 cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 generator=$(sed -n 's/^CMAKE_GENERATOR:[A-Z]*=//p' "$build/CMakeCache.txt")
 sanitize=$(sed -n 's/^SIKKU_SANITIZE:[A-Z]*=//p' "$build/CMakeCache.txt")
-"$cmake" -G "$generator" -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_COMPILER="$cxx" \
-    ${sanitize:+-DCMAKE_CXX_FLAGS="-fsanitize=$sanitize"} > "$work/log" || { cat "$work/log"; exit 1; }
-"$cmake" --build "$work/build" > "$work/log" || { cat "$work/log"; exit 1; }
-"$work/build/consumer"
+# Programs beside the installed one find its patterns and its image module, wherever the package was moved.
+quietly "$cmake" -G "$generator" -S "$here" -B "$work/build" -DPROGRAMS="$work/programs" \
+    -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$work/prefix/bin" \
+    -DCMAKE_CXX_COMPILER="$cxx" ${sanitize:+-DCMAKE_CXX_FLAGS="-fsanitize=$sanitize"}
+quietly "$cmake" --build "$work/build"
+"$work/prefix/bin/consumer"
+cd "$work/programs"
+for source in program-*.cpp; do
+    program=${source%.cpp}
+    "$work/prefix/bin/$program" > "$program.out" || { cat "$program.out"; echo "$program of docs/library.md fails"; exit 1; }
+done
+echo "$(ls program-*.cpp | wc -l) programs of docs/library.md work"
+
 # The installed program finds its patterns and its image module from anywhere.
 cd /
 sikku=$work/prefix/bin/sikku

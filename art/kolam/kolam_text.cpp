@@ -1,0 +1,107 @@
+#include "art/kolam/kolam_text.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// In turtle steps, to a millionth of one.
+std::string number(double value) {
+    const double rounded = std::round(value * 1e6) / 1e6;
+    return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
+}
+std::string json(glm::dvec2 point) {
+    return fmt::format("[{}, {}]", number(point.x), number(point.y));
+}
+std::string json(bool value) {
+    return value ? "true" : "false";
+}
+std::string json(const std::vector<std::string>& texts) {
+    std::string list = "[";
+    for (const std::string& text : texts) list += (list.size() > 1 ? ", " : "") + json_string(text);
+    return list + "]";
+}
+
+}  // namespace
+
+std::string kolam_json(const std::string& title, std::int64_t n, const KolamExamination& k) {
+    std::string dots;
+    for (const KolamDot& dot : k.dots) dots += (dots.empty() ? "" : ", ") + json(dot.at);
+    std::string text = fmt::format("{{\"title\": {}, \"n\": {}, \"kolam\": {}, \"faults\": {}, \"remarks\": {}, ",
+                                   json_string(title), n, json(k.is_kolam()), json(k.faults()), json(k.remarks()));
+    text += fmt::format("\"exact\": {}, \"tolerance\": {}, \"spline\": {}, \"segments\": {}, \"strokes\": {}, ",
+                        json(k.is_exact), k.tolerance, json(k.is_spline), k.segments, k.strokes);
+    text += fmt::format("\"lines\": {}, \"open_lines\": {}, \"straight_lines\": {}, ", k.lines, k.open_lines,
+                        k.straight_lines);
+    text += fmt::format("\"vertices\": {}, \"edges\": {}, \"components\": {}, \"faces\": {}, \"reused_edges\": {}, ",
+                        k.vertices, k.edges, k.components, k.faces, k.reused_edges);
+    text += fmt::format("\"meetings\": {}, \"crossings\": {}, \"skew\": {}, \"mid_crossings\": {}, ", k.meetings,
+                        k.crossings, k.skew, k.mid_crossings);
+    text += fmt::format("\"touchings\": {}, \"multiple\": {}, ", k.touchings, k.multiple);
+    text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
+                        k.symmetry.name(), k.symmetry.rotations, k.symmetry.mirrors, json(k.centre));
+    return text + fmt::format("\"loose_dots\": {}, \"dots\": [{}]}}\n", k.loose_dots(), dots);
+}
+
+std::string kolam_text(const std::string& title, std::int64_t n, const KolamExamination& k) {
+    std::string text = fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), n);
+    const auto line = [&](std::string_view name, const std::string& value) {
+        text += fmt::format("{:<11}{}\n", name, value);
+    };
+    const auto list = [](const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, ", ")); };
+    const auto plural = [](std::uint64_t count, std::string_view one, std::string_view many) {
+        return fmt::format("{} {}", count, count == 1 ? one : many);
+    };
+
+    const std::vector<std::string> faults = k.faults();
+    if (faults.empty()) {
+        line("kolam", fmt::format("yes: {}, {}, all encircled",
+                                  k.lines == 1 ? "a single line (anthathi)" : counted(k.lines, "closed line"),
+                                  counted(k.dots.size(), "dot")));
+    } else {
+        line("kolam", "no: " + list(faults));
+    }
+    if (const auto remarks = k.remarks(); !remarks.empty()) line("remarks", list(remarks));
+
+    std::string lines = fmt::format("{}", k.lines);
+    if (k.open_lines > 0) lines += fmt::format(", {} of them open", k.open_lines);
+    if (k.straight_lines != k.lines) {
+        lines += fmt::format("; {} if one goes straight on where they meet", k.straight_lines);
+    }
+    line("lines", lines);
+    line("strokes", fmt::format("{} of {}", k.strokes, plural(k.segments, "segment", "segments")));
+    std::string crossings = fmt::format("{}", k.crossings);
+    if (k.crossings > 0) {
+        crossings +=
+            k.skew == 0 ? ", all at right angles" : fmt::format(", {} at right angles", k.crossings - k.skew);
+        if (k.mid_crossings > 0) crossings += fmt::format(", {} inside of segments", k.mid_crossings);
+    }
+    line("crossings", crossings);
+    line("touching", fmt::format("{}{}", k.touchings,
+                                 k.is_spline && k.touchings > 0 ? "; the spline keeps the strands apart there" : ""));
+    if (k.multiple > 0) line("multiple", fmt::format("{}", k.multiple));
+    line("meetings", fmt::format("{}", k.meetings));
+    line("reused", plural(k.reused_edges, "edge", "edges"));
+    line("faces", fmt::format("{} ({}, {}, {})", k.faces, plural(k.edges, "edge", "edges"),
+                              plural(k.vertices, "vertex", "vertices"), plural(k.components, "piece", "pieces")));
+    line("dots", fmt::format("{}", k.dots.size()));
+    line("symmetry",
+         fmt::format("{}: {}, {}, about {} {}", k.symmetry.name(),
+                     k.symmetry.rotations == 1 ? "no rotation" : fmt::format("{} rotations", k.symmetry.rotations),
+                     k.symmetry.mirrors == 0 ? "no mirror" : plural(k.symmetry.mirrors, "mirror", "mirrors"),
+                     number(k.centre.x), number(k.centre.y)));
+    line("exact", k.is_exact ? "yes"
+                             : fmt::format("no: the angles have no lattice; points within {} steps of each other "
+                                           "count as one",
+                                           k.tolerance));
+    return text;
+}
+
+}  // namespace sikku

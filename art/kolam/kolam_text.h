@@ -1,0 +1,16 @@
+// art/kolam/kolam_text.h: the examination of a kolam as text and as JSON.
+#pragma once
+
+#include "art/kolam/kolam.h"
+
+#include <cstdint>
+#include <string>
+
+namespace sikku {
+
+/// One line of JSON; places in turtle steps, to a millionth. @param n  derivation length
+std::string kolam_json(const std::string& title, std::int64_t n, const KolamExamination& examination);
+/// A line for each finding.
+std::string kolam_text(const std::string& title, std::int64_t n, const KolamExamination& examination);
+
+}  // namespace sikku

@@ -1,0 +1,457 @@
+"use strict";
+const data = JSON.parse(document.getElementById("score").textContent);
+const notes = data.notes, end = data.end, bar = data.bar;
+const ONSET = 0, DURATION = 1, KEY = 2, VOICE = 3, VELOCITY = 4, X0 = 5, Y0 = 6, X1 = 7, Y1 = 8;
+const element = id => document.getElementById(id);
+const button = element("play"), tempo = element("tempo"), place = element("place");
+let low = 127, high = 0, longest = 0;
+let left = Infinity, right = -Infinity, bottom = Infinity, top_ = -Infinity;
+for (const note of notes) {
+  low = Math.min(low, note[KEY]); high = Math.max(high, note[KEY]);
+  longest = Math.max(longest, note[DURATION]);
+  left = Math.min(left, note[X0], note[X1]); right = Math.max(right, note[X0], note[X1]);
+  bottom = Math.min(bottom, note[Y0], note[Y1]); top_ = Math.max(top_, note[Y0], note[Y1]);
+}
+const hasCurve = notes.length > 0 && (left < right || bottom < top_);
+if (!hasCurve) element("panels").classList.add("flat");
+
+/* The first note that begins at or after a tick. */
+function firstFrom(tick) {
+  let a = 0, b = notes.length;
+  while (a < b) { const m = (a + b) >> 1; if (notes[m][ONSET] < tick) a = m + 1; else b = m; }
+  return a;
+}
+/* Calls f for every note that sounds at some time between two ticks. */
+function eachWithin(begin, finish, f) {
+  for (let i = firstFrom(begin - longest); i < notes.length && notes[i][ONSET] < finish; ++i) {
+    if (notes[i][ONSET] + notes[i][DURATION] > begin) f(notes[i], i);
+  }
+}
+
+/* Time: ticks against the clock of the sound, from an anchor that moves when tempo or place change. */
+let sound = null, playing = false, anchorTick = 0, anchorTime = 0, next = 0, timer = 0;
+let speed = data.tempo;
+const live = new Set();
+let pending = [];
+let sounded = 0;
+let recent = [];
+const clock = () => sound ? sound.context.currentTime : performance.now() / 1000;
+const ticksPerSecond = () => speed * data.quarter / 60;
+const tickAt = time => Math.max(0, anchorTick + (playing ? (time - anchorTime) * ticksPerSecond() : 0));
+const timeAt = tick => anchorTime + (tick - anchorTick) / ticksPerSecond();
+/* What is heard now was handed over a moment ago. */
+const latency = () => sound && playing ? Math.min(sound.context.outputLatency || 0, 0.5) : 0;
+const shownTick = () => Math.min(end, Math.max(Math.min(anchorTick, end), tickAt(clock() - latency())));
+
+function openSound() {
+  const Context = window.AudioContext || window.webkitAudioContext;
+  if (sound || !Context) return;
+  try {
+    const context = new Context();
+    const compressor = context.createDynamicsCompressor();
+    compressor.threshold.value = -14; compressor.ratio.value = 6;
+    const master = context.createGain();
+    master.gain.value = 0.55;
+    master.connect(compressor); compressor.connect(context.destination);
+    sound = {context, master};
+  } catch (error) { sound = null; }
+}
+
+/* A soft pluck: a triangle, an octave above it a quiet sine, and a filter that closes as the note fades. */
+function strike(note, time, seconds) {
+  if (!sound) return;
+  const {context, master} = sound;
+  const frequency = 440 * Math.pow(2, (note[KEY] - 69) / 12);
+  if (frequency > context.sampleRate / 2.2) return;
+  const loud = 0.34 * Math.pow(note[VELOCITY] / 127, 1.6) * Math.min(1, Math.pow(660 / frequency, 0.25));
+  const envelope = context.createGain(), filter = context.createBiquadFilter();
+  filter.type = "lowpass"; filter.Q.value = 0.4;
+  filter.frequency.setValueAtTime(Math.min(16000, frequency * 7 + 500), time);
+  filter.frequency.setTargetAtTime(Math.min(12000, frequency * 2.5 + 300), time, 0.35);
+  const release = 0.16, stop = time + seconds + release;
+  envelope.gain.setValueAtTime(0, time);
+  envelope.gain.linearRampToValueAtTime(loud, time + Math.min(0.008, seconds / 2));
+  envelope.gain.setTargetAtTime(loud * 0.35, time + Math.min(0.008, seconds / 2), 0.45);
+  envelope.gain.setTargetAtTime(0, time + seconds, release / 4);
+  filter.connect(envelope); envelope.connect(master);
+  const voice = {envelope, oscillators: []};
+  for (const [type, times, part] of [["triangle", 1, 1], ["sine", 2, 0.22]]) {
+    const oscillator = context.createOscillator(), gain = context.createGain();
+    oscillator.type = type; oscillator.frequency.value = frequency * times; gain.gain.value = part;
+    oscillator.connect(gain); gain.connect(filter);
+    oscillator.start(time); oscillator.stop(stop);
+    voice.oscillators.push(oscillator);
+  }
+  live.add(voice);
+  voice.oscillators[0].onended = () => { live.delete(voice); envelope.disconnect(); };
+}
+
+function silence() {
+  if (!sound) { live.clear(); return; }
+  const now = sound.context.currentTime;
+  for (const voice of live) {
+    voice.envelope.gain.cancelScheduledValues(now);
+    voice.envelope.gain.setTargetAtTime(0, now, 0.012);
+    for (const oscillator of voice.oscillators) oscillator.stop(now + 0.08);
+  }
+  live.clear();
+}
+
+/* Notes count as sounded when their time has come, not when they are handed over ahead of it. */
+function settle() {
+  const now = clock();
+  let count = 0;
+  while (count < pending.length && pending[count].time <= now) recent.push(pending[count++].index);
+  if (count === 0) return;
+  sounded += count;
+  pending = pending.slice(count);
+  if (recent.length > 1000) recent = recent.slice(-1000);
+}
+
+function ahead() {
+  settle();
+  const now = clock();
+  if (tickAt(now) >= end) { stop(); anchorTick = end; draw(); return; }
+  /* A hidden page is called once a second only. */
+  const until = tickAt(now + (document.hidden ? 1.6 : 0.14));
+  for (; next < notes.length && notes[next][ONSET] <= until; ++next) {
+    const note = notes[next], time = Math.max(now, timeAt(note[ONSET]));
+    strike(note, time, note[DURATION] / ticksPerSecond());
+    pending.push({index: next, time});
+  }
+}
+
+/* Begins to play at the anchor, in the midst of what sounds there. */
+function begin() {
+  anchorTime = clock() + 0.03;
+  next = firstFrom(anchorTick);
+  eachWithin(anchorTick, anchorTick + 1, note => {
+    if (note[ONSET] < anchorTick) {
+      strike(note, anchorTime, (note[ONSET] + note[DURATION] - anchorTick) / ticksPerSecond());
+    }
+  });
+  ahead();
+}
+
+function stop() {
+  const tick = Math.min(end, tickAt(clock()));
+  settle();
+  playing = false;
+  pending = [];
+  anchorTick = tick;
+  clearInterval(timer);
+  silence();
+  label();
+}
+
+async function play() {
+  openSound();
+  if (sound && sound.context.state !== "running") {
+    /* Without a device this may never come; then the curve is drawn in silence. */
+    const ready = sound.context.resume();
+    await Promise.race([ready.catch(() => {}), new Promise(done => setTimeout(done, 800))]);
+    if (sound && sound.context.state !== "running") sound = null;
+  }
+  if (playing) return;
+  if (anchorTick >= end) anchorTick = 0;
+  playing = true;
+  begin();
+  timer = setInterval(ahead, 25);
+  label();
+  requestAnimationFrame(frame);
+}
+
+function toggle() { if (playing) { stop(); draw(); } else play(); }
+
+function seek(tick) {
+  settle();
+  pending = [];
+  if (playing) silence();
+  anchorTick = Math.min(end, Math.max(0, tick));
+  if (playing) begin();
+  draw();
+}
+
+function setTempo(value) {
+  const tick = tickAt(clock());
+  settle();
+  anchorTick = tick; anchorTime = clock();
+  speed = value;
+  /* What was handed over and has not begun keeps its time. */
+  label();
+}
+
+/* What is seen. */
+const curve = element("curve"), curveTop = element("curve-top"), roll = element("roll");
+const style = getComputedStyle(document.documentElement);
+const dark = matchMedia("(prefers-color-scheme: dark)");
+let colours = [], theme = {};
+function readTheme() {
+  const ramp = dark.matches ? data.screen : data.paper;
+  colours = notes.map(note => {
+    const at = (high > low ? (note[KEY] - low) / (high - low) : 0.5) * (ramp.length - 1);
+    const below = Math.min(Math.floor(at), ramp.length - 2), part = at - below;
+    const mixed = [0, 2, 4].map(i => {
+      const a = parseInt(ramp[below].substr(i, 2), 16), b = parseInt(ramp[below + 1].substr(i, 2), 16);
+      return Math.floor(a * (1 - part) + b * part + 0.5).toString(16).padStart(2, "0");
+    });
+    return "#" + mixed.join("");
+  });
+  for (const name of ["line", "stripe", "ghost", "faint", "mark", "panel"]) {
+    theme[name] = style.getPropertyValue("--" + name).trim();
+  }
+}
+
+let view = {step: 1, x: 0, y: 0, width: 1}, drawn = 0, drawnTick = -1;
+function fit(canvas) {
+  const box = canvas.parentElement.getBoundingClientRect(), ratio = Math.min(window.devicePixelRatio || 1, 3);
+  canvas.width = Math.max(1, Math.round(box.width * ratio));
+  canvas.height = Math.max(1, Math.round(box.height * ratio));
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return {context, width: box.width, height: box.height};
+}
+let curvePane, topPane, rollPane;
+function layout() {
+  readTheme();
+  if (hasCurve) {
+    curvePane = fit(curve); topPane = fit(curveTop);
+    const room = 26, w = right - left, h = top_ - bottom;
+    view.step = Math.min(w > 0 ? (curvePane.width - 2 * room) / w : Infinity,
+                         h > 0 ? (curvePane.height - 2 * room) / h : Infinity);
+    view.x = curvePane.width / 2 - view.step * (left + right) / 2;
+    view.y = curvePane.height / 2 + view.step * (bottom + top_) / 2;
+    view.width = Math.min(9, Math.max(0.9, view.step * 0.3));
+  }
+  rollPane = fit(roll);
+  drawnTick = -1;
+  draw();
+}
+const across = x => view.x + view.step * x, down = y => view.y - view.step * y;
+
+function line(context, note, part) {
+  const x0 = across(note[X0]), y0 = down(note[Y0]);
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x0 + (across(note[X1]) - x0) * part, y0 + (down(note[Y1]) - y0) * part);
+  context.stroke();
+}
+
+/* The silent run of the curve that leads to a note, if one does: parallel to an axis, else it is a jump. */
+const before = [];
+{
+  const last = [];
+  notes.forEach((note, i) => {
+    const old = last[note[VOICE]];
+    const aside = old && Math.abs(note[X0] - old[X1]) > 1e-6, up = old && Math.abs(note[Y0] - old[Y1]) > 1e-6;
+    before[i] = old && aside !== up ? [old[X1], old[Y1], note[X0], note[Y0]] : null;
+    last[note[VOICE]] = note;
+  });
+}
+
+/* All of the curve, faintly. */
+function ghost() {
+  const {context, width, height} = curvePane;
+  context.clearRect(0, 0, width, height);
+  context.lineCap = "round"; context.lineJoin = "round";
+  context.strokeStyle = theme.ghost;
+  context.lineWidth = Math.max(0.6, view.width * 0.4);
+  context.beginPath();
+  notes.forEach((note, i) => {
+    for (const [x0, y0, x1, y1] of before[i] ? [before[i], note.slice(X0)] : [note.slice(X0)]) {
+      context.moveTo(across(x0), down(y0));
+      context.lineTo(across(x1), down(y1));
+    }
+  });
+  context.stroke();
+  drawn = 0;
+}
+
+/* The coloured part grows with time; going back draws it anew. Notes that still sound are drawn in part, above. */
+const begun = new Set();
+function drawCurve(tick) {
+  if (!hasCurve) return;
+  if (drawnTick < 0 || tick < drawnTick) { ghost(); begun.clear(); }
+  drawnTick = tick;
+  const under = curvePane.context, over = topPane.context;
+  for (const until = firstFrom(tick); drawn < until; ++drawn) {
+    begun.add(drawn);
+    if (!before[drawn]) continue;
+    const [x0, y0, x1, y1] = before[drawn];
+    under.strokeStyle = theme.faint;
+    under.lineWidth = Math.max(0.6, view.width * 0.25);
+    under.beginPath();
+    under.moveTo(across(x0), down(y0)); under.lineTo(across(x1), down(y1));
+    under.stroke();
+  }
+  over.clearRect(0, 0, topPane.width, topPane.height);
+  over.lineCap = "round";
+  under.lineWidth = over.lineWidth = view.width;
+  for (const i of begun) {
+    const note = notes[i];
+    if (note[ONSET] + note[DURATION] <= tick) {
+      under.strokeStyle = colours[i];
+      line(under, note, 1);
+      begun.delete(i);
+    } else {
+      over.strokeStyle = colours[i];
+      line(over, note, (tick - note[ONSET]) / note[DURATION]);
+    }
+  }
+  if (tick <= 0 || tick >= end) return;
+  for (const i of begun) {
+    const note = notes[i], part = (tick - note[ONSET]) / note[DURATION];
+    const x = across(note[X0] + (note[X1] - note[X0]) * part), y = down(note[Y0] + (note[Y1] - note[Y0]) * part);
+    over.beginPath();
+    over.arc(x, y, Math.max(5, view.width * 0.9), 0, 2 * Math.PI);
+    over.fillStyle = colours[i]; over.fill();
+    over.lineWidth = 2; over.strokeStyle = theme.mark; over.stroke();
+  }
+}
+
+/* The roll shows all of a short score; else 8 bars, and moves along. */
+const shownTicks = end <= 16 * bar ? end : 8 * bar;
+let lowest = Math.floor(low) - 1, highest = Math.ceil(high) + 1;
+if (notes.length === 0) { lowest = 55; highest = 67; }
+while (highest - lowest < 12) { --lowest; if (highest - lowest < 12) ++highest; }
+const keysWidth = 38, barsHeight = 22;
+let rollFrom = 0;
+const black = [1, 3, 6, 8, 10];
+const modulo = (a, b) => ((a % b) + b) % b;
+function drawRoll(tick) {
+  const {context, width, height} = rollPane;
+  const w = width - keysWidth - 10, h = height - barsHeight - 12, row = h / (highest - lowest + 1);
+  rollFrom = Math.min(Math.max(0, tick - shownTicks * 0.35), end - shownTicks);
+  const x = t => keysWidth + (t - rollFrom) / shownTicks * w, y = key => 12 + h - row * (key - lowest + 0.5);
+  context.clearRect(0, 0, width, height);
+  context.font = "12px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  for (let key = lowest; key <= highest; ++key) {
+    if (black.includes(modulo(key, 12))) {
+      context.fillStyle = theme.stripe;
+      context.fillRect(keysWidth, y(key) - row / 2, w, row);
+    }
+  }
+  context.lineWidth = 1;
+  context.strokeStyle = theme.line;
+  context.beginPath();
+  const barWidth = bar / shownTicks * w;
+  let every = 1;
+  while (barWidth * every < 7) every *= 2;
+  let named = every;
+  while (barWidth * named < 44) named *= 2;
+  context.fillStyle = theme.faint; context.textAlign = "left";
+  for (let i = Math.ceil(rollFrom / bar / every) * every; i * bar <= rollFrom + shownTicks; i += every) {
+    context.moveTo(x(i * bar), 12); context.lineTo(x(i * bar), 12 + h);
+    if (i % named === 0 && i * bar < end && x(i * bar) < width - 30) context.fillText(i + 1, x(i * bar) + 3, height - barsHeight / 2 - 1);
+  }
+  context.stroke();
+  context.textAlign = "right";
+  context.strokeStyle = theme.faint; context.globalAlpha = 0.45;
+  for (let key = lowest; key <= highest; ++key) {
+    if (modulo(key, 12) !== 0) continue;
+    context.beginPath();
+    context.moveTo(keysWidth, y(key) + row / 2); context.lineTo(keysWidth + w, y(key) + row / 2);
+    context.stroke();
+    context.globalAlpha = 1;
+    context.fillText("C" + (key / 12 - 1), keysWidth - 7, y(key));
+    context.globalAlpha = 0.45;
+  }
+  context.globalAlpha = 1;
+  context.save();
+  context.beginPath(); context.rect(keysWidth, 0, w + 1, height); context.clip();
+  const thick = Math.max(2, row * 0.84);
+  eachWithin(rollFrom, rollFrom + shownTicks, (note, i) => {
+    const from = x(note[ONSET]), full = note[DURATION] / shownTicks * w;
+    const long = Math.max(1, full > 3 ? full - 1.2 : full * 0.8);
+    const now = note[ONSET] <= tick && note[ONSET] + note[DURATION] > tick && tick > 0;
+    context.globalAlpha = now || note[ONSET] + note[DURATION] <= tick ? 1 : 0.42;
+    context.fillStyle = colours[i];
+    context.beginPath();
+    if (context.roundRect) context.roundRect(from, y(note[KEY]) - thick / 2, long, thick, Math.min(3, long / 3, thick / 3));
+    else context.rect(from, y(note[KEY]) - thick / 2, long, thick);
+    context.fill();
+    if (now) { context.strokeStyle = theme.mark; context.lineWidth = 1.5; context.stroke(); }
+  });
+  context.globalAlpha = 1;
+  context.strokeStyle = theme.mark; context.lineWidth = 1.5;
+  context.beginPath(); context.moveTo(x(tick), 6); context.lineTo(x(tick), 12 + h + 4); context.stroke();
+  context.restore();
+}
+
+function seconds(ticks) {
+  const s = Math.floor(ticks / ticksPerSecond() + 1e-6);
+  return Math.floor(s / 60) + ":" + String(s % 60).padStart(2, "0");
+}
+let shownText = "";
+function label() {
+  button.querySelector("span").textContent = playing ? "Pause" : "Play";
+  button.querySelector("path").setAttribute("d", playing ? "M1 0h3v10H1zM6 0h3v10H6z" : "M1 0l8 5-8 5z");
+  element("tempo-text").textContent = Math.round(speed * 100) / 100;
+  shownText = "";
+}
+function draw() {
+  const tick = shownTick();
+  drawCurve(tick);
+  drawRoll(tick);
+  const bars = Math.ceil(end / bar), here = Math.min(bars, Math.floor(tick / bar) + 1);
+  const text = seconds(tick) + " / " + seconds(end);
+  if (document.activeElement !== place || !dragging) place.value = tick / end * 1000;
+  if (text + here !== shownText) {
+    shownText = text + here;
+    element("place-text").textContent = text;
+    place.setAttribute("aria-valuetext", "bar " + here + " of " + bars + ", " + seconds(tick));
+  }
+}
+function frame() {
+  if (!playing) return;
+  settle();
+  draw();
+  requestAnimationFrame(frame);
+}
+
+let dragging = false;
+button.addEventListener("click", toggle);
+tempo.addEventListener("input", () => setTempo(Number(tempo.value)));
+place.addEventListener("pointerdown", () => { dragging = true; });
+addEventListener("pointerup", () => { dragging = false; });
+place.addEventListener("input", () => seek(Number(place.value) / 1000 * end));
+function seekTo(event) {
+  const box = roll.getBoundingClientRect();
+  const part = (event.clientX - box.left - keysWidth) / (box.width - keysWidth - 10);
+  seek(rollFrom + Math.min(1, Math.max(0, part)) * shownTicks);
+}
+roll.addEventListener("pointerdown", event => { if (event.button === 0) seekTo(event); });
+document.addEventListener("keydown", event => {
+  if (event.altKey || event.ctrlKey || event.metaKey) return;
+  const target = event.target;
+  if (event.key === " ") {
+    /* A button or a summary under the focus has its own use for it. */
+    if (target.closest("button, summary")) return;
+    event.preventDefault();
+    if (!event.repeat) toggle();
+  } else if (target.closest("input, pre")) {
+    return;
+  } else if (event.key === "ArrowLeft") {
+    seek(tickAt(clock()) - bar);
+  } else if (event.key === "ArrowRight") {
+    seek(tickAt(clock()) + bar);
+  } else if (event.key === "Home") {
+    seek(0);
+  }
+});
+dark.addEventListener("change", layout);
+new ResizeObserver(layout).observe(element("panels"));
+tempo.value = speed;
+label();
+layout();
+
+window.sikku = {
+  notes,
+  state() {
+    settle();
+    const time = clock();
+    return {playing, time, tick: Math.min(end, tickAt(time)), tempo: speed, sounded, recent: recent.slice()};
+  },
+  play, pause() { if (playing) { stop(); draw(); } }, seek, colour: index => colours[index]
+};

@@ -1,0 +1,25 @@
+// music/score/scale_text.h: finds scales by words, and states them as text and as JSON.
+#pragma once
+
+#include "music/scale/scale.h"
+#include "music/score/spelling.h"
+
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// An object of JSON on one line; intervals in cents above the tonic.
+std::string scale_json(const Scale& scale);
+/// Steps, notes above `tonic` and cents, a line each.
+std::string scale_text(const Scale& scale, const Tonic& tonic);
+
+/// Known scales, a line each, under the names of their groups.
+std::string scale_listing(const std::vector<const Scale*>& scales);
+
+/// The known scales that have each of the words in their id, names, group or sources.
+std::vector<const Scale*> search_scales(const std::vector<std::string>& words);
+/// The known scales of a group, by its name in any form.
+std::vector<const Scale*> scales_of_group(const std::string& name);
+
+}  // namespace sikku
