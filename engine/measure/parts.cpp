@@ -144,6 +144,36 @@ bool Parts<Number>::find_headings(const Grammar& grammar, const std::vector<std:
     return true;
 }
 
+/// Sets the parts of level 0, which are single symbols.
+template <class Number>
+void Parts<Number>::place_symbols(const Grammar& grammar, const Lattice& lattice, const std::vector<char>& reached,
+                                  bool moves_draw) {
+    std::vector<Vector<Number>> directions;
+    for (std::uint32_t heading = 0; heading < headings_; ++heading) {
+        directions.push_back(direction<Number>(lattice.first_heading, heading, headings_));
+    }
+    for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
+        if (!reached[symbol]) continue;
+        const Command& command = grammar.symbols()[symbol].command;
+        for (std::uint32_t heading = 0; heading < headings_; ++heading) {
+            if (!occurs(0, heading)) continue;
+            DrawnPart<Number>& part = parts_[index(symbol, 0, heading)];
+            if (command.action == Action::turn) part.turn = lattice.turn[symbol];
+            if (command.action != Action::draw && command.action != Action::move) continue;
+            part.x = static_cast<Number>(command.value) * directions[heading].x;
+            part.y = static_cast<Number>(command.value) * directions[heading].y;
+            if (command.action == Action::move && !moves_draw) continue;
+            const glm::dvec2 end{static_cast<double>(part.x), static_cast<double>(part.y)};
+            part.low = glm::dvec2(std::min(end.x, 0.0), std::min(end.y, 0.0));
+            part.high = glm::dvec2(std::max(end.x, 0.0), std::max(end.y, 0.0));
+            part.extent = static_cast<float>(std::max(std::fabs(end.x), std::fabs(end.y)));
+            part.ink = std::fabs(command.value);
+            part.centre = 0.5 * end;
+            part.spread = glm::dvec3(end.x * end.x, end.x * end.y, end.y * end.y) / 12.0;
+        }
+    }
+}
+
 template <class Number>
 std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool moves_draw) {
     const Lattice lattice = make_lattice(grammar);
@@ -174,30 +204,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
 
     if (!parts.find_headings(grammar, lattice.turn)) return std::nullopt;
 
-    std::vector<Vector<Number>> directions;
-    for (std::uint32_t heading = 0; heading < parts.headings_; ++heading) {
-        directions.push_back(direction<Number>(lattice.first_heading, heading, parts.headings_));
-    }
-    for (Symbol symbol = 0; symbol < parts.symbols_; ++symbol) {
-        if (!reached[symbol]) continue;
-        const Command& command = grammar.symbols()[symbol].command;
-        for (std::uint32_t heading = 0; heading < parts.headings_; ++heading) {
-            if (!parts.occurs(0, heading)) continue;
-            DrawnPart<Number>& part = parts.parts_[parts.index(symbol, 0, heading)];
-            if (command.action == Action::turn) part.turn = lattice.turn[symbol];
-            if (command.action != Action::draw && command.action != Action::move) continue;
-            part.x = static_cast<Number>(command.value) * directions[heading].x;
-            part.y = static_cast<Number>(command.value) * directions[heading].y;
-            if (command.action == Action::move && !moves_draw) continue;
-            const glm::dvec2 end{static_cast<double>(part.x), static_cast<double>(part.y)};
-            part.low = glm::dvec2(std::min(end.x, 0.0), std::min(end.y, 0.0));
-            part.high = glm::dvec2(std::max(end.x, 0.0), std::max(end.y, 0.0));
-            part.extent = static_cast<float>(std::max(std::fabs(end.x), std::fabs(end.y)));
-            part.ink = std::fabs(command.value);
-            part.centre = 0.5 * end;
-            part.spread = glm::dvec3(end.x * end.x, end.x * end.y, end.y * end.y) / 12.0;
-        }
-    }
+    parts.place_symbols(grammar, lattice, reached, moves_draw);
 
     /// False if brackets do not balance or numbers are not finite.
     std::vector<std::pair<DrawnPart<Number>, std::uint32_t>> saved;  // only places and headings of them

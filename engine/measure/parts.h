@@ -12,6 +12,8 @@
 
 namespace sikku {
 
+struct Lattice;
+
 /// What a symbol with some steps still to come draws, from where the turtle is; in turtle steps, in its heading.
 template <class Number>
 struct DrawnPart {
@@ -70,6 +72,8 @@ public:
 
 private:
     bool find_headings(const Grammar& grammar, const std::vector<std::uint32_t>& turn);
+    void place_symbols(const Grammar& grammar, const Lattice& lattice, const std::vector<char>& reached,
+                       bool moves_draw);
     std::size_t symbols_ = 0;
     std::uint32_t headings_ = 0;
     std::vector<const Table*> tables_;  // by level, from 1
