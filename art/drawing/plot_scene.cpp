@@ -8,12 +8,15 @@
 #include "engine/geometry/bezier.h"
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <unordered_set>
 #include <utility>
 
@@ -187,8 +190,10 @@ private:
                 const glm::dvec3 side(-along.y, along.x, 0), front(0, 0, 1);
                 const double a = std::max(0.0, before(stem[i]) - half_pen);
                 const double b = std::max(0.0, after(stem[i]) - half_pen);
-                const glm::dvec3 begin = from + share * a * side + rest * before(stem[i]) * front;
-                const glm::dvec3 end = to + share * b * side + rest * after(stem[i]) * front;
+                // Never as deep as the bands that stand for the stem.
+                const double above = std::max(rest, 0.2);
+                const glm::dvec3 begin = from + share * a * side + above * before(stem[i]) * front;
+                const glm::dvec3 end = to + share * b * side + above * after(stem[i]) * front;
                 if (i == 0) line.push_back(begin - rest * a * along);
                 line.push_back(begin);
                 line.push_back(end);
@@ -220,28 +225,112 @@ private:
             line.clear();
         }
         draw_line(line, real, owner_of_polygon(i));
+        draw_folds(vertices, placed, real, owner_of_polygon(i));
         if (options_.hatch) hatch(vertices, placed, real, owner_of_polygon(i));
     }
 
+    /// Where a polygon that is not flat turns away from the eye.
+    void draw_folds(std::span<const glm::vec3> vertices, std::span<const glm::dvec3> placed, const Pen& pen,
+                    Owner owner) {
+        if (vertices.size() < 4) return;
+        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> faces;  // by edge, of the first triangle there
+        for (const auto& corners : triangulate(vertices).triangles) {
+            const glm::dvec3 a = placed[corners[0]], b = placed[corners[1]], c = placed[corners[2]];
+            const glm::dvec3 normal = glm::cross(b - a, c - a);
+            if (!(std::fabs(normal.z) > 1e-3 * glm::length(normal))) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto edge = std::minmax(corners[k], corners[(k + 1) % 3]);
+                const auto [found, is_new] = faces.emplace(edge, normal.z > 0);
+                if (is_new || found->second == (normal.z > 0)) continue;
+                draw_line(std::array{placed[edge.first], placed[edge.second]}, pen, owner);
+            }
+        }
+    }
+
     void hatch(std::span<const glm::vec3> vertices, std::span<const glm::dvec3> placed, const Pen& pen, Owner owner) {
-        std::vector<glm::vec3> seen(placed.begin(), placed.end());
-        const glm::dvec3 normal = area_normal(seen);
-        if (!(std::fabs(normal.z) > 1e-3 * glm::length(normal)) || vertices.size() < 3) return;
-        std::vector<glm::dvec2> flat(placed.begin(), placed.end());
-        glm::dvec3 middle(0.0);
-        for (const glm::dvec3& point : placed) middle += point / static_cast<double>(placed.size());
+        if (vertices.size() < 3) return;
+        std::vector<Facet> facets;
+        for (const auto& corners : triangulate(vertices).triangles) {
+            facets.emplace_back(placed[corners[0]], placed[corners[1]], placed[corners[2]]);
+        }
+        const std::vector<glm::dvec2> flat(placed.begin(), placed.end());
         const double width = pen_steps(pen);
         const double spacing = options_.hatch->spacing > 0 ? options_.hatch->spacing / step_ : width;
         for (const glm::dvec2 along : hatch_directions(*options_.hatch, print_.placement)) {
             for (const auto& line : hatch_lines(flat, along, spacing, width / 2, monitor_)) {
-                std::vector<glm::dvec3> points;
-                for (const glm::dvec2 at : line) {
-                    const double depth = middle.z - glm::dot(glm::dvec2(normal), at - glm::dvec2(middle)) / normal.z;
-                    points.emplace_back(at, depth);
-                }
-                draw_line(points, pen, owner);
+                draw_line(on_facets(line, facets), pen, owner);
             }
         }
+    }
+
+    /// A triangle on the page: dot(side, (x, y, 1)) is the share of each corner, dot(plane, (x, y, 1)) the depth.
+    struct Facet {
+        glm::dmat3 shares{0.0};  ///< rows
+        glm::dvec3 plane{0.0};
+        double low = 0, high = 0;  ///< depths
+        bool is_seen = false;
+
+        Facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+            const glm::dmat3 corners(glm::dvec3(a.x, a.y, 1), glm::dvec3(b.x, b.y, 1), glm::dvec3(c.x, c.y, 1));
+            const double area = glm::determinant(corners);
+            const double size = glm::distance(a, b) + glm::distance(a, c);
+            is_seen = std::fabs(area) > 1e-6 * size * size;
+            if (!is_seen) return;
+            low = std::min({a.z, b.z, c.z});
+            high = std::max({a.z, b.z, c.z});
+            shares = glm::inverse(corners);
+            plane = glm::transpose(shares) * glm::dvec3(a.z, b.z, c.z);
+        }
+    };
+
+    /// A line of the page on a surface: with a point more wherever it passes from one triangle to the next.
+    std::vector<glm::dvec3> on_facets(std::span<const glm::dvec2> line, std::span<const Facet> facets) {
+        std::vector<glm::dvec3> points;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const glm::dvec3 a(line[i], 1), b(line[i + 1], 1);
+            struct Stretch {
+                double from, to;
+                const Facet* facet;
+            };
+            std::vector<Stretch> stretches;
+            for (const Facet& facet : facets) {
+                pulse_();
+                if (!facet.is_seen) continue;
+                const glm::dvec3 at_a = facet.shares * a, at_b = facet.shares * b;
+                double from = 0, to = 1;
+                for (int k = 0; k < 3; ++k) {
+                    if (at_a[k] < 0 && at_b[k] < 0) to = -1;
+                    if ((at_a[k] < 0) == (at_b[k] < 0)) continue;
+                    const double root = at_a[k] / (at_a[k] - at_b[k]);
+                    (at_a[k] < 0 ? from : to) = at_a[k] < 0 ? std::max(from, root) : std::min(to, root);
+                }
+                if (from < to) stretches.push_back({from, to, &facet});
+            }
+            std::sort(stretches.begin(), stretches.end(), [](const Stretch& x, const Stretch& y) {
+                return x.from != y.from ? x.from < y.from : x.to < y.to;
+            });
+            const auto add = [&](double t, const Facet& facet) {
+                const glm::dvec3 at = a + t * (b - a);
+                // Steep triangles are not extrapolated.
+                points.emplace_back(glm::dvec2(at), std::clamp(glm::dot(facet.plane, at), facet.low, facet.high));
+            };
+            if (stretches.empty()) {
+                // Along an edge: as deep as what came before.
+                for (const glm::dvec3& at : {a, b}) points.emplace_back(glm::dvec2(at), depth_);
+                continue;
+            }
+            add(0, *stretches.front().facet);
+            for (std::size_t k = 1; k < stretches.size(); ++k) {
+                // Flat ones take no point.
+                const glm::dvec3 change = stretches[k].facet->plane - stretches[k - 1].facet->plane;
+                if (glm::length(change) > 1e-9) add(stretches[k].from, *stretches[k].facet);
+            }
+            add(1, *std::max_element(stretches.begin(), stretches.end(), [](const Stretch& x, const Stretch& y) {
+                        return x.to < y.to;
+                    })->facet);
+            depth_ = points.back().z;
+        }
+        return points;
     }
 
     void draw_sphere(std::size_t i) {
@@ -278,6 +367,7 @@ private:
     std::vector<int> fill_pens_;
     HiddenLines hidden_;
     std::unordered_set<Edge, EdgeHash> edges_;  ///< that are drawn
+    double depth_ = 0.0;                        ///< of the last point of hatching
 };
 
 }  // namespace

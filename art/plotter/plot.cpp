@@ -379,17 +379,22 @@ void PlotPlan::draw_wide(bool closed) {
     wide_.reset();
     if (path.pieces.empty()) return;
     path.is_closed = closed;
+    const auto add = [](Gathered& into, const PenPath& pass) {
+        into.add(Gathered::Kind::start, {&pass.start, 1});
+        for (const PenPath::Piece& piece : pass.pieces) {
+            const std::array<glm::dvec2, 3> points = {piece.first, piece.second, piece.end};
+            into.add(piece.is_curve ? Gathered::Kind::curves : Gathered::Kind::lines,
+                     std::span(points).subspan(piece.is_curve ? 0 : 2));
+        }
+    };
+    if (!covered_) covered_ = std::make_unique<Gathered>();
+    add(*covered_, path);
     const double step = print_.placement.step;
     constexpr double tolerance = 0.005;  // millimetres
     for (const PenPath& pass :
          pen_passes(path, print_.style.line_width(pen_, step) / step, options_.pen_width / step, tolerance / step)) {
         options_.monitor.check();
-        into_->add(Gathered::Kind::start, {&pass.start, 1});
-        for (const PenPath::Piece& piece : pass.pieces) {
-            const std::array<glm::dvec2, 3> points = {piece.first, piece.second, piece.end};
-            into_->add(piece.is_curve ? Gathered::Kind::curves : Gathered::Kind::lines,
-                       std::span(points).subspan(piece.is_curve ? 0 : 2));
-        }
+        add(*into_, pass);
     }
 }
 
@@ -479,7 +484,7 @@ double PlotPlan::tolerance() const {
 /// Outlines of fills, without edges that lie on lines or other outlines.
 void PlotPlan::add_outlines(double tolerance) {
     if (outlines_.empty()) return;
-    std::size_t count = 0;
+    std::size_t count = covered_ ? covered_->segments() : 0;
     for (const auto* list : {&gathered_, &outlines_}) {
         for (const auto& [slot, pen] : *list) count += pen->segments();
     }
@@ -497,9 +502,9 @@ void PlotPlan::add_outlines(double tolerance) {
         }
         return set.add(segment);
     };
-    for (const auto& [slot, pen] : gathered_) {
-        pen->for_each([&](auto kind, glm::dvec2 from, auto points) { is_new(kind, from, points); });
-    }
+    const auto note = [&](auto kind, glm::dvec2 from, auto points) { is_new(kind, from, points); };
+    for (const auto& [slot, pen] : gathered_) pen->for_each(note);
+    if (covered_) covered_->for_each(note);
     for (const auto& [slot, pen] : outlines_) {
         Gathered& into = *gathered_.at(slot);
         bool is_down = false;
@@ -518,6 +523,7 @@ void PlotPlan::add_outlines(double tolerance) {
         });
     }
     outlines_.clear();
+    covered_.reset();
 }
 
 /// To as many pens as there are.

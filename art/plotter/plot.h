@@ -157,6 +157,7 @@ private:
     std::vector<int> fill_slots_;                        ///< of colour indices, for the pens of fills
     std::map<int, std::unique_ptr<Gathered>> gathered_;  ///< by slot
     std::map<int, std::unique_ptr<Gathered>> outlines_;  ///< of fills, likewise
+    std::unique_ptr<Gathered> covered_;                  ///< middles of strokes drawn in several passes
     std::vector<std::unique_ptr<Layer>> layers_;         ///< pens in their order
     PlotReport report_;
     Gathered* into_ = nullptr;  ///< of the stroke that is being drawn; null if it is not seen
