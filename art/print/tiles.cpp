@@ -82,7 +82,7 @@ void write_mark(const std::string& text, glm::dvec2 start, double height, bool u
     const glm::dvec2 from(start.x, -start.y);
     Upwards turned(sink, from);
     PathSink& letters = upwards ? turned : sink;
-    for (const Pen& pen : {Pen{0.3 * height + halo_width, true, 0}, Pen{0.1 * height, true, 1}}) {
+    for (const Pen& pen : {Pen{0.45 * height + halo_width, true, 0}, Pen{0.1 * height, true, 1}}) {
         write_text(text, from, height, pen, letters);
     }
 }
@@ -240,7 +240,7 @@ void draw_tile_overview(const Tiling& tiling, const Page& page, const Window& pl
         draw_mark(high, {low.x, high.y}, ink_width, sink);
         draw_mark({low.x, high.y}, low, ink_width, sink);
         const std::string number = fmt::format("{}-{}", tile.row, tile.column);
-        const double height = std::min(0.25 * (high.y - low.y), 0.25 * (high.x - low.x));
+        const double height = 0.16 * std::min(high.y - low.y, high.x - low.x);
         const glm::dvec2 middle = (low + high) / 2.0;
         write_mark(number, {middle.x - text_width(number, height) / 2, middle.y + height / 2}, height, false, sink);
     }

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* cmyk_profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
 const std::string kolam =
-    "title: Kolam\naxiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle increment: 90\n"
+    "title: Kolam\naxiom: F+XF+F+XFfffffffF+F+F+F\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle increment: 90\n"
     "stroke: 0.2 step #f2b632\nground: #8c3b2a\n";
 const std::string shape =
     "title: Shape\naxiom: F\nF --> {G+G+G+G}F\nG --> G\nderivation length: 1\nangle increment: 90\n"
