@@ -14,10 +14,10 @@
 namespace sikku {
 namespace {
 
-constexpr double arm = 4.0;          // millimetres, half of a cross
-constexpr double letter = 2.5;       // millimetres
+constexpr double arm = 4.0;     // millimetres, half of a cross
+constexpr double letter = 2.5;  // millimetres
 constexpr double least_letter = 1.2;
-constexpr double halo_width = 0.7;   // millimetres around lines
+constexpr double halo_width = 0.7;  // millimetres around lines
 constexpr double ink_width = 0.2;
 constexpr int most_sheets = 400;
 

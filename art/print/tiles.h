@@ -42,8 +42,8 @@ std::filesystem::path tile_file(const std::filesystem::path& file, const Tile& t
 glm::dvec2 tile_corner(const Tiling& tiling, const Tile& tile);
 
 /// Prints of lines and letters in millimetres, y up from the top left corner: what lies on the sheets beside the
-/// print. They have no ground. Colour 0 is a halo in the colour of the ground of the whole print, colour 1 an ink that
-/// stands out from it, and colour 2 black.
+/// print. They have no ground. Colour 0 is a halo in the colour of the ground of the whole print, colour 1 an ink
+/// that stands out from it, and colour 2 black.
 Print mark_print(const Page& page, double dpi, const std::optional<Colour>& ground);
 
 /// Draws into a mark_print() crosses at the corners where sheets are cut: neighbouring sheets have them in the same

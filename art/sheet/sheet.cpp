@@ -27,13 +27,13 @@
 namespace sikku {
 namespace {
 
-constexpr double fitted_side = 190.0;   // millimetres of an A4 page within its margins, which pens are meant for
+constexpr double fitted_side = 190.0;    // millimetres of an A4 page within its margins, which pens are meant for
 constexpr double border_margin = 0.045;  // of a cell outside of its border, as part of its shorter side
-constexpr double finest_line = 0.1;     // millimetres that every printer can print
-constexpr double widest_line = 0.035;   // as part of a cell: of early generations, whose steps are long
-constexpr double line_pitch = 1.75;     // of lines of text, as part of the height of their capitals
-constexpr double small_letters = 0.78;  // of a caption's later lines, as part of those of its first
-constexpr double stem = 0.085;          // of letters, as part of their height
+constexpr double finest_line = 0.1;      // millimetres that every printer can print
+constexpr double widest_line = 0.035;    // as part of a cell: of early generations, whose steps are long
+constexpr double line_pitch = 1.75;      // of lines of text, as part of the height of their capitals
+constexpr double small_letters = 0.78;   // of a caption's later lines, as part of those of its first
+constexpr double stem = 0.085;           // of letters, as part of their height
 constexpr double title_stem = 0.055;
 
 Pen text_pen(double width, bool pale) {
@@ -448,7 +448,7 @@ const Plan& Sheet::arrange() {
         const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
         for (int column = 0; column < best->rows[row]; ++column, ++next) {
             PlacedCell cell;
-            cell.window = {m.first.x + indent + column * m.across, top, m.width, m.height, false,
+            cell.window = {m.first.x + indent + column * m.across,     top, m.width, m.height, false,
                            border_margin * std::min(m.width, m.height)};
             cell.row = static_cast<int>(row);
             write_caption(cells_[next], cell.window, m.letters);
@@ -529,9 +529,8 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     write_texts(0.0, options_.page.height, writer);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
-        named(cells_[i], [&] {
-            subjects_[i].drawing->read_visible(plan_.cells[i].print, plan_.cells[i].window, writer);
-        });
+        named(cells_[i],
+              [&] { subjects_[i].drawing->read_visible(plan_.cells[i].print, plan_.cells[i].window, writer); });
     }
     writer.finish();
 }

@@ -152,7 +152,8 @@ struct Layer : VectorLayer {
 
 class Writer final : public VectorWriter<Layer, PagesWriter> {
 public:
-    Writer(const Print& print, Output& file) : VectorWriter(print, file), size_(print.page), edge_(press_edge(print.press)) {
+    Writer(const Print& print, Output& file)
+        : VectorWriter(print, file), size_(print.page), edge_(press_edge(print.press)) {
         const double longest =
             (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
@@ -181,10 +182,10 @@ public:
         size_ = page.page;
         const Window target{at.x, at.y, scale * shown.width, scale * shown.height, true};
         const double height = print_.page.height;
-        paint(write_plain_stream(fmt::format(
-            "q {} W n {} 0 0 {} {} {} cm\n", rectangle(target, 0.0), decimal(scale, 14), decimal(scale, 14),
-            user(edge_ + at.x - scale * (shown.left + edge_)),
-            user(edge_ + size_.height - at.y - scale * (edge_ + height - shown.top)))));
+        paint(write_plain_stream(
+            fmt::format("q {} W n {} 0 0 {} {} {} cm\n", rectangle(target, 0.0), decimal(scale, 14),
+                        decimal(scale, 14), user(edge_ + at.x - scale * (shown.left + edge_)),
+                        user(edge_ + size_.height - at.y - scale * (edge_ + height - shown.top)))));
         contents_ += shared_;
         paint(write_plain_stream("Q\n"));
         take_part(page_print_, {0.0, 0.0, size_.width, size_.height, false});
@@ -649,8 +650,8 @@ private:
     Print page_print_;        ///< of begin_page()
     std::string shared_;      ///< streams of the drawing that all pages show
     bool is_shared_ = false;  ///< begin_page() was called
-    const double edge_;  ///< millimetres from the edge of the medium to the trimmed sheet
-    double unit_ = 1.0;  ///< points of one unit of the page
+    const double edge_;       ///< millimetres from the edge of the medium to the trimmed sheet
+    double unit_ = 1.0;       ///< points of one unit of the page
     int catalog_ = 0;
     int pages_ = 0;
     int page_ = 0;  ///< the page that is being drawn

@@ -17,9 +17,9 @@ std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file);
 /// Writes a drawing into a file of several pages, each of which shows a part of it.
 class PagesWriter : public PrintWriter {
 public:
-    /// Ends the drawing so far and begins a page that shows the part in `shown` of it, in millimetres of its own page,
-    /// at that place of the new one and `scale` times as large. The first call ends the drawing; what is drawn after
-    /// it belongs to the page and lies over what the page shows, with the style and the placement of `page`.
+    /// Ends the drawing so far and begins a page that shows the part in `shown` of it, in millimetres of its own
+    /// page, at that place of the new one and `scale` times as large. The first call ends the drawing; what is drawn
+    /// after it belongs to the page and lies over what the page shows, with the style and the placement of `page`.
     virtual void begin_page(const Print& page, const Window& shown, glm::dvec2 at, double scale) = 0;
 };
 

@@ -23,7 +23,8 @@ namespace {
 constexpr const char* cmyk_profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
 const std::string kolam =
-    "title: Kolam\naxiom: F+XF+F+XFfffffffF+F+F+F\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle increment: 90\n"
+    "title: Kolam\naxiom: F+XF+F+XFfffffffF+F+F+F\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle "
+    "increment: 90\n"
     "stroke: 0.2 step #f2b632\nground: #8c3b2a\n";
 const std::string shape =
     "title: Shape\naxiom: F\nF --> {G+G+G+G}F\nG --> G\nderivation length: 1\nangle increment: 90\n"
@@ -81,13 +82,20 @@ struct Target {
 std::vector<Target> targets() {
     const Values one{};
     const Values growth{{"generations", "0:2"}};
-    return {{"SVG", "svg", one},     {"PDF", "pdf", one},
-            {"PNG", "png", one},     {"TIFF", "tif", one},
-            {"JPEG", "jpg", one},    {"EXR", "exr", one},
-            {"GIF", "gif", growth},  {"HP-GL", "hpgl", one},
-            {"G-code", "gcode", one}, {"OBJ", "obj", one},
-            {"glTF", "glb", one},    {"poster", "svg", one, true},
-            {"sheet", "svg", growth}, {"tile", "svg", {{"tile", "60x60mm"}}},
+    return {{"SVG", "svg", one},
+            {"PDF", "pdf", one},
+            {"PNG", "png", one},
+            {"TIFF", "tif", one},
+            {"JPEG", "jpg", one},
+            {"EXR", "exr", one},
+            {"GIF", "gif", growth},
+            {"HP-GL", "hpgl", one},
+            {"G-code", "gcode", one},
+            {"OBJ", "obj", one},
+            {"glTF", "glb", one},
+            {"poster", "svg", one, true},
+            {"sheet", "svg", growth},
+            {"tile", "svg", {{"tile", "60x60mm"}}},
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
@@ -220,7 +228,10 @@ std::string table(const std::vector<std::vector<std::string>>& outcomes) {
     for (std::size_t row = 0; row < outcomes.size(); ++row) {
         text += "| " + features()[row].name + " |";
         for (const std::string& outcome : outcomes[row]) {
-            std::string entry = outcome == "yes" ? "yes" : outcome == "no change" ? "=" : outcome == "lost" ? "no" : "";
+            std::string entry = outcome == "yes"         ? "yes"
+                                : outcome == "no change" ? "="
+                                : outcome == "lost"      ? "no"
+                                                         : "";
             if (entry.empty()) {
                 auto place = std::find(reasons.begin(), reasons.end(), outcome);
                 if (place == reasons.end()) place = reasons.insert(place, outcome);

@@ -152,7 +152,8 @@ TEST(Shading, HatchLinesLieInsideAndAreEvenlySpaced) {
 
 TEST(Shading, AConvexShapeIsOneZigzag) {
     Points circle;
-    for (int i = 0; i < 200; ++i) circle.push_back(20.0 * glm::dvec2(std::cos(0.0314159 * i), std::sin(0.0314159 * i)));
+    for (int i = 0; i < 200; ++i)
+        circle.push_back(20.0 * glm::dvec2(std::cos(0.0314159 * i), std::sin(0.0314159 * i)));
     EXPECT_EQ(hatch_lines(circle, {0.8, 0.6}, 0.5, 0.2).size(), 1u);
     EXPECT_EQ(hatch_lines(Points{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {1, 0}, 0.5, 0.2).size(), 1u);
     // Two legs and what joins them.
@@ -193,16 +194,15 @@ TEST(Passes, CoverAStrokeAndNothingElse) {
     const double pen = 0.4;
     const Points corners = {{10, 10}, {40, 10}, {40, 30}, {25, 18}, {60, 50}, {60, 20}};
     const Points square = {{70, 10}, {90, 10}, {90, 30}, {70, 30}, {70, 10}};
-    const auto plan = arranged(
-        print,
-        [&](PathSink& sink) {
-            for (const Points& line : {corners, square}) {
-                sink.begin_stroke(line[0], Pen{});
-                sink.lines(std::span(line).subspan(1));
-                sink.end_stroke(line.front() == line.back());
-            }
-        },
-        {.pen_width = pen});
+    const auto plan = arranged(print,
+                               [&](PathSink& sink) {
+                                   for (const Points& line : {corners, square}) {
+                                       sink.begin_stroke(line[0], Pen{});
+                                       sink.lines(std::span(line).subspan(1));
+                                       sink.end_stroke(line.front() == line.back());
+                                   }
+                               },
+                               {.pen_width = pen});
     // To and fro along the open one, rings along the closed one.
     EXPECT_EQ(pass_offsets(3.0, pen).size(), 8u);
     EXPECT_EQ(plan->report().after.lifts, 1u + 8u);
@@ -221,14 +221,13 @@ TEST(Passes, FollowCurves) {
     print.style.stroke = {2.0, false};
     const double pen = 0.5;
     const Points curve = {{10, 10}, {40, 60}, {50, -20}, {80, 40}, {90, 60}, {95, 50}, {90, 20}};
-    const auto plan = arranged(
-        print,
-        [&](PathSink& sink) {
-            sink.begin_stroke(curve[0], Pen{});
-            sink.curves(std::span(curve).subspan(1));
-            sink.end_stroke(false);
-        },
-        {.pen_width = pen});
+    const auto plan = arranged(print,
+                               [&](PathSink& sink) {
+                                   sink.begin_stroke(curve[0], Pen{});
+                                   sink.curves(std::span(curve).subspan(1));
+                                   sink.end_stroke(false);
+                               },
+                               {.pen_width = pen});
     Samples middle(0.05);
     middle.start(curve[0]);
     for (std::size_t i = 1; i + 2 < curve.size(); i += 3) middle.curve(curve[i], curve[i + 1], curve[i + 2]);
@@ -285,9 +284,8 @@ TEST(Fills, AreasAreHatchedInTheAngleOfThePage) {
     Print print = plain_print();
     const Points outline = {{10, 10}, {20, 10}, {30, 10}, {40, 10}, {40, 20}, {40, 30}, {40, 40}};
     for (const bool is_crossed : {false, true}) {
-        const auto plan = arranged(
-            print, [&](PathSink& sink) { sink.area(outline, Pen{}); },
-            {.pen_width = 0.3, .hatch = Hatch{1.0, 30.0, is_crossed}});
+        const auto plan = arranged(print, [&](PathSink& sink) { sink.area(outline, Pen{}); },
+                                   {.pen_width = 0.3, .hatch = Hatch{1.0, 30.0, is_crossed}});
         Recorder recorder;
         plan->draw(recorder);
         std::map<long, double> lengths;
@@ -309,8 +307,8 @@ TEST(Pens, AreMergedIntoTheNearest) {
         const auto level = static_cast<std::uint8_t>(value);
         return Colour{level, level, level, 255};
     };
-    const std::vector<PenColour> colours = {{grey(0), 10}, {grey(20), 500}, {grey(250), 30}, {grey(240), 20},
-                                            {Colour{255, 0, 0, 255}, 40}};
+    const std::vector<PenColour> colours = {
+        {grey(0), 10}, {grey(20), 500}, {grey(250), 30}, {grey(240), 20}, {Colour{255, 0, 0, 255}, 40}};
     EXPECT_EQ(merge_pens(colours, 5), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
     EXPECT_EQ(merge_pens(colours, 3), (std::vector<std::size_t>{1, 1, 2, 2, 4}));
     EXPECT_EQ(merge_pens(colours, 1), (std::vector<std::size_t>{1, 1, 1, 1, 1}));
@@ -338,16 +336,15 @@ TEST(Pens, AreMergedIntoTheNearest) {
 TEST(Pens, APlanMergesAndReports) {
     Print print = plain_print();
     print.style.palette.push_back({30, 0, 0, 255});
-    const auto plan = arranged(
-        print,
-        [](PathSink& sink) {
-            for (int i = 0; i < 4; ++i) {
-                sink.begin_stroke({10.0 + i, 10}, Pen{.colour = i});
-                sink.lines(Points{{10.0 + i, 20.0 + i}});
-                sink.end_stroke(false);
-            }
-        },
-        {.pens = 3});
+    const auto plan = arranged(print,
+                               [](PathSink& sink) {
+                                   for (int i = 0; i < 4; ++i) {
+                                       sink.begin_stroke({10.0 + i, 10}, Pen{.colour = i});
+                                       sink.lines(Points{{10.0 + i, 20.0 + i}});
+                                       sink.end_stroke(false);
+                                   }
+                               },
+                               {.pens = 3});
     ASSERT_EQ(plan->report().merged.size(), 1u);
     EXPECT_EQ(plan->report().colours, 4u);
     const MergedPen& merged = plan->report().merged[0];
@@ -376,7 +373,8 @@ TEST(Home, IsPartOfTheTravel) {
     EXPECT_EQ(plan->travels().size(), 2u);
     EXPECT_TRUE(plan->report().returns);
     // From another corner.
-    EXPECT_NEAR(arranged(print, stroke, {.start = {0, 60}})->report().after.travelled, glm::distance({30., 40.}, glm::dvec2(0, 60)), 1e-9);
+    EXPECT_NEAR(arranged(print, stroke, {.start = {0, 60}})->report().after.travelled,
+                glm::distance({30., 40.}, glm::dvec2(0, 60)), 1e-9);
 }
 
 }  // namespace

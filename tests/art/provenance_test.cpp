@@ -1,5 +1,5 @@
-// tests/art/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and untrusted
-// files cost little.
+// tests/art/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and
+// untrusted files cost little.
 #include "art/provenance/provenance.h"
 
 #include "art/image/image_file.h"

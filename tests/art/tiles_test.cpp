@@ -128,7 +128,8 @@ TEST(Tiles, ClippingKeepsWhatMayBeSeen) {
     clip.disc({-2.0, 5.0}, 3.0, {});
     clip.disc({-4.0, 5.0}, 3.0, {});
     EXPECT_EQ(count.discs, 1);
-    const std::vector<glm::dvec2> near = {{-5.0, -5.0}, {20.0, -5.0}, {20.0, 20.0}}, far = {{11, 0}, {12, 0}, {12, 1}};
+    const std::vector<glm::dvec2> near = {{-5.0, -5.0}, {20.0, -5.0}, {20.0, 20.0}},
+                                  far = {{11, 0}, {12, 0}, {12, 1}};
     clip.polygon(near, {});
     clip.polygon(far, {});
     EXPECT_EQ(count.areas, 1);

@@ -1,5 +1,5 @@
-// tests/engine/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the patterns that
-// come along.
+// tests/engine/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the
+// patterns that come along.
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"

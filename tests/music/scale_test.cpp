@@ -1,4 +1,5 @@
-// tests/music/scale_test.cpp: the scales that come along, the melakarta, how a melody takes its degrees, `sikku scales`.
+// tests/music/scale_test.cpp: the scales that come along, the melakarta, how a melody takes its degrees, `sikku
+// scales`.
 #include "music/scale/scale.h"
 
 #include "tests/program.h"

@@ -1,4 +1,5 @@
-// tests/program/arrows_test.cpp: which room may include what. art and music never see each other, the engine sees neither.
+// tests/program/arrows_test.cpp: which room may include what. art and music never see each other, the engine sees
+// neither.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

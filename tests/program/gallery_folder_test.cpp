@@ -1,4 +1,5 @@
-// tests/program/gallery_folder_test.cpp: galleries in untrusted folders: nothing is written, removed or read outside them.
+// tests/program/gallery_folder_test.cpp: galleries in untrusted folders: nothing is written, removed or read outside
+// them.
 #include "engine/base/output_file.h"
 #include "tests/gallery.h"
 

@@ -1,4 +1,5 @@
-// tests/program/hostile_text_test.cpp: one title that tries to be a command, in every language that the program writes.
+// tests/program/hostile_text_test.cpp: one title that tries to be a command, in every language that the program
+// writes.
 #include "art/plotter/gcode.h"
 #include "engine/base/diagnostic.h"
 #include "music/score/lilypond.h"

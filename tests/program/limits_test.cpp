@@ -1,5 +1,5 @@
-// tests/program/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly in
-// little memory, and long work stops on request.
+// tests/program/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly
+// in little memory, and long work stops on request.
 #include "engine/derivation/derivation.h"
 #include "engine/import/import.h"
 #include "tests/program.h"
