@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 namespace sikku {
@@ -59,13 +58,6 @@ void add_budget_option(CLI::App& command, double& budget) {
             double value = 0;
             return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
         });
-}
-
-std::string known_gallery(const std::string& name) {
-    std::error_code error;
-    if (name.empty() || std::filesystem::exists(name, error)) return name;
-    const auto known = PatternLibrary::bundled().folder() / "posters" / (name + ".toml");
-    return std::filesystem::exists(known, error) ? known.string() : name;
 }
 
 NamedText read_pattern_text(const std::string& pattern) {
@@ -180,18 +172,6 @@ void Progress::show() {
     } else {
         tell("\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
     }
-}
-
-std::uint64_t memory_budget() {
-    std::ifstream file("/proc/meminfo");
-    std::string key;
-    std::uint64_t kilobytes = 0;
-    std::string unit;
-    while (file >> key >> kilobytes >> unit) {
-        // Two words of 4 bytes a symbol that double while they grow, 8 bytes for brackets; half of what there is.
-        if (key == "MemAvailable:") return kilobytes * 1024 / 2 / 32;
-    }
-    return std::uint64_t{1} << 26;
 }
 
 }  // namespace sikku

@@ -84,9 +84,6 @@ Document load(const PatternOptions& options, bool quiet);
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
 void make(Work& work, const std::string& output, bool quiet);
 
-/// The gallery file of that name among the bundled ones, patterns/posters/NAME.toml, if no file has it.
-std::string known_gallery(const std::string& name);
-
 /// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.
 class Progress {
 public:
@@ -114,9 +111,6 @@ private:
     double started_;
     double last_;
 };
-
-/// Most symbols of a word kept whole that memory now has room for.
-std::uint64_t memory_budget();
 
 /// Reads what a MIDI file (a regular file) was made from. @throws std::runtime_error, naming the file, if it contains
 /// no pattern or is damaged

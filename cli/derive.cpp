@@ -1,5 +1,6 @@
 // cli/derive.cpp: `sikku derive`: the word itself.
 #include "cli/command.h"
+#include "engine/base/memory.h"
 #include "engine/derivation/forecast.h"
 
 #include <fcntl.h>
@@ -139,7 +140,8 @@ void add_derive(CLI::App& app, bool& quiet) {
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;
         // Modules with parameters take more than symbols.
-        derivation.longest_word = memory_budget() / (grammar.is_plain() ? 1 : 4);
+        // Two words of 4 bytes a symbol that double while they grow, 8 bytes for brackets; half of the memory.
+        derivation.longest_word = available_memory() / (grammar.is_plain() ? 64 : 256);
         derivation.compared = 500'000'000;  // which takes a second
         derivation.watch = progress.watch();
         try {

@@ -3,6 +3,7 @@
 
 #include "art/prints.h"
 #include "cli/command.h"
+#include "engine/base/memory.h"
 #include "engine/base/text.h"
 #include "music/scores.h"
 
@@ -50,23 +51,11 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// `1G`, `512M`, `2GiB`: bytes. Half of what the machine has to give, if nothing is said.
+/// Half of the available memory if nothing is said.
 double read_memory(const std::string& text) {
-    if (text.empty()) return static_cast<double>(memory_budget()) * 32;
-    std::size_t digits = 0;
-    while (digits < text.size() && (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.')) {
-        ++digits;
-    }
-    static const std::map<std::string, double> units = {
-        {"", 1.0},     {"k", 0x1p10},   {"kib", 0x1p10}, {"m", 0x1p20},   {"mib", 0x1p20},
-        {"g", 0x1p30}, {"gib", 0x1p30}, {"t", 0x1p40},   {"tib", 0x1p40}, {"kb", 1e3},
-        {"mb", 1e6},   {"gb", 1e9},     {"tb", 1e12}};
-    const auto unit = units.find(lower_case(text.substr(digits)));
-    double value = 0;
-    if (!read_number(text.substr(0, digits), value) || unit == units.end() || value <= 0) {
-        throw UsageError(fmt::format("--memory {}: expected a size such as 1G or 512M", printable(text, 80)));
-    }
-    return value * unit->second;
+    if (text.empty()) return static_cast<double>(available_memory()) / 2;
+    if (const auto bytes = parse_bytes(text)) return *bytes;
+    throw UsageError(fmt::format("--memory {}: expected a size such as 1G or 512M", printable(text, 80)));
 }
 
 void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_t>& chosen, bool json) {
@@ -317,7 +306,7 @@ void run(Options& options, bool quiet) {
     for (const auto& [key, is_set] : options.flags) {
         if (is_set) options.request.keys[key] = "true";
     }
-    options.request.gallery_file = known_gallery(options.request.gallery_file);
+    options.request.gallery_file = PatternLibrary::bundled().gallery_file(options.request.gallery_file);
     const Shard shard =
         options.slurm > 0 ? Shard{} : read_shard(options.shard, [](const char* name) { return std::getenv(name); });
     Gallery gallery(options.request,

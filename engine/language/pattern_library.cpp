@@ -62,4 +62,11 @@ std::string_view PatternLibrary::nearest(std::string_view name) const {
     return sikku::nearest(name, names);
 }
 
+std::string PatternLibrary::gallery_file(const std::string& name) const {
+    std::error_code error;
+    if (name.empty() || std::filesystem::exists(name, error)) return name;
+    const auto known = folder_ / "posters" / (name + ".toml");
+    return std::filesystem::exists(known, error) ? known.string() : name;
+}
+
 }  // namespace sikku

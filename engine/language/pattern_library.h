@@ -31,6 +31,8 @@ public:
     const std::vector<LibraryPattern>& patterns() const { return *patterns_; }
     /// The pattern of that name, or null.
     const LibraryPattern* find(std::string_view name) const;
+    /// The gallery file of that name in the library, posters/NAME.toml, if no file has it; otherwise `name` itself.
+    std::string gallery_file(const std::string& name) const;
     /// The name nearest to `name`, or empty if none is near enough to be meant.
     std::string_view nearest(std::string_view name) const;
 
