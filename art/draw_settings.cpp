@@ -141,7 +141,8 @@ void set_pen_width(DrawSettings& settings, const std::string& text) {
 void set_paper(DrawSettings& settings, const std::string& text) {
     settings.paper = parse_hpgl_paper(text, settings.dpi);
     if (!settings.paper) {
-        refuse("hpgl-paper", text, "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
+        refuse("hpgl-paper", text,
+               "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
     }
 }
 

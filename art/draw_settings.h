@@ -46,11 +46,11 @@ struct DrawSettings {
     std::optional<Page> tile;                                          ///< sheets that the print is cut into
     double overlap = 10.0;                                             ///< of those sheets
     bool plotter = false;
-    double split = 0.0;             ///< longest stroke; 0: any
-    std::optional<Hatch> hatch;     ///< of filled shapes
-    double pen_width = 0.0;         ///< of the real pen; 0: of each stroke
-    int pens = 0;                   ///< maximum number; 0: any
-    std::optional<HpglPaper> paper; ///< of an HP-GL plotter
+    double split = 0.0;              ///< longest stroke; 0: any
+    std::optional<Hatch> hatch;      ///< of filled shapes
+    double pen_width = 0.0;          ///< of the real pen; 0: of each stroke
+    int pens = 0;                    ///< maximum number; 0: any
+    std::optional<HpglPaper> paper;  ///< of an HP-GL plotter
     bool travel = false;  ///< show pen-up travel
     PlotSpeeds speeds;
     GcodeOptions gcode;

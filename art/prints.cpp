@@ -251,8 +251,10 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         constexpr std::size_t most = 8;
         const std::size_t pens = report.plot->colours - report.plot->merged.size();
         if (pens > most) {
-            made.warn(fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
-                                  "colours", pens, most));
+            made.warn(
+                fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                            "colours",
+                            pens, most));
         }
     }
     if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));

@@ -42,7 +42,8 @@ struct DrawOptions {
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
     bool colours_strokes = false;       ///< each stroke in the next colour of the palette
     bool border = false;                ///< of red earth, within the margins: see draw_border()
-    /// Lines are arranged for a plotter, as those of HP-GL and G-code always are. Start and home are set by the format.
+    /// Lines are arranged for a plotter, as those of HP-GL and G-code always are. Start and home are set by the
+    /// format.
     std::optional<PlotOptions> plot;
     bool shows_travel = false;          ///< then, the ways of the lifted pen are drawn, too, in a layer of their own
     GcodeOptions gcode;

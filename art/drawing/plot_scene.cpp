@@ -91,9 +91,7 @@ private:
         return {options_.pen_width / (stroke.in_steps ? step_ : 1.0) / stroke.unit, true, colour};
     }
     int fill_colour(int colour) const { return fill_pens_[static_cast<std::size_t>(colour)]; }
-    double pen_steps(const Pen& pen) const {
-        return std::max(print_.style.line_width(pen, step_), thinnest) / step_;
-    }
+    double pen_steps(const Pen& pen) const { return std::max(print_.style.line_width(pen, step_), thinnest) / step_; }
 
     void add_surfaces() {
         const double thin = std::max(thin_stem, options_.pen_width * 1.001);
@@ -156,7 +154,8 @@ private:
                 ++end;
             }
             const auto stem = std::span(segments).subspan(first, end - first);
-            count > 1 ? draw_wide(stem, count, static_cast<Owner>(first)) : draw_thin(stem, static_cast<Owner>(first));
+            count > 1 ? draw_wide(stem, count, static_cast<Owner>(first))
+                      : draw_thin(stem, static_cast<Owner>(first));
             first = end;
         }
     }

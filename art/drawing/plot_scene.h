@@ -14,9 +14,9 @@ namespace sikku {
 /// - spheres and dots filled by spirals.
 ///
 /// What lies behind polygons, spheres and stems over 0.5 mm wide (and over one pen) is not drawn; HiddenLines says
-/// how. Limits: a stem hides as a flat band through its middle that faces the eye; a polygon that is not flat hides as
-/// the triangles of triangulate(), and its hatching lies on them. Thinner stems hide nothing: what
-/// lies behind them is covered by their ink.
+/// how. Limits: a stem hides as a flat band through its middle that faces the eye; a polygon that is not flat hides
+/// as the triangles of triangulate(), and its hatching lies on them. Thinner stems hide nothing: what lies behind
+/// them is covered by their ink.
 /// @param print  placed, in a style that draws lines
 /// Cost: 1 to 5 µs for each line and each surface in plants that were tried; more where many large surfaces overlap,
 /// up to their product. @throws Stopped

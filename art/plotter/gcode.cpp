@@ -279,7 +279,8 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
         const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
         double value = 0;
         const char* const last = text.data() + text.size();
-        if (letter < 'A' || letter > 'Z' || std::from_chars(text.data() + i + 1, last, value).ec != std::errc()) continue;
+        if (letter < 'A' || letter > 'Z' || std::from_chars(text.data() + i + 1, last, value).ec != std::errc())
+            continue;
         if (letter == 'G') moves = value == 0 || value == 1;
         if (moves && letter == 'X') at[0] = value;
         if (moves && letter == 'Y') at[1] = value;

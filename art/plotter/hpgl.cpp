@@ -116,10 +116,11 @@ private:
         const glm::dvec2 half = 0.5 * glm::dvec2(std::max(print_.page.width, print_.page.height),
                                                  std::min(print_.page.width, print_.page.height));
         const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
-        throw std::runtime_error(fmt::format(
-            "the drawing leaves the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm keeps it inside",
-            reach.x, reach.y, paper.is_hp7475a ? fmt::format(" on {} (HP 7475A)", paper.name) : "",
-            std::ceil(10 * margin - 1e-6) / 10));
+        throw std::runtime_error(
+            fmt::format("the drawing leaves the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm "
+                        "keeps it inside",
+                        reach.x, reach.y, paper.is_hp7475a ? fmt::format(" on {} (HP 7475A)", paper.name) : "",
+                        std::ceil(10 * margin - 1e-6) / 10));
     }
 
     void to(glm::dvec2 millimetres) {
@@ -188,7 +189,7 @@ std::string describe_hpgl(const Page& page, const HpglOptions& options) {
     if (is_turned(page)) origin = "the top left corner of the page";
     if (options.paper) {
         const HpglPaper& paper = *options.paper;
-        origin = paper.is_hp7475a             ? fmt::format("that of an HP 7475A with a sheet of {}", paper.name)
+        origin = paper.is_hp7475a               ? fmt::format("that of an HP 7475A with a sheet of {}", paper.name)
                  : paper.low == glm::dvec2(0.0) ? "the bottom left corner of the plotter's limits"
                                                 : "the middle of the plotter's limits";
     }

@@ -144,8 +144,7 @@ private:
             const double bend = 2.0 / 3.0 * cross(first, curve[2] - curve[1]) / (length * std::sqrt(length));
             return 1 - side * offset_ * bend;
         };
-        const Bezier found = {from, from + speed(b, 1) * (b[1] - b[0]), to + speed(reversed, -1) * (b[2] - b[3]),
-                              to};
+        const Bezier found = {from, from + speed(b, 1) * (b[1] - b[0]), to + speed(reversed, -1) * (b[2] - b[3]), to};
         const glm::dvec2 middle = part_of(b, 0, 0.5)[3];
         const Bezier half = part_of(b, 0.5, 1);
         const glm::dvec2 way = leaving(half);

@@ -309,7 +309,8 @@ PlotPlan::Gathered& PlotPlan::gathered(const Pen& pen, bool fills) {
 /// The width of the pen that fills, in steps.
 double PlotPlan::pen_steps(const Pen& pen) const {
     const double step = print_.placement.step;
-    return std::max(options_.pen_width > 0 ? options_.pen_width : print_.style.line_width(pen, step), thinnest) / step;
+    return std::max(options_.pen_width > 0 ? options_.pen_width : print_.style.line_width(pen, step), thinnest) /
+           step;
 }
 
 Pen PlotPlan::real_pen(const Pen& pen) const {
@@ -390,8 +391,8 @@ void PlotPlan::draw_wide(bool closed) {
     add(*covered_, path);
     const double step = print_.placement.step;
     constexpr double tolerance = 0.005;  // millimetres
-    for (const PenPath& pass : pen_passes(path, print_.style.line_width(pen_, step) / step, options_.pen_width / step,
-                                          tolerance / step)) {
+    for (const PenPath& pass :
+         pen_passes(path, print_.style.line_width(pen_, step) / step, options_.pen_width / step, tolerance / step)) {
         options_.monitor.check();
         add(*into_, pass);
     }

@@ -60,8 +60,8 @@ struct PlotReport {
     PlotTally after;
     std::uint64_t segments = 0;    ///< lines and curves as they were drawn
     std::uint64_t duplicates = 0;  ///< those of them that lay on another one and were left out
-    bool returns = false;           ///< travel includes the way home
-    std::size_t colours = 0;        ///< that were drawn
+    bool returns = false;          ///< travel includes the way home
+    std::size_t colours = 0;       ///< that were drawn
     std::vector<MergedPen> merged;  ///< in the order of the palette
 };
 

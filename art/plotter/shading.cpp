@@ -101,8 +101,8 @@ private:
             winding += crossings_[i].winding;
             if (before == 0) begin = i;
             if (winding != 0) continue;
-            const Stretch stretch{crossings_[i].line, crossings_[begin].at + inset_, crossings_[i].at - inset_,
-                                  {begin, i}};
+            const Stretch stretch{
+                crossings_[i].line, crossings_[begin].at + inset_, crossings_[i].at - inset_, {begin, i}};
             if (!(stretch.to > stretch.from)) continue;
             stretch_of_[begin] = stretch_of_[i] = stretches_.size();
             stretches_.push_back(stretch);

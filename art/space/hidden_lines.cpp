@@ -10,9 +10,9 @@
 namespace sikku {
 namespace {
 
-constexpr double steepest = 1000.0;       // of surfaces that hide
-constexpr double share_of_noise = 1e-6;   // of the drawing's size: scenes are kept in floats
-constexpr double most_in_cells = 16;      // entries of a surface, in the mean
+constexpr double steepest = 1000.0;        // of surfaces that hide
+constexpr double share_of_noise = 1e-6;    // of the drawing's size: scenes are kept in floats
+constexpr double most_in_cells = 16;       // entries of a surface, in the mean
 constexpr std::int64_t most_cells = 1024;  // along a side
 
 /// Where the linear function with these values at 0 and 1 is above 0, cut out of an interval.
@@ -110,9 +110,8 @@ void HiddenLines::build(const Monitor& monitor) {
     const glm::dvec2 size = high_ - low_;
     rounding_ = share_of_noise * std::max({size.x, size.y, depth * 1e-3, 1e-290});
     for (Surface& surface : surfaces_) surface.slack *= rounding_;
-    std::stable_sort(
-        surfaces_.begin(), surfaces_.end(),
-        stoppable(monitor, [](const Surface& a, const Surface& b) { return a.nearest > b.nearest; }));
+    std::stable_sort(surfaces_.begin(), surfaces_.end(),
+                     stoppable(monitor, [](const Surface& a, const Surface& b) { return a.nearest > b.nearest; }));
     // As fine a grid as memory allows.
     const auto visit = [&](const auto& enter) {
         for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
@@ -174,8 +173,8 @@ void HiddenLines::hide(const Surface& surface, const glm::dvec3& a, const glm::d
                             std::min(1.0, (-half + std::sqrt(root)) / square)};
         };
         const glm::dvec2 flat(way), flat_from(from);
-        hidden[0] = inside(glm::dot(flat, flat), glm::dot(flat, flat_from),
-                           glm::dot(flat_from, flat_from) - radius * radius);
+        hidden[0] =
+            inside(glm::dot(flat, flat), glm::dot(flat, flat_from), glm::dot(flat_from, flat_from) - radius * radius);
         if (hidden[0].from >= hidden[0].to) return;
         keep_positive(-from.z, -(b.z - surface.sides[0].z), hidden[0]);
         hidden[1] = inside(glm::dot(way, way), glm::dot(way, from), glm::dot(from, from) - radius * radius);
@@ -195,8 +194,7 @@ void HiddenLines::hide(const Surface& surface, const glm::dvec3& a, const glm::d
 void HiddenLines::look_in_cell(std::int64_t cell, Interval within, const glm::dvec3& a, const glm::dvec3& b,
                                Owner owner, Intervals& visible) const {
     Intervals seen = {within};
-    const double farthest =
-        std::min(a.z + within.from * (b.z - a.z), a.z + within.to * (b.z - a.z));
+    const double farthest = std::min(a.z + within.from * (b.z - a.z), a.z + within.to * (b.z - a.z));
     for (std::size_t i = begin_[static_cast<std::size_t>(cell)];
          i < begin_[static_cast<std::size_t>(cell) + 1] && !seen.empty(); ++i) {
         const Surface& surface = surfaces_[inside_[i]];
