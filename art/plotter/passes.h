@@ -26,10 +26,10 @@ struct PenPath {
 std::vector<double> pass_offsets(double width, double pen);
 
 /// Passes that cover a stroke of that width with a pen: an open stroke is one path to and fro, a closed one a closed
-/// path for each pass. Ends and outer corners are round, as those of the stroke. Nothing reaches beyond the stroke by
-/// more than `tolerance`, within which offsets of curves are followed, too. A stroke without length becomes a spiral.
-/// All lengths are in one unit. Cost: linear in passes times pieces.
-/// Source: Tiller & Hanson, Offsets of two-dimensional profiles, 1984.
+/// path for each pass. Ends and outer corners are round, as those of the stroke; the rims of ends are scalloped by
+/// less than a pen. Nothing reaches beyond the stroke by more than `tolerance`, within which offsets of curves are
+/// followed, too. A stroke without length becomes a spiral. All lengths are in one unit. Cost: linear in passes times
+/// pieces. Source: Tiller & Hanson, Offsets of two-dimensional profiles, 1984.
 std::vector<PenPath> pen_passes(const PenPath& stroke, double width, double pen, double tolerance);
 
 }  // namespace sikku
