@@ -529,7 +529,13 @@ void check_model(const DrawSettings& settings) {
                   {settings.colours_strokes, "colour-by", reason},
                   {settings.press.marks, "marks", reason},
                   {!settings.press.spots.empty(), "spot", reason},
-                  {settings.press.bleed != 0, "bleed", reason}});
+                  {settings.press.bleed != 0, "bleed", reason},
+                  {!settings.press.cmyk.empty(), "cmyk", reason},
+                  {settings.press.bits != 8, "bits", reason},
+                  {settings.press.screen != Screen{}, "screen", reason},
+                  {settings.step.has_value(), "step", "a model has one unit for each turtle step"},
+                  {settings.rotate != 0, "rotate", "a model is turned where it is used"},
+                  {settings.mirror, "mirror", "a model is mirrored where it is used"}});
 }
 
 void check_placement(const DrawSettings& settings) {

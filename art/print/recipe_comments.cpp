@@ -44,7 +44,7 @@ bool decode(std::string_view text, std::string& bytes) {
 
 std::vector<std::string> recipe_comments(std::string_view pattern, std::string_view made) {
     std::vector<std::string> pieces;
-    if (pattern.size() + made.size() >= most_commented_bytes) return pieces;
+    if (pattern.empty() || pattern.size() + made.size() >= most_commented_bytes) return pieces;
     std::string bytes(made);
     bytes += '\0';
     bytes += pattern;
@@ -65,7 +65,9 @@ std::optional<std::pair<std::string, std::string>> read_recipe_comments(std::str
         at = end;
     }
     const std::size_t middle = bytes.find('\0');
-    if (middle == std::string::npos || !bytes.ends_with('\0') || middle + 1 == bytes.size()) return std::nullopt;
+    if (middle == std::string::npos || bytes.size() < middle + 3) return std::nullopt;
+    // A pattern contains no NUL.
+    if (bytes.find('\0', middle + 1) != bytes.size() - 1) return std::nullopt;
     return std::pair(bytes.substr(middle + 1, bytes.size() - middle - 2), bytes.substr(0, middle));
 }
 

@@ -17,17 +17,19 @@ public:
     }
 };
 
-/// Appears in its place on commit().
+/// Appears in the map on commit().
 class NamedMemory : public MemoryOutput {
 public:
-    explicit NamedMemory(std::string& place) : place_(place) {}
+    NamedMemory(std::map<std::string, std::string>& outputs, std::string name)
+        : outputs_(outputs), name_(std::move(name)) {}
     void commit() override {
         MemoryOutput::commit();
-        place_ = std::move(bytes_);
+        outputs_[name_] = std::move(bytes_);
     }
 
 private:
-    std::string& place_;
+    std::map<std::string, std::string>& outputs_;
+    std::string name_;
 };
 
 }  // namespace
@@ -65,8 +67,7 @@ Destination& file_system() {
 }
 
 std::unique_ptr<Output> MemoryDestination::open(const std::filesystem::path& name) {
-    // References to the elements of a map stay valid.
-    return std::make_unique<NamedMemory>(outputs_[name.string()]);
+    return std::make_unique<NamedMemory>(outputs_, name.string());
 }
 
 std::string MemoryDestination::take(const std::string& name) {

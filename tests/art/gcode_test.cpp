@@ -86,7 +86,11 @@ protected:
             folder_ / "plot.nc", print,
             [&](const Print& is, OutputFile& file) { return write_gcode(is, options_, file); },
             [&](PathSink& sink) { plan.draw(sink); });
-        return contents(folder_ / "plot.nc");
+        std::string whole = contents(folder_ / "plot.nc");
+        for (std::size_t at = 0; (at = whole.find("(recipe: ")) != std::string::npos;) {
+            whole.erase(at, whole.find('\n', at) + 1 - at);
+        }
+        return whole;
     }
     Plot expect_faithful(const Print& print, const PlotPlan& plan) {
         Plot plot = read_gcode(text(plan, print), print.page, options_.lifts_by_z);
@@ -155,13 +159,15 @@ TEST_F(Gcode, CurvesAreWithinAHundredthOfAMillimetre) {
     expect_faithful(print, *arranged(print, draw_sampler));
 }
 
-TEST_F(Gcode, ACircleIsTwoArcs) {
+TEST_F(Gcode, DiscsAreSpiralsOfArcs) {
     const Print print = plain_print();
     for (const double radius : {1.0, 10.0, 29.0}) {
         const auto plan = arranged(print, [&](PathSink& sink) { sink.disc({50, 30}, radius, Pen{}); });
         const Plot plot = expect_faithful(print, *plan);
-        EXPECT_EQ(plot.moves.at(3) + (plot.moves.contains(2) ? plot.moves.at(2) : 0), 2u) << radius;
-        EXPECT_FALSE(plot.moves.contains(1));
+        // A spiral from the edge inwards.
+        const auto count = [&](int move) { return plot.moves.contains(move) ? plot.moves.at(move) : 0; };
+        EXPECT_GE(count(2) + count(3), 2U) << radius;
+        EXPECT_LE(count(1), 1U) << radius;
     }
 }
 

@@ -194,7 +194,7 @@ TEST(Pattern, UnknownKeysNameTheNearestKnown) {
 
 TEST(Pattern, LinesThatAreNothingAreToldSo) {
     expect_mistakes("axiom: F\nF - F+F\n", {{{2, 1}, "expected 'key: value'"}});
-    expect_mistakes("axiom: F\n  F \xE2\x86\x92 F+F\n", {{{2, 5}, "write '-->'"}});
+    expect_mistakes("axiom: F\n  F \xE2\x86\x92 F+F\n", {{{2, 5}, "expected '-->'"}});
     expect_mistakes("axiom: F\nF --> G --> H\n", {{{2, 9}, "a second '-->'"}});
     expect_mistakes("axiom: F\n --> H\n", {{{2, 2}, "expected a predecessor"}});
     expect_mistakes("axiom: F\nA < --> H\n", {{{2, 1}, "expected a predecessor"}});
@@ -238,8 +238,8 @@ TEST(Pattern, AnExceptionCarriesEveryMistake) {
     } catch (const PatternError& error) {
         EXPECT_EQ(error.diagnostics().size(), 2u);
         const std::string text = error.what();
-        EXPECT_EQ(text.find("koch.lsys:1:1: expected"), 0u) << text;
-        EXPECT_NE(text.find("\nF -> G\n^\nkoch.lsys:3:2: "), std::string::npos) << text;
+        EXPECT_EQ(text.find("koch.lsys:1:3: '->' is not the arrow"), 0u) << text;
+        EXPECT_NE(text.find("\nF -> G\n  ^\nkoch.lsys:3:2: "), std::string::npos) << text;
         EXPECT_TRUE(text.ends_with("\n F - F\n ^")) << text;  // a tab is shown as a blank
     }
     EXPECT_NO_THROW(Diagnostics().throw_if_errors());

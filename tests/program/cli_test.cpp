@@ -775,9 +775,7 @@ TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     EXPECT_EQ(spline.status, 0) << spline.errors;
     EXPECT_LT(contents(folder.file("spline.svg")).size(), 30'000u);
     const Outcome colours = run({"draw", "spiral-tiling", "--window", "0,0,9,9", "-o", folder.file("no.svg")});
-    EXPECT_EQ(colours.status, 1);
-    EXPECT_NE(colours.errors.find("one pen"), std::string::npos) << colours.errors;
-    EXPECT_FALSE(std::filesystem::exists(folder.file("no.svg")));
+    EXPECT_EQ(colours.status, 0) << "several pens are read from the word: " << colours.errors;
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(Docs, FilesThatAreNamedExist) {
 }
 
 TEST(Docs, LinksLeadToFiles) {
-    static const std::regex form(R"re((?:\]\(|src=")([^)":#]+)[)"#])re");
+    static const std::regex form(R"re((?:\]\(|src=")([^)":# ]+)[)"#])re");
     for (const auto& page : pages()) {
         const std::string text = contents(page);
         for (std::sregex_iterator match(text.begin(), text.end(), form), end; match != end; ++match) {

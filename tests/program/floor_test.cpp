@@ -40,7 +40,7 @@ TEST(Floor, KeysAndDefinesOfThePatternMayStandAmongTheOptions) {
     const std::string navy = draw(document, "svg", {{"size", "A6"}, {"stroke", "0.3mm navy"}});
     EXPECT_NE(navy.find("#000080"), std::string::npos);
     EXPECT_NE(navy, draw(document, "svg", {{"size", "A6"}}));
-    EXPECT_THROW(draw(document, "svg", {{"strokes", "0.3mm navy"}}), PatternError);
+    EXPECT_THROW(draw(document, "svg", {{"strokes", "0.3mm navy"}}), SettingError);
 }
 
 TEST(Floor, SettingsOfAnInterpreterKeepTheGrammar) {
