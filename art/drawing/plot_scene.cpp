@@ -16,7 +16,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <unordered_set>
 #include <utility>
 
@@ -225,26 +224,7 @@ private:
             line.clear();
         }
         draw_line(line, real, owner_of_polygon(i));
-        draw_folds(vertices, placed, real, owner_of_polygon(i));
         if (options_.hatch) hatch(vertices, placed, real, owner_of_polygon(i));
-    }
-
-    /// Where a polygon that is not flat turns away from the eye.
-    void draw_folds(std::span<const glm::vec3> vertices, std::span<const glm::dvec3> placed, const Pen& pen,
-                    Owner owner) {
-        if (vertices.size() < 4) return;
-        std::map<std::pair<std::uint32_t, std::uint32_t>, bool> faces;  // by edge, of the first triangle there
-        for (const auto& corners : triangulate(vertices).triangles) {
-            const glm::dvec3 a = placed[corners[0]], b = placed[corners[1]], c = placed[corners[2]];
-            const glm::dvec3 normal = glm::cross(b - a, c - a);
-            if (!(std::fabs(normal.z) > 1e-3 * glm::length(normal))) continue;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto edge = std::minmax(corners[k], corners[(k + 1) % 3]);
-                const auto [found, is_new] = faces.emplace(edge, normal.z > 0);
-                if (is_new || found->second == (normal.z > 0)) continue;
-                draw_line(std::array{placed[edge.first], placed[edge.second]}, pen, owner);
-            }
-        }
     }
 
     void hatch(std::span<const glm::vec3> vertices, std::span<const glm::dvec3> placed, const Pen& pen, Owner owner) {
@@ -252,6 +232,14 @@ private:
         std::vector<Facet> facets;
         for (const auto& corners : triangulate(vertices).triangles) {
             facets.emplace_back(placed[corners[0]], placed[corners[1]], placed[corners[2]]);
+        }
+        // One that is folded on the page is hatched in its mean plane.
+        const auto is_front = [](const Facet& facet) { return facet.is_seen && !facet.is_back; };
+        const auto is_back = [](const Facet& facet) { return facet.is_seen && facet.is_back; };
+        if (std::any_of(facets.begin(), facets.end(), is_front) &&
+            std::any_of(facets.begin(), facets.end(), is_back)) {
+            facets.assign(1, Facet(placed));
+            if (!facets[0].is_seen) return;
         }
         const std::vector<glm::dvec2> flat(placed.begin(), placed.end());
         const double width = pen_steps(pen);
@@ -269,13 +257,32 @@ private:
         glm::dvec3 plane{0.0};
         double low = 0, high = 0;  ///< depths
         bool is_seen = false;
+        bool is_back = false;  ///< clockwise on the page
 
+        /// The whole page in the mean plane of a polygon.
+        explicit Facet(std::span<const glm::dvec3> polygon) {
+            const std::vector<glm::vec3> vertices(polygon.begin(), polygon.end());
+            const glm::dvec3 normal = area_normal(vertices);
+            is_seen = std::fabs(normal.z) > 1e-3 * glm::length(normal);
+            if (!is_seen) return;
+            glm::dvec3 middle(0.0);
+            low = high = polygon[0].z;
+            for (const glm::dvec3& at : polygon) {
+                middle += at / static_cast<double>(polygon.size());
+                low = std::min(low, at.z);
+                high = std::max(high, at.z);
+            }
+            const glm::dvec2 slope = -glm::dvec2(normal) / normal.z;
+            plane = {slope, middle.z - glm::dot(slope, glm::dvec2(middle))};
+            shares = glm::dmat3(glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(1.0));
+        }
         Facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
             const glm::dmat3 corners(glm::dvec3(a.x, a.y, 1), glm::dvec3(b.x, b.y, 1), glm::dvec3(c.x, c.y, 1));
             const double area = glm::determinant(corners);
             const double size = glm::distance(a, b) + glm::distance(a, c);
             is_seen = std::fabs(area) > 1e-6 * size * size;
             if (!is_seen) return;
+            is_back = area < 0;
             low = std::min({a.z, b.z, c.z});
             high = std::max({a.z, b.z, c.z});
             shares = glm::inverse(corners);

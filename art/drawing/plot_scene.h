@@ -9,13 +9,13 @@ namespace sikku {
 /// Draws into `sink`, in turtle steps as they are projected, strokes alone, in the pens of with_fill_pens():
 /// - stems along their middles, joined where they go on; with a `pen_width`, those that are wider in several passes,
 ///   as wide at both ends as the stem is there;
-/// - polygons as outlines, edges once, and not where a stem runs along them, and the folds in which one that is not
-///   flat turns away from the eye; hatched if that is asked for;
+/// - polygons as outlines, edges once, and not where a stem runs along them; hatched if that is asked for;
 /// - spheres and dots filled by spirals.
 ///
 /// What lies behind polygons, spheres and stems over 0.5 mm wide (and over one pen) is not drawn; HiddenLines says
 /// how. Limits: a stem hides as a flat band through its middle that faces the eye; a polygon that is not flat hides
-/// as the triangles of triangulate(), and its hatching lies on them. Thinner stems hide nothing: what lies behind
+/// as the triangles of triangulate(), and its hatching lies on them, or in its mean plane if it is
+/// folded on the page; folds are not drawn. Thinner stems hide nothing: what lies behind
 /// them is covered by their ink.
 /// @param print  placed, in a style that draws lines
 /// Cost: 1 to 5 µs for each line and each surface in plants that were tried; more where many large surfaces overlap,

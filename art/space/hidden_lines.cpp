@@ -199,7 +199,7 @@ void HiddenLines::look_in_cell(std::int64_t cell, Interval within, const glm::dv
          i < begin_[static_cast<std::size_t>(cell) + 1] && !seen.empty(); ++i) {
         const Surface& surface = surfaces_[inside_[i]];
         if (surface.nearest + steepest * rounding_ < farthest) break;
-        if (surface.owner != owner || surface.count > 0) hide(surface, a, b, owner, seen);
+        if (surface.owner != owner) hide(surface, a, b, owner, seen);
     }
     for (const Interval& part : seen) {
         if (!visible.empty() && visible.back().to >= part.from) {

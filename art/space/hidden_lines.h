@@ -16,7 +16,7 @@ namespace sikku {
 /// Surfaces seen along z, which points to the eye: flat convex polygons and balls. A line is hidden where a surface
 /// lies nearer to the eye; the depth is compared at each point, so that surfaces that run through each other hide
 /// each other in part. Surfaces at the same depth hide lines of earlier owners, as later ones are painted over
-/// earlier ones. A surface does not hide lines along its edges, and a ball not those of its owner.
+/// earlier ones. A surface hides neither lines along its edges nor those of its owner.
 ///
 /// Cost: for each cell of a grid that a line passes through, the surfaces there from the nearest on, until the line
 /// is hidden or everything else lies behind it; memory: about 200 bytes a surface.
