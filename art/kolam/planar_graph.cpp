@@ -98,7 +98,7 @@ private:
                 if (pairs > options_.budget || 10 * static_cast<double>(cuts_.size()) > options_.budget) {
                     throw BudgetError(
                         "so many segments of the drawing meet that examining it takes more than the "
-                        "budget; -n with a smaller number, or a larger --budget, helps");
+                        "budget; a shorter derivation or a larger budget helps");
                 }
                 if (((i - begin) & 1023) == 1023) breathe(options_);
             }
