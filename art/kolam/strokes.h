@@ -53,7 +53,7 @@ public:
             if (static_cast<double>(strokes.nodes.size()) > most_) {
                 throw BudgetError(
                     fmt::format("the drawing has more than {:.0f} segments, which takes more than the "
-                                "budget; -n with a smaller number, or a larger --budget, helps",
+                                "budget; a shorter derivation or a larger budget helps",
                                 most_));
             }
         }
