@@ -112,7 +112,7 @@ void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
 bool check(const std::string& file) {
     if (const std::string_view format = known_format(file); !format.empty()) {
         throw UsageError(
-            fmt::format("{}: this is a {} file, not a pattern; `sikku show` prints the pattern it was made "
+            fmt::format("{}: this file is {}, not a pattern; `sikku show` prints the pattern it was made "
                         "from",
                         file, format));
     }
