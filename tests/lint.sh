@@ -20,6 +20,9 @@ if [ "$all" != --all ]; then
         grep '\.cpp$' || true)
 fi
 mkdir -p "$build/tidy"
+# Precompiled headers are for the compiler that made them: clang-tidy cannot read those of g++.
+sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
+    > "$build/tidy/compile_commands.json"
 # The headers and settings that any source may see.
 seen=$(cat .clang-tidy $(find engine art music cli -name '*.h' | sort) | sha256sum | cut -c1-24)
 export build seen
@@ -28,7 +31,7 @@ tidy() {
     shift
     stamp=$build/tidy/$(cat "$source" <(echo "$seen" "$@") | sha256sum | cut -c1-32)
     [ ! -e "$stamp" ] || return 0
-    clang-tidy -p "$build" --quiet --warnings-as-errors='*' "$@" "$source" 2> /dev/null && touch "$stamp"
+    clang-tidy -p "$build/tidy" --quiet --warnings-as-errors='*' "$@" "$source" 2> /dev/null && touch "$stamp"
 }
 export -f tidy
 if [ "${#wanted[@]}" -gt 0 ]; then
