@@ -1,6 +1,7 @@
 // art/draw_settings.h: the options of a print, typed, and the one table that reads them.
 #pragma once
 
+#include "art/drawing/draw_options.h"
 #include "art/drawing/growth.h"
 #include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
@@ -70,6 +71,9 @@ DrawSettings read_draw_settings(const OptionValues& values);
 
 /// The style of a document, with what the settings change: `dots` and `view`. @throws SettingError, PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
+
+/// How the drawing looks, on its own page as in the cell of a sheet.
+DrawingOptions drawing_options(const DrawSettings& settings);
 
 /// Checks the combination of settings with each other and with a format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

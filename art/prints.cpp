@@ -86,18 +86,11 @@ private:
     }
 
     void plan_drawing() {
+        static_cast<DrawingOptions&>(drawing_) = drawing_options(settings_);
         drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
-        drawing_.placement.rotate = settings_.rotate;
-        drawing_.placement.mirror = settings_.mirror;
-        drawing_.placement.step = settings_.step;
-        drawing_.window = settings_.window;
-        drawing_.only_dots = settings_.only_dots;
         drawing_.dot_spacing = settings_.dot_spacing;
-        drawing_.colours_strokes = settings_.colours_strokes;
-        drawing_.border = settings_.border;
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression;
-        drawing_.budget = settings_.budget;
         if (settings_.tile) drawing_.tiles = TileOptions{*settings_.tile, settings_.overlap};
         if (!settings_.plotter && !is_for_plotters(format_)) return;
         PlotOptions& plot = drawing_.plot.emplace();
@@ -115,12 +108,12 @@ private:
         const bool is_spatial = document_.grammar().is_spatial();
         if (is_model()) require_straight("models have straight lines, not splines");
         if (settings_.generations && document_.has_override("derivation length")) {
-            throw SettingError("generations", "", "cannot be combined with a derivation length");
+            refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (!is_spatial) return;
         require_straight("drawings that pitch, roll or bend have straight lines, not splines");
         constexpr const char* plane = "only for drawings in the plane; this one pitches, rolls or bends";
-        const auto refuse = [](const char* option, const char* why) { throw SettingError(option, "", why); };
+        const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
         if (settings_.border) refuse("border", plane);
@@ -325,14 +318,15 @@ public:
                                const std::filesystem::path& folder) const override {
         DrawSettings settings = read_draw_settings(values);
         if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
-        check_draw_settings(settings, known(format));
-        return std::make_unique<PrintWork>(document, known(format), std::move(settings));
+        const PrintFormat print = known(format);
+        check_draw_settings(settings, print);
+        return std::make_unique<PrintWork>(document, print, std::move(settings));
     }
 
 private:
     static PrintFormat known(std::string_view format) {
         if (const auto found = named_format(format)) return *found;
-        throw SettingError("format", std::string(format), "unknown format");
+        refuse_option("format", std::string(format), "unknown format");
     }
     std::vector<FormatName> formats_;
     std::vector<const OptionInfo*> options_;

@@ -58,6 +58,9 @@ struct FormatName {
     bool is_several = false;     ///< needs several derivation lengths, or has several files
 };
 
+/// The row of that extension or alias (any case), or null.
+const FormatName* find_format(std::span<const FormatName> formats, std::string_view name);
+
 /// Makes works. Stateless; there is one of each kind.
 class Interpreter {
 public:
@@ -77,6 +80,10 @@ public:
     virtual std::unique_ptr<Work> plan(const Document& document, std::string_view format, const OptionValues& values,
                                        const std::filesystem::path& folder = {}) const = 0;
 };
+
+/// Document::compile(), and the values of the keys that these interpreters own are checked.
+Document compile(std::string name, std::string text, const Overrides& overrides,
+                 std::span<const Interpreter* const> interpreters, Diagnostics& diagnostics);
 
 /// How the program makes the same: `sikku 0.1.0, -n 4 --window … --set '…'`, which outputs keep beside the text of
 /// the pattern.

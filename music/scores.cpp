@@ -49,14 +49,6 @@ constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi
                                                           {{"notes.svg", "the notes", "svg"}, ScoreFormat::svg},
                                                           {{"html", "play"}, ScoreFormat::html}}};
 
-std::optional<ScoreFormat> score_format(std::string_view extension) {
-    const std::string name = lower_case(extension);
-    for (const ScoreFormatInfo& row : format_table) {
-        if (name == row.name.extension || (!row.name.alias.empty() && name == row.name.alias)) return row.format;
-    }
-    return std::nullopt;
-}
-
 /// A pattern that is a part of the score.
 struct Player {
     Document document;
@@ -600,9 +592,12 @@ Cost ScoreWork::forecast() const {
     return result;
 }
 
+/// @throws SettingError
 ScoreFormat known(std::string_view format) {
-    if (const auto found = score_format(format)) return *found;
-    throw SettingError("format", std::string(format), "unknown format");
+    for (const ScoreFormatInfo& row : format_table) {
+        if (find_format(std::span(&row.name, 1), format)) return row.format;
+    }
+    refuse_option("format", std::string(format), "unknown format");
 }
 
 class Scores : public Interpreter {

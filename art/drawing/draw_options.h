@@ -23,16 +23,21 @@ struct DrawnExtent {
     double around = 0.0;  ///< the same, of what goes on around a window
 };
 
-struct DrawOptions {
-    PrintFormat format = PrintFormat::svg;
+/// How a drawing looks, on a page of its own and in the cell of a sheet.
+struct DrawingOptions {
     PlacementOptions placement;
+    std::optional<ViewWindow> window;  ///< the part of the drawing that fills the page within its margins
+    bool may_be_empty = false;         ///< one of several generations: if it draws nothing, its page is empty
+    bool only_dots = false;            ///< of a kolam: a sheet to practise on
+    bool colours_strokes = false;      ///< each stroke in the next colour of the palette
+    bool border = false;               ///< of red earth, within the margins: see draw_border()
+    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
+};
+
+struct DrawOptions : DrawingOptions {
+    PrintFormat format = PrintFormat::svg;
     std::optional<DrawnExtent> frame;   ///< what is placed on the page instead of what is seen
-    std::optional<ViewWindow> window;   ///< of lines in one pen: what fills the page within its margins
-    bool may_be_empty = false;          ///< one of several generations: if it draws nothing, its page is empty
-    bool only_dots = false;             ///< of a kolam: a sheet to practise on
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
-    bool colours_strokes = false;       ///< each stroke in the next colour of the palette
-    bool border = false;                ///< of red earth, within the margins: see draw_border()
     /// Lines are arranged for a plotter, as those of HP-GL and G-code always are. Start and home are set by the
     /// format.
     std::optional<PlotOptions> plot;
@@ -42,10 +47,9 @@ struct DrawOptions {
     /// The print is cut into sheets, each a file (tile_file()). The page is then that of the whole; with a step
     /// given, as large as the drawing within its margins.
     std::optional<TileOptions> tiles;
-    int threads = 0;        ///< for raster formats; 0: all cores
-    int compression = 6;    ///< of PNG: 1, quick and large, to 9
-    double budget = 200e6;  ///< most nodes of the derivation that are visited in one pass
-    Monitor monitor = {};   ///< polled wherever drawing takes long without reading words
+    int threads = 0;       ///< for raster formats; 0: all cores
+    int compression = 6;   ///< of PNG: 1, quick and large, to 9
+    Monitor monitor = {};  ///< polled wherever drawing takes long without reading words
     /// Called once, before the word is read, with how many times it will be. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to

@@ -38,15 +38,6 @@ std::string bytes_text(double bytes) {
     return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-namespace {
-
-bool has_option(const Interpreter& interpreter, std::string_view name) {
-    const auto options = interpreter.options();
-    return std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) { return info->name == name; });
-}
-
-}  // namespace
-
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";
     return fmt::format("it takes about {} of memory, more than is left for it ({})", bytes_text(forecast.memory),
@@ -192,7 +183,8 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.job = job.text();
     const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
         OptionValues values = job.values();
-        if (has_option(job.interpreter(), "jobs")) values.push_back({"jobs", std::to_string(turn.threads)});
+        if (find_option(job.interpreter().options(), "jobs"))
+            values.push_back({"jobs", std::to_string(turn.threads)});
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);

@@ -598,12 +598,8 @@ Document GalleryJob::document() const {
     }
     return documents->get(key, pattern->text->text.size(), [&] {
         Diagnostics diagnostics;
-        Document document = Document::compile(pattern->text->name, pattern->text->text, settings, diagnostics);
-        if (!diagnostics.is_unreadable()) {
-            for (const Interpreter* interpreter : language->interpreters()) {
-                interpreter->check_keys(document.pattern(), diagnostics);
-            }
-        }
+        Document document =
+            compile(pattern->text->name, pattern->text->text, settings, language->interpreters(), diagnostics);
         diagnostics.throw_if_errors();
         return document;
     });

@@ -121,15 +121,9 @@ auto named(const SheetCell& cell, Work&& work) {
 
 DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     DrawOptions drawing;
+    static_cast<DrawingOptions&>(drawing) = cell;
     drawing.format = options.format;
-    drawing.placement = cell.placement;
     drawing.placement.scale = 1.0;
-    drawing.window = cell.window;
-    drawing.only_dots = cell.only_dots;
-    drawing.colours_strokes = cell.colours_strokes;
-    drawing.border = cell.border;
-    drawing.may_be_empty = cell.may_be_empty;
-    drawing.budget = cell.budget;
     return drawing;
 }
 

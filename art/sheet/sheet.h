@@ -17,19 +17,13 @@ namespace sikku {
 
 /// One drawing of a sheet. It fills its cell, on its own ground, in its own style. Widths in millimetres are meant
 /// for an A4 page, and grow or shrink as the drawing does; but a line that was wider stays at least 0.1 mm wide.
-struct SheetCell {
+/// Of the placement, turning, mirroring and a step in millimetres count; scale does not.
+struct SheetCell : DrawingOptions {
     std::shared_ptr<const Grammar> grammar;
     Style style;
-    PlacementOptions placement;        ///< turning and mirroring; a step in millimetres counts, scale does not
     std::string title;                 ///< of its layers
     std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
     std::string heading;               ///< if there is one, a row begins here, under it
-    std::optional<ViewWindow> window;  ///< what of the drawing fills the cell; see DrawOptions
-    bool only_dots = false;            ///< of a kolam, whose dots the style has
-    bool colours_strokes = false;      ///< each stroke in the next colour of the palette
-    bool border = false;               ///< of red earth, around the cell
-    bool may_be_empty = false;         ///< if nothing is drawn the cell is empty
-    double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
 };
 
 struct SheetOptions {
