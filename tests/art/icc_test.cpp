@@ -53,9 +53,6 @@ std::size_t tag(const std::string& profile, const std::string& name) {
     return 0;
 }
 
-#define NEEDS(program) \
-    if (!has_program(program)) GTEST_SKIP() << "no " program " on this machine"
-
 class Icc : public ::testing::Test {
 protected:
     std::filesystem::path write(const std::string& name, ImageSpec spec, const Bytes& pixels) {
