@@ -193,6 +193,8 @@ private:
     Measures measures(const Grid& grid) const;
     double drawn_step(const Subject& subject, double width, double height, double factor) const;
     double pen_factor(const SheetCell& cell, double width, double height) const;
+    void lay_out(const Grid& grid, const Measures& m);
+    void place_drawings(const Measures& m);
     void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
@@ -409,6 +411,14 @@ const Plan& Sheet::arrange() {
                         options_.page.width, options_.page.height));
     }
     const Measures m = measures(*best);
+    lay_out(*best, m);
+    place_drawings(m);
+    check_inks();
+    return plan_;
+}
+
+/// Texts and cells, without their drawings.
+void Sheet::lay_out(const Grid& grid, const Measures& m) {
     const Page& page = options_.page;
     const double shorter = std::min(page.width, page.height);
     if (!options_.title.empty()) {
@@ -423,13 +433,13 @@ const Plan& Sheet::arrange() {
                                small,
                                text_pen(stem * small, true)});
     }
-    plan_.layout.columns = best->columns;
-    plan_.layout.rows = static_cast<int>(best->rows.size());
+    plan_.layout.columns = grid.columns;
+    plan_.layout.rows = static_cast<int>(grid.rows.size());
     plan_.layout.letters = m.letters;
     double top = m.first.y;
     std::size_t next = 0;
-    for (std::size_t row = 0; row < best->rows.size(); ++row) {
-        if (best->headed[row]) {
+    for (std::size_t row = 0; row < grid.rows.size(); ++row) {
+        if (grid.headed[row]) {
             const double height = m.letters * 1.35;
             plan_.texts.push_back({shortened(cells_[next].heading, height, page.width - page.margin - m.first.x),
                                    {m.first.x, top + height},
@@ -438,9 +448,9 @@ const Plan& Sheet::arrange() {
             top += m.heading;
         }
         // Rows under a heading begin below it, others stand in the middle.
-        const bool is_headed = std::find(best->headed.begin(), best->headed.end(), true) != best->headed.end();
-        const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
-        for (int column = 0; column < best->rows[row]; ++column, ++next) {
+        const bool is_headed = std::find(grid.headed.begin(), grid.headed.end(), true) != grid.headed.end();
+        const double indent = is_headed ? 0.0 : (grid.columns - grid.rows[row]) * m.across / 2;
+        for (int column = 0; column < grid.rows[row]; ++column, ++next) {
             PlacedCell cell;
             cell.window = {m.first.x + indent + column * m.across,     top, m.width, m.height, false,
                            border_margin * std::min(m.width, m.height)};
@@ -451,7 +461,10 @@ const Plan& Sheet::arrange() {
         }
         top += m.down;
     }
+}
 
+/// The drawings into their cells.
+void Sheet::place_drawings(const Measures& m) {
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
@@ -493,8 +506,6 @@ const Plan& Sheet::arrange() {
         print.press = options_.press;
         if (options_.format != PrintFormat::pdf) print = as_picture(print);
     }
-    check_inks();
-    return plan_;
 }
 
 /// Spot colours may be those of any cell. @throws std::runtime_error if one is of none
