@@ -24,14 +24,6 @@
 namespace sikku {
 namespace {
 
-std::string time_text(double seconds) {
-    if (!(seconds < 1e12)) return "forever";
-    const auto whole = static_cast<long long>(std::llround(seconds));
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
-
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     const auto line = [&](const PlotTally& tally) {
         return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,

@@ -274,13 +274,6 @@ ScoreHead head_of(const PlaySettings& options, std::vector<Player>& players, con
     return head;
 }
 
-std::string time_text(double seconds) {
-    if (!std::isfinite(seconds) || seconds > 1e12) return fmt::format("{:.3g} years", seconds / 31'556'952);
-    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 Integer bars_of(const Integer& ticks, const Meter& meter) {
     return (ticks + meter.bar() - 1) / meter.bar();
 }

@@ -1,12 +1,12 @@
 #include "art/gallery/batch.h"
 
+#include "engine/base/text.h"
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -19,24 +19,6 @@ namespace {
 constexpr int most_picture_threads = 3;
 
 }  // namespace
-
-std::string time_text(double seconds) {
-    if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
-    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
-    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3599.5) {
-        const auto whole = static_cast<long>(std::lround(seconds));
-        return fmt::format("{} min {} s", whole / 60, whole % 60);
-    }
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-std::string bytes_text(double bytes) {
-    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
-    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
-    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
-    return fmt::format("{:.1f} GB", bytes / 1e9);
-}
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";

@@ -18,11 +18,6 @@
 
 namespace sikku {
 
-/// `3.2 s`, `1 min 20 s`, `2.5 h`.
-std::string time_text(double seconds);
-/// `17 kB`, `1.2 GB`.
-std::string bytes_text(double bytes);
-
 /// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
 
