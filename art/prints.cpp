@@ -64,7 +64,8 @@ public:
     }
 
     Cost forecast() const override;
-    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) override;
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+              int threads) override;
 
 private:
     bool is_model() const { return info(format_).kind == FormatKind::model; }
@@ -229,9 +230,11 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
 }
 
-Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
+Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                     int threads) {
     Made made;
     DrawOptions options = drawing_;
+    if (threads > 0) options.threads = threads;
     options.monitor = monitor;
     options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };

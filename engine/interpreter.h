@@ -46,8 +46,10 @@ public:
     /// The names and contents of files, other than the pattern, that decide what the output holds.
     virtual std::vector<std::pair<std::string, std::string>> read_files() const { return {}; }
     /// Writes `name`, and outputs beside it where the format has several, all or none.
+    /// @param threads  for pixels; 0: as the options say
     /// @throws SettingError, BudgetError, WordError, Stopped; std::runtime_error if an output cannot be written
-    virtual Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) = 0;
+    virtual Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                      int threads = 0) = 0;
 };
 
 /// One format of an interpreter: `svg`, `mid`.

@@ -436,7 +436,8 @@ public:
 
     Cost forecast() const override;
     std::vector<std::pair<std::string, std::string>> read_files() const override { return files_; }
-    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) override;
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+              int threads) override;
     std::string describe(const Monitor& monitor) const {
         return description(players_, piece_of(settings_, players_.front().melody, monitor),
                            settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
@@ -534,7 +535,8 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
 
-Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
+Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                     int /*threads*/) {
     Made made;
     for (const Player& player : players_) {
         for (const std::string& warning : player.warnings) made.warn(warning);

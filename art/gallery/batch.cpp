@@ -170,10 +170,10 @@ FinishedJob Batch::make_job(const Turn& turn) {
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);
-        const Document document = job.document();
-        for (const Diagnostic& warning : document.warnings()) told.push_back(warning.text());
-        const auto work = job.interpreter().plan(document, job.format, values, job.folder);
-        for (const Remark& remark : work->make(file_system(), path, monitor).remarks) {
+        for (const Diagnostic& warning : job.document().warnings()) told.push_back(warning.text());
+        const auto work = job.work();
+        job.works->forget(job.file());
+        for (const Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
             told.push_back((remark.is_warning ? "warning: " : "") + remark.text);
         }
     };

@@ -1,12 +1,15 @@
-// art/gallery/documents.h: keeps compiled patterns, so that the prints, scores and sheets of a pattern share one.
+// art/gallery/documents.h: keeps compiled patterns, so that the prints, scores and sheets of a pattern share one, and
+// planned works, so that what was planned for the forecast is what is made.
 #pragma once
 
+#include "engine/interpreter.h"
 #include "engine/language/document.h"
 
 #include <cstddef>
 #include <functional>
 #include <future>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <unordered_map>
@@ -34,6 +37,28 @@ private:
     std::unordered_map<std::string, std::list<Entry>::iterator> known_;
     std::size_t bytes_ = 0;
     std::size_t compiled_ = 0;
+};
+
+/// Works from when they are planned until they are made, with at most 64 MB of text together; those beyond that are
+/// planned again when they are needed. For several threads.
+class Works {
+public:
+    /// Returns the work of that key. @param bytes  size of its text  @throws what `plan` throws
+    std::shared_ptr<Work> get(const std::string& key, std::size_t bytes,
+                              const std::function<std::unique_ptr<Work>()>& plan);
+    void forget(const std::string& key);
+    /// How often a work was planned.
+    std::size_t planned() const;
+
+private:
+    struct Entry {
+        std::shared_ptr<Work> work;
+        std::size_t bytes;
+    };
+    mutable std::mutex mutex_;
+    std::unordered_map<std::string, Entry> known_;
+    std::size_t bytes_ = 0;
+    std::size_t planned_ = 0;
 };
 
 }  // namespace sikku

@@ -13,11 +13,10 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
         return result;
     }
     try {
-        const Document document = job.document();
         if (exact) {
-            if (const auto word = forecast(document.grammar(), false)) result.symbols = word->length();
+            if (const auto word = forecast(job.document().grammar(), false)) result.symbols = word->length();
         }
-        const Cost cost = job.interpreter().plan(document, job.format, job.values(), job.folder)->forecast();
+        const Cost cost = job.work()->forecast();
         result.seconds = cost.seconds;
         result.bytes = cost.bytes;
         result.memory = cost.memory;

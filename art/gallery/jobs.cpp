@@ -323,6 +323,7 @@ private:
         GalleryJob job;
         job.language = &keys_;
         job.documents = documents_;
+        job.works = works_;
         job.format = format;
         job.pattern = pattern;
         job.place = item.place;
@@ -418,6 +419,7 @@ private:
     std::map<std::pair<std::shared_ptr<const std::vector<std::string>>, std::filesystem::path>, PatternShelf::List>
         found_;
     std::shared_ptr<Documents> documents_ = std::make_shared<Documents>();
+    std::shared_ptr<Works> works_ = std::make_shared<Works>();
     Compilations compilations_;
     std::map<const GalleryPattern*, bool> defines_angle_;
     std::vector<PatternShelf::List> patterns_;
@@ -562,8 +564,7 @@ std::string GalleryJob::hash() const {
         const std::string whole = text() + pattern->text->text;
         if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
             try {
-                for (const auto& [file, held] :
-                     interpreter().plan(document(), format, values(), folder)->read_files()) {
+                for (const auto& [file, held] : work()->read_files()) {
                     hash.add_piece(file);
                     hash.add_piece(held);
                 }
@@ -603,6 +604,11 @@ Document GalleryJob::document() const {
         diagnostics.throw_if_errors();
         return document;
     });
+}
+
+std::shared_ptr<Work> GalleryJob::work() const {
+    const std::size_t bytes = pattern->text ? pattern->text->text.size() : 0;
+    return works->get(file(), bytes, [&] { return interpreter().plan(document(), format, values(), folder); });
 }
 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys) {

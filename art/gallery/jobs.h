@@ -27,6 +27,7 @@ struct GalleryJob {
     std::string format;  ///< the ending: svg, png, mid …; `notes.svg` is the score of `sikku play`
     const GalleryKeys* language = nullptr;  ///< must outlive the job
     std::shared_ptr<Documents> documents;   ///< shared by the jobs of a gallery
+    std::shared_ptr<Works> works;           ///< likewise
     std::shared_ptr<const GalleryPattern> pattern;
     std::map<std::string, std::string> keys;       ///< options of draw and play that were given and matter here
     std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
@@ -42,6 +43,8 @@ struct GalleryJob {
     /// Its pattern with its overrides, compiled once for all jobs that have the same. @throws PatternError,
     /// GalleryError
     Document document() const;
+    /// Planned once, unless there are too many to keep. @throws what Interpreter::plan() and document() throw
+    std::shared_ptr<Work> work() const;
     /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
     std::string text() const;
     /// 32 hexadecimal digits of all that decides what the file holds: settings, pattern, files the pattern names,
