@@ -14,11 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
-#include <optional>
-#include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -182,6 +180,7 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.made = print_.made;
     sheet.threads = options.threads;
     sheet.compression = options.compression;
+    sheet.monitor = options.monitor;
     sheet.watch = options.watch;
     draw_sheet(generations(cell, first, last), sheet, name, destination);
 }

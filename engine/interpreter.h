@@ -45,7 +45,7 @@ public:
     virtual Cost forecast() const = 0;
     /// The names and contents of files, other than the pattern, that decide what the output holds.
     virtual std::vector<std::pair<std::string, std::string>> read_files() const { return {}; }
-    /// Writes `name`, and outputs beside it where the format has several, all or none.
+    /// Writes `name`, and outputs beside it where the format has several; each appears whole or not at all.
     /// @param threads  for pixels; 0: as the options say
     /// @throws SettingError, BudgetError, WordError, Stopped; std::runtime_error if an output cannot be written
     virtual Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,

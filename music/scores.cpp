@@ -1,5 +1,6 @@
 #include "music/scores.h"
 
+#include "engine/base/chance.h"
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 #include "engine/base/output_file.h"
@@ -22,10 +23,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 namespace sikku {
@@ -86,9 +85,8 @@ public:
     void notes(std::span<const Note> notes) override {
         changed_.assign(notes.begin(), notes.end());
         for (Note& note : changed_) {
-            const std::uint64_t chance =
-                scrambled(seed_ ^ scrambled(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
-                                            static_cast<std::uint64_t>(note.voice)));
+            const std::uint64_t chance = next(seed_ ^ next(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
+                                                           static_cast<std::uint64_t>(note.voice)));
             const double late = static_cast<double>(chance >> 40) / 0x1p24;
             const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
             const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
@@ -103,12 +101,7 @@ public:
 
 private:
     /// Steele, Lea and Flood 2014: SplitMix64.
-    static std::uint64_t scrambled(std::uint64_t value) {
-        value += 0x9E3779B97F4A7C15;
-        value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9;
-        value = (value ^ (value >> 27)) * 0x94D049BB133111EB;
-        return value ^ (value >> 31);
-    }
+    static std::uint64_t next(std::uint64_t value) { return scrambled(value + 0x9E3779B97F4A7C15); }
     NoteSink& sink_;
     double amount_;
     std::uint64_t seed_;
@@ -130,13 +123,8 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     std::error_code error;
     const bool is_there = std::filesystem::exists(first / name, error);
     const std::filesystem::path path = (is_there ? first : then) / name;
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(most_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!stream.eof() && text.size() <= most_bytes) {
-        throw std::runtime_error(fmt::format("{}: this file cannot be read", name));
-    }
+    if (std::filesystem::is_fifo(path, error)) throw std::runtime_error(fmt::format("{}: this is a pipe", name));
+    std::string text = read_file(path, name, most_bytes);
     if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
     if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
     return text;
@@ -570,7 +558,10 @@ Cost ScoreWork::forecast() const {
         const auto known = estimate(grammar, true);
         double nodes = std::min(known ? known->nodes : unknown_symbols, settings_.budget);
         double notes = std::min(known ? drawn_symbols(grammar, *known) : nodes / 2, nodes);
-        if (settings_.bars > 0 || settings_.seconds > 0) nodes = notes = std::min(notes, 10'000.0);
+        if (settings_.bars > 0 || settings_.seconds > 0) {
+            nodes = notes = std::min(
+                notes, std::max(10'000.0, 64.0 * static_cast<double>(settings_.bars) + 32 * settings_.seconds));
+        }
         result.seconds += 0.0015 + nodes * 15e-9 + notes * 80e-9 + matching_seconds(grammar, settings_.budget);
         result.bytes += 600 + notes * 9;
         result.memory += 8e6;

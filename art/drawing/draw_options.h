@@ -12,6 +12,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 namespace sikku {
@@ -56,6 +58,16 @@ struct DrawOptions : DrawingOptions {
     /// stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
+
+/// The options with a `watch` that is called from one thread at a time.
+inline DrawOptions with_locked_watch(DrawOptions options) {
+    if (!options.watch) return options;
+    options.watch = [watch = options.watch, mutex = std::make_shared<std::mutex>()](std::uint64_t symbols) {
+        const std::scoped_lock lock(*mutex);
+        watch(symbols);
+    };
+    return options;
+}
 
 /// What became of it.
 struct DrawReport {

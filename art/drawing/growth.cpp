@@ -163,7 +163,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                         most_frames, most_steps));
     }
     Print print = given;
-    DrawOptions options = given_options;
+    DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
     if (!is_vector(options.format)) prepare_images(options.threads);
     if (options.dot_spacing) set_step(grammar, print.style, options, growth);

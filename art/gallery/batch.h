@@ -12,7 +12,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,8 @@ namespace sikku {
 /// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
 
-/// Receives the output path and a list for its messages.
-using FileMaker = std::function<void(const std::filesystem::path& path, std::vector<std::string>& told)>;
+/// Makes a file at a path; what there is to tell goes to `file`.
+using FileMaker = std::function<void(const std::filesystem::path& path, FinishedJob& file)>;
 
 /// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
 /// @param file  its `file`, `hash` and `job` are known

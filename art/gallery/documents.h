@@ -6,9 +6,11 @@
 #include "engine/language/document.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -47,6 +49,9 @@ public:
     std::shared_ptr<Work> get(const std::string& key, std::size_t bytes,
                               const std::function<std::unique_ptr<Work>()>& plan);
     void forget(const std::string& key);
+    /// The hash of a file of up to 16 MB that works read, computed once; empty if it cannot be read, which the work
+    /// itself reports.
+    std::string digits_of(const std::filesystem::path& file);
     /// How often a work was planned.
     std::size_t planned() const;
 
@@ -57,6 +62,7 @@ private:
     };
     mutable std::mutex mutex_;
     std::unordered_map<std::string, Entry> known_;
+    std::map<std::filesystem::path, std::string> digits_;
     std::size_t bytes_ = 0;
     std::size_t planned_ = 0;
 };

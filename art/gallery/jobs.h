@@ -5,6 +5,7 @@
 #include "art/gallery/documents.h"
 #include "art/gallery/keys.h"
 #include "art/gallery/patterns.h"
+#include "engine/base/hash.h"
 #include "engine/interpreter.h"
 
 #include <cstdint>
@@ -71,20 +72,7 @@ struct GalleryRequest {
 /// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
 /// @throws GalleryError with file, line and column for every error that can be detected before a pattern is compiled;
-/// Interrupted
+/// Stopped
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys);
-
-/// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.
-class TextHash {
-public:
-    void add(std::string_view bytes);
-    /// The same, but with its length, so that pieces cannot run into each other.
-    void add_piece(std::string_view bytes);
-    std::string digits() const;
-
-private:
-    std::uint64_t high_ = 0x6c62272e07bb0142;
-    std::uint64_t low_ = 0x62b821756295c58d;
-};
 
 }  // namespace sikku

@@ -123,6 +123,7 @@ DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     DrawOptions drawing;
     static_cast<DrawingOptions&>(drawing) = cell;
     drawing.format = options.format;
+    drawing.monitor = options.monitor;
     drawing.placement.scale = 1.0;
     return drawing;
 }
@@ -399,6 +400,7 @@ const Plan& Sheet::arrange() {
     const Grid* best = nullptr;
     double most = 0;
     for (const Grid& grid : all) {
+        options_.monitor.check();
         const double area = score(grid);
         if (area > most * (1 + 1e-9)) {
             most = area;

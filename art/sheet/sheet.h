@@ -48,6 +48,7 @@ struct SheetOptions {
     int threads = 0;                  ///< 0: all cores
     int compression = 6;              ///< of PNG: 1, quick and large, to 9
     double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};             ///< polled wherever drawing takes long without reading words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
