@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -43,6 +42,12 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     }
 }
 
+void report_text(const DrawReport& report, const std::filesystem::path& name, Made& made) {
+    if (!report.leaves_pattern_out) return;
+    made.warn(
+        fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
+}
+
 /// A print or model, planned.
 class PrintWork : public Work {
 public:
@@ -66,6 +71,7 @@ public:
               int threads) override;
 
 private:
+    Cost forecast(const Grammar& grammar) const;
     bool is_model() const { return info(format_).kind == FormatKind::model; }
     bool is_growth() const { return format_ == PrintFormat::gif || settings_.frames; }
 
@@ -155,6 +161,7 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     growth.is_animation = format_ == PrintFormat::gif;
     growth.made = [this](const Grammar& generation) { return made_with(generation); };
     const DrawReport report = draw_growth(document_.grammar(), print_, options, growth, name, destination);
+    report_text(report, name, made);
     if (report.overflows) {
         made.warn("the largest generation is larger than the page within its margins and is cut off");
     }
@@ -190,13 +197,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     // Before the drawing, which may take long.
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
-    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
-        made.warn("'view' has no effect: this drawing lies in the plane");
-    }
-    if (report.leaves_pattern_out) {
-        made.warn(fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes",
-                              name.string()));
-    }
+    report_text(report, name, made);
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
         made.warn("there are no dots: the lines enclose none");
     }
@@ -246,20 +247,27 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     } else {
         make_print(destination, name, options, made);
     }
+    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
+        made.warn("'view' has no effect: this drawing lies in the plane");
+    }
     return made;
 }
 
 Cost PrintWork::forecast() const {
+    if (!settings_.generations) return forecast(document_.grammar());
+    // No generation costs more than the last.
+    const auto [first, last] = *settings_.generations;
+    const auto largest = document_.grammar().with_steps(last);
+    Cost result = forecast(largest ? *largest : document_.grammar());
+    result.seconds *= static_cast<double>(last - first + 1);
+    result.bytes *= static_cast<double>(last - first + 1);
+    return result;
+}
+
+Cost PrintWork::forecast(const Grammar& given) const {
     Cost result;
-    const Grammar grammar = shorten(document_.grammar());
-    DrawingCost cost;
-    {
-        // The parts of large words are large, too: not several at a time.
-        static std::mutex mutex;
-        std::unique_lock lock(mutex, std::defer_lock);
-        if (!is_vector(drawing_.format)) lock.lock();
-        cost = drawing_cost(grammar, print_, drawing_);
-    }
+    const Grammar grammar = shorten(given);
+    const DrawingCost cost = drawing_cost(grammar, print_, drawing_);
     const auto text = static_cast<double>(print_.pattern.size());
     const bool spline = print_.style.line == Line::spline;
     result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
@@ -277,7 +285,6 @@ Cost PrintWork::forecast() const {
         case PrintFormat::gcode:
             result.seconds += cost.lines * 3e-6;
             result.bytes = 500 + cost.lines * (spline ? 60 : 12);
-            result.memory += cost.lines * 250;
             return result;
         default:
             break;

@@ -391,16 +391,6 @@ void report_notation(const Notation& notation, Made& made) {
     }
 }
 
-/// Symbols of the word that draw, disc or polygon corner alike.
-double drawn_symbols(const Grammar& grammar, const Forecast& known) {
-    double drawn = 0;
-    for (std::size_t symbol = 0; symbol < grammar.symbols().size() && symbol < known.rough_counts.size(); ++symbol) {
-        const Action action = grammar.symbols()[symbol].command.action;
-        if (action == Action::draw || action == Action::disc) drawn += known.rough_counts[symbol];
-    }
-    return drawn;
-}
-
 /// A score, planned.
 class ScoreWork : public Work {
 public:

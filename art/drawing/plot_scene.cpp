@@ -138,7 +138,7 @@ private:
     }
 
     std::size_t passes(const SceneSegment& segment) const {
-        return options_.pen_width > 0 ? pass_offsets(width(segment), options_.pen_width).size() : 1;
+        return options_.pen_width > 0 ? pass_count(width(segment), options_.pen_width) : 1;
     }
 
     /// Segments that go on in the same colour and as many passes are a stroke.
@@ -174,6 +174,7 @@ private:
 
     /// To and fro over the width of the stem; ends are round.
     void draw_wide(std::span<const SceneSegment> stem, std::size_t count, Owner owner) {
+        require_few_passes(stem.size(), count);
         const Pen real = pen(stem[0].colour, stem[0].after);
         const double half_pen = options_.pen_width / 2 / step_;
         std::vector<glm::dvec3> points;

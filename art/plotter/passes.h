@@ -25,6 +25,11 @@ struct PenPath {
 /// middle for strokes as wide as the pen or narrower. At most 10^5.
 std::vector<double> pass_offsets(double width, double pen);
 
+/// How many passes these are, without making them.
+std::size_t pass_count(double width, double pen);
+/// Checks the passes of one stroke. @throws std::runtime_error for more than 20 million pieces
+void require_few_passes(std::size_t pieces, std::size_t passes);
+
 /// Passes that cover a stroke of that width with a pen: an open stroke is one path to and fro, a closed one a closed
 /// path for each pass. Ends and outer corners are round, as those of the stroke; the rims of ends are scalloped by
 /// less than a pen. Nothing reaches beyond the stroke by more than `tolerance`, within which offsets of curves are

@@ -676,11 +676,14 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
     if (!(options_.memory > 0)) return {threads, 0};
     double most = 1, thread = 1;
+    double memory = options_.memory;  // beside what the drawings keep
+    for (const Subject& subject : subjects_) memory -= subject.cost.kept_memory;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
-            if (subjects_[i].cost.memory > options_.memory) refuse_memory(subjects_[i].cost.memory, options_.memory);
+            const DrawingCost& cost = subjects_[i].cost;
+            if (cost.memory - cost.kept_memory > memory) refuse_memory(cost.memory, options_.memory);
         });
-        most = std::max(most, subjects_[i].cost.memory);
+        most = std::max(most, subjects_[i].cost.memory - subjects_[i].cost.kept_memory);
         thread = std::max(thread, subjects_[i].cost.thread_memory);
     }
     double pixels = 0, kept = 0;
@@ -690,11 +693,11 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
         kept = std::max(kept, lines);
         pixels = std::max(pixels, (strip.bottom - strip.top) * stride);
     }
-    const auto readers = [&](double memory, double each) {
-        return static_cast<int>(std::clamp(memory / each, 1.0, static_cast<double>(threads)));
+    const auto readers = [&](double room, double each) {
+        return static_cast<int>(std::clamp(room / each, 1.0, static_cast<double>(threads)));
     };
-    if (pixels + most <= options_.memory) return {readers(options_.memory - pixels, most), 0};
-    const double left = options_.memory - kept - most;
+    if (pixels + most <= memory) return {readers(memory - pixels, most), 0};
+    const double left = memory - kept - most;
     const double rows = std::floor(left / 2 / stride / 128) * 128;
     if (rows < 128) refuse_memory(kept + most + 256 * stride, options_.memory);
     return {readers(left / 2, thread), static_cast<int>(std::min(rows, 4096.0))};
@@ -723,23 +726,24 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 }
 
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
-    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return 0;
-    double most = 0, lines = 0;
+    double most = 0, lines = 0, kept = 0;
     for (const SheetCell& cell : cells) {
         named(cell, [&] {
             const DrawingCost cost =
                 drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
-            most = std::max(most, cost.memory);
+            most = std::max(most, cost.memory - cost.kept_memory);
             lines += cost.lines_memory;
+            kept += cost.kept_memory;
         });
     }
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return kept;
     const PixelSize size = pixel_size(options.page, options.dpi);
     const double stride = 3.0 * size.width;
     const double shape = options.page.height / options.page.width;
     const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
-    const double whole = stride * size.height / rows + most;
+    const double whole = stride * size.height / rows + most + kept;
     if (!(options.memory > 0) || whole <= options.memory) return whole;
-    return lines / rows + most + 256 * stride;
+    return lines / rows + most + kept + 256 * stride;
 }
 
 }  // namespace sikku

@@ -71,7 +71,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
                        const std::filesystem::path& file, Destination& destination = file_system());
 
 /// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
-/// the options allow that, otherwise the minimum. 0 for other formats.
+/// the options allow that, otherwise the minimum. For other formats, what the drawings keep.
 /// @throws what draw_sheet() throws for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 

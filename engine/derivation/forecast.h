@@ -42,6 +42,9 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 /// The same without exact counts, at a cost that does not grow with the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
+/// About how many symbols of a forecast word draw lines or discs.
+double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
+
 /// Symbols of the word, for progress reports; 0 if nothing short of deriving tells.
 double expected_symbols(const Grammar& grammar, bool interpreted);
 
