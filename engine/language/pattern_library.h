@@ -28,7 +28,9 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
     /// Sorted by kind and name.
-    const std::vector<LibraryPattern>& patterns() const { return *patterns_; }
+    const std::vector<LibraryPattern>& patterns() const& { return *patterns_; }
+    /// Of a library that ends with the statement, in a loop over its patterns.
+    std::vector<LibraryPattern> patterns() && { return *patterns_; }
     /// The pattern of that name, or null.
     const LibraryPattern* find(std::string_view name) const;
     /// The gallery file of that name in the library, posters/NAME.toml, if no file has it; otherwise `name` itself.

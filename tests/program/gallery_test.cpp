@@ -161,11 +161,11 @@ TEST_F(GalleryTest, AKilledRunGoesOn) {
     // Some die before their first job, some after their last.
     std::mt19937 chance(4);
     std::size_t unfinished = 0;
-    for (int round = 0; round < (sanitized ? 5 : 10); ++round) {
+    for (int round = 0; round < 10; ++round) {
         const std::string out = "killed" + std::to_string(round);
         {
             const Child child({"gallery", "--file", "gallery.toml", "-o", out}, {.folder = folder.path()});
-            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % (sanitized ? 2000 : 400)));
+            std::this_thread::sleep_for(std::chrono::milliseconds(chance() % (sanitized ? 1200 : 400)));
             child.send(SIGKILL);
         }
         if (std::filesystem::exists(folder / out)) {
