@@ -135,7 +135,7 @@ private:
         for (const std::uint32_t word : words) *cursor_++ = word;
     }
     void grow(Arena& arena) {
-        constexpr std::size_t header = (sizeof(Chunk) + 3) / 4;
+        constexpr std::size_t header = (sizeof(Chunk) + 7) / 8 * 2;
         constexpr std::size_t least = 64, most = 8192;
         const std::size_t size = last_ ? std::min(2 * static_cast<std::size_t>(limit_ - last_->begin), most) : least;
         // Chunks stand in the arena's words; an even number of them keeps the pointers aligned.
