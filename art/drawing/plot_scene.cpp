@@ -5,6 +5,7 @@
 #include "art/space/hidden_lines.h"
 #include "art/space/stage.h"
 #include "art/space/triangles.h"
+#include "engine/base/bits.h"
 #include "engine/geometry/bezier.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <unordered_set>
@@ -41,7 +41,7 @@ struct EdgeHash {
         for (const glm::vec3& end : edge.ends) {
             for (const float value : {end.x, end.y, end.z}) {
                 // Both zeros are equal.
-                hash = (hash ^ std::bit_cast<std::uint32_t>(value + 0.0F)) * 0x9e3779b97f4a7c15U;
+                hash = (hash ^ bit_cast<std::uint32_t>(value + 0.0F)) * 0x9e3779b97f4a7c15U;
                 hash ^= hash >> 29;
             }
         }

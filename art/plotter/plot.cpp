@@ -535,7 +535,7 @@ void PlotPlan::merge_colours() {
     std::vector<int> slots;
     Pulse pulse(options_.monitor);
     for (const auto& [slot, pen] : gathered_) {
-        PenColour& colour = colours.emplace_back(print_.style.line_colour(pen->pen));
+        PenColour& colour = colours.emplace_back(PenColour{print_.style.line_colour(pen->pen)});
         slots.push_back(slot);
         pen->for_each([&](auto, glm::dvec2 from, std::span<const glm::dvec2> p) {
             pulse();

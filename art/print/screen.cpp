@@ -1,9 +1,10 @@
 #include "art/print/screen.h"
 
+#include "engine/base/decimal.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -20,7 +21,7 @@ Screen parse_screen(std::string_view text) {
     if (text == halftone) return screen;
     if (text.starts_with(halftone) && text[halftone.size()] == ',') {
         const char* const end = text.data() + text.size();
-        const auto [at, error] = std::from_chars(text.data() + halftone.size() + 1, end, screen.lines);
+        const auto [at, error] = parse_number(text.substr(halftone.size() + 1), screen.lines);
         if (error == std::errc() && at == end && screen.lines >= 1 && screen.lines <= 1000) return screen;
     }
     throw std::runtime_error(fmt::format(

@@ -161,10 +161,9 @@ private:
                 text->add("\n");
                 at += rest.starts_with("\r\n") ? 2 : 1;
             } else {
-                const auto stop = std::find_if(rest.begin(), rest.end(),
-                                               [](char byte) { return byte == '<' || byte == '&' || byte == '\r'; });
-                text->add({rest.begin(), stop});
-                at += static_cast<std::size_t>(stop - rest.begin());
+                const std::string_view plain = rest.substr(0, rest.find_first_of("<&\r"));
+                text->add(plain);
+                at += plain.size();
             }
         }
         in_.skip(at);

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -127,7 +126,7 @@ bool is_in_held_folder(const std::string& name) {
 std::string random_letters() {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
     std::array<unsigned char, 6> bytes{};
-    if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) bytes.fill(0);
+    if (::getentropy(bytes.data(), bytes.size()) != 0) bytes.fill(0);
     std::string result;
     for (const unsigned char byte : bytes) result += letters[byte % letters.size()];
     return result;

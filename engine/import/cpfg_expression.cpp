@@ -1,9 +1,9 @@
 #include "engine/import/cpfg_expression.h"
 
+#include "engine/base/decimal.h"
 #include "engine/language/expression.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -52,7 +52,7 @@ void combine(Value& left, std::string_view sign, int level, const Value& right, 
 Value number(Reader& reader, std::size_t at) {
     const std::string_view text = reader.ahead();
     double value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, problem] = parse_number(text, value);
     if (problem != std::errc()) mistake(at, "this is no number that a double holds");
     reader.take(static_cast<std::size_t>(end - text.data()));
     return {fmt::format("{}", value)};

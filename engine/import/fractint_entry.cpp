@@ -1,5 +1,6 @@
 #include "engine/import/fractint_entry.h"
 
+#include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -139,7 +140,7 @@ private:
         while (at < end && ((text[at] >= '0' && text[at] <= '9') || text[at] == '.')) ++at;
         double number = 0;
         if (at > begin) {
-            const auto [last, error] = std::from_chars(text.data() + begin, text.data() + at, number);
+            const auto [last, error] = parse_number(std::string_view(text).substr(begin, at - begin), number);
             if (error != std::errc() || last != text.data() + at)
                 fail(file_, diagnostics_, begin, "this is no decimal number");
         }

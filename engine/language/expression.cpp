@@ -1,10 +1,11 @@
 #include "engine/language/expression.h"
 
+#include "engine/base/decimal.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace sikku {
@@ -171,7 +172,7 @@ private:
     bool number() {
         double value = 0;
         const std::size_t begin = at_;
-        const auto [end, error] = std::from_chars(view_.data() + at_, view_.data() + view_.size(), value);
+        const auto [end, error] = parse_number(view_.substr(at_), value);
         if (error != std::errc()) return wrong(begin, "this is no number that a double holds");
         at_ = static_cast<std::size_t>(end - view_.data());
         if (at_ < view_.size() && (continues_name(view_[at_]) || view_[at_] == '.')) {
