@@ -53,7 +53,7 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     }
 }
 
-/// A print or model, planned.
+/// A planned print or model.
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
@@ -110,7 +110,7 @@ private:
         drawing_.gcode = settings_.gcode;
     }
 
-    /// Refuses what this drawing cannot have. @throws SettingError, PatternError
+    /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
     void check_drawing() const {
         const bool is_spatial = document_.grammar().is_spatial();
         if (is_model()) require_straight("models have straight lines, not splines");
@@ -119,7 +119,7 @@ private:
         }
         if (!is_spatial) return;
         require_straight("drawings that pitch, roll or bend have straight lines, not splines");
-        constexpr const char* plane = "only for drawings in the plane; this one pitches, rolls or bends";
+        constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { throw SettingError(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
@@ -127,9 +127,9 @@ private:
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
         if (settings_.tile && !is_vector(format_))
-            refuse("tile", "drawings in space are cut into sheets as SVG or PDF");
+            refuse("tile", "drawings in space can be cut into sheets only as SVG or PDF");
         if (!settings_.press.spots.empty() && !drawing_.plot) {
-            refuse("spot", "drawings in space are lit, in more shades than there are inks");
+            refuse("spot", "drawings in space have more shades of light than there are inks");
         }
     }
 
@@ -160,7 +160,7 @@ void PrintWork::make_model(Destination& destination, const std::filesystem::path
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
-/// Derivation lengths one after the other, as an animation or as files of their own.
+/// Makes an animation of several generations, or a file for each.
 void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
                             Made& made) {
     GrowthOptions growth;
@@ -176,7 +176,7 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     }
 }
 
-/// Derivation lengths side by side, as books show them.
+/// Makes a sheet of several generations side by side.
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const auto [first, last] = *settings_.generations;
@@ -189,7 +189,7 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.title = print_.title;
     sheet.animation = print_.animation;
     sheet.press = print_.press;
-    // Captions are short, and are read from as far as the drawings.
+    // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
     sheet.inset = 0.055;
     sheet.pattern = print_.pattern;
@@ -213,7 +213,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
                               name.string()));
     }
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
-        made.warn("there are no dots: the lines enclose none");
+        made.warn("no dots were drawn: the lines enclose none");
     }
     if (report.is_empty) {
         made.warn("the window contains no part of the drawing");
@@ -231,7 +231,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         const std::size_t pens = report.plot->colours - report.plot->merged.size();
         if (pens > most) {
             made.warn(
-                fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                fmt::format("the plot needs {} pens, but HP-GL plotters hold up to {}: the option 'pens' merges "
                             "colours",
                             pens, most));
         }
@@ -239,7 +239,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(
-            "the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: the rest is cut off",
+            "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
             report.size.x, report.size.y, report.room.x, report.room.y));
     }
 }

@@ -305,7 +305,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
 }
 
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why) {
-    if (grammar.is_spatial()) throw std::runtime_error("this drawing has no window: " + why);
+    if (grammar.is_spatial()) throw std::runtime_error("this drawing cannot be shown through a window: " + why);
     try {
         require_affordable(grammar, true, options.budget);
     } catch (const BudgetError&) {
@@ -394,7 +394,7 @@ void SeenDrawing::read(const Print& print, const Window& window, double pixel, B
     // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
     // wide.
     sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
-    // Curves are told from the lines through their control points only where steps are.
+    // Curves differ from the lines through their control points only where steps are visible.
     if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
         sight.ink = spline_ ? spline_share_ : 1;
         return add(view_->read(sight, sink, budget, watch));
@@ -442,7 +442,7 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// A picture made in strips. Memory: what the strips under way take; for render_rows(), all lines that are seen.
+/// A picture rendered in strips. Memory: the strips in progress; for render_rows(), all visible lines.
 class StripRendering : public Rendering {
 public:
     StripRendering(const SeenDrawing& drawing, const Print& print, const Window& window)
@@ -531,7 +531,7 @@ void StripRendering::render(int threads, const RowSink& sink) {
                [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & drawn & hand_on); });
 }
 
-/// All that is seen, from one walk.
+/// All visible lines, from a single walk.
 const Raster& StripRendering::whole() const {
     std::call_once(once_, [this] {
         auto raster = make_raster(print_);

@@ -258,8 +258,8 @@ DrawnExtent WordDrawing::measured() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return {found.box, found.widest};
     }
-    // Straight lines that are all visible are folded for their extent; a spline without brackets and lifts is one
-    // stroke, and is folded for whether it closes.
+    // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
+    // one stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();

@@ -49,7 +49,7 @@ bool has_option(const Interpreter& interpreter, std::string_view name) {
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";
-    return fmt::format("it takes about {} of memory, more than is left for it ({})", bytes_text(forecast.memory),
+    return fmt::format("it needs about {} of memory, more than is available ({})", bytes_text(forecast.memory),
                        bytes_text(memory));
 }
 
@@ -62,7 +62,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
             fmt::format("'{}' already exists and was not made by this gallery; only a forced run replaces it",
                         folder.shown(file.file)));
     }
-    // The target of a link is not in the way.
+    // Check the link itself, not its target.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
@@ -105,7 +105,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
-/// Finds the first job that fits in memory and that no other run is making; nullopt when nothing is left to begin.
+/// Finds the first job that fits in memory and that no other run is making; nullopt if no job is left to begin.
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {

@@ -63,7 +63,7 @@ bool has_control(std::string_view text) {
     });
 }
 
-/// @param known  null: of a key of the pattern's own
+/// @param known  the row of the key; null for keys and defines of the pattern
 void check_value(const std::string& key, const GalleryKey* known, const std::string& value,
                  const std::string& place) {
     if (!fits_xml(value)) {
@@ -80,7 +80,7 @@ void check_value(const std::string& key, const GalleryKey* known, const std::str
     }
 }
 
-/// @param known  null: of a key of the pattern's own
+/// @param known  the row of the key; null for keys and defines of the pattern
 void check_range(const std::string& key, const GalleryRange& range, const std::string& word, const GalleryKey* known,
                  const std::string& place) {
     if (!known) return;

@@ -47,7 +47,7 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
         if (key.owner == KeyOwner::engine) continue;
         const Interpreter* reader = reader_of(key.owner);
         if (!reader) continue;
-        // Keys that are options of the interpreter, too, go through its table.
+        // Keys that are also options of the interpreter use its table.
         const auto options = reader->options();
         const bool is_option = std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) {
             return info->name == key.name && info->is_key && !info->sets_more;

@@ -22,7 +22,7 @@ namespace {
 
 using namespace kolam_plane;
 
-/// The stages of an examination, each of which works on what those before it found.
+/// Runs the stages of an examination, each on the results of the previous ones.
 template <class Plane>
 KolamExamination examine(const Plane& plane, const Strokes& strokes, const KolamOptions& options) {
     KolamExamination result;

@@ -1,4 +1,4 @@
-// art/kolam/kolam.h: what there is to know of a drawing as a kolam: its lines, crossings, faces, dots and symmetry.
+// art/kolam/kolam.h: examines a drawing as a kolam: lines, crossings, faces, dots and symmetry.
 #pragma once
 
 #include "engine/base/monitor.h"

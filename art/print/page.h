@@ -1,4 +1,4 @@
-// art/print/page.h: lengths, paper sizes, and how a drawing is placed on a page.
+// art/print/page.h: paper sizes, and the placement of a drawing on a page.
 #pragma once
 
 #include <glm/mat3x2.hpp>

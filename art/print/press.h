@@ -1,4 +1,4 @@
-// art/print/press.h: what a print shop asks of a file: bleed and crop marks, spot colours, inks, bits.
+// art/print/press.h: settings for print shops: bleed and crop marks, spot colours, inks, bits.
 #pragma once
 
 #include "art/print/format.h"
@@ -40,7 +40,7 @@ struct Press {
 /// @throws std::runtime_error if there is no name or no opaque colour, if the name is over 127 bytes, is All or None,
 /// which PDF reserves, or contains control characters or invalid UTF-8
 Spot parse_spot(std::string_view text);
-/// Adds a spot colour. @throws std::runtime_error if its name or its colour is there already
+/// Adds a spot colour. @throws std::runtime_error if its name or its colour is in use
 void add_spot(std::vector<Spot>& spots, Spot spot);
 /// Several. @throws std::runtime_error as parse_spot(), and if a name or a colour comes twice
 std::vector<Spot> parse_spots(std::span<const std::string> texts);
@@ -61,9 +61,8 @@ struct CropMark {
 std::array<CropMark, 8> crop_marks(const Page& page, const Press& press);
 
 /// Converts the print for formats with a single page box (all but PDF): its page is as large as the bleed box. For
-/// one bit without a screen, every colour of the style becomes black or white, whichever its luminance is nearer to,
-/// or transparent if it is mostly transparent, so that only the coverage of pixels matters. Call it when the print is
-/// placed.
+/// one bit without a screen, every colour of the style becomes black or white by its luminance, or transparent if it
+/// is mostly transparent, so that only the coverage of pixels matters. Call it after the print is placed.
 Print as_picture(Print print);
 
 }  // namespace sikku

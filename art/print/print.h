@@ -1,4 +1,4 @@
-// art/print/print.h: everything a writer of prints needs to know beside the drawing itself.
+// art/print/print.h: the data of a print besides its drawing, and the interface of print writers.
 #pragma once
 
 #include "art/print/page.h"
@@ -22,7 +22,7 @@ struct Print {
     std::string title;                 ///< of the pattern, UTF-8
     std::string pattern;               ///< the text of the pattern file, so that the print can be made again
     std::string made;                  ///< what made it: `sikku 0.1.0, -n 4`
-    std::optional<int> travel_colour;  ///< index of the colour in which ways of the lifted pen are shown
+    std::optional<int> travel_colour;  ///< index of the colour that shows pen-up travel
     bool is_plot = false;              ///< layers that no pen draws are marked as such
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
     Press press;                       ///< how it goes to press
@@ -33,7 +33,7 @@ struct Window {
     double left = 0.0, top = 0.0;
     double width = 0.0, height = 0.0;
     bool clips = false;   ///< what of a drawing lies outside is cut off
-    double margin = 0.0;  ///< within it, on all four sides, outside of a border
+    double margin = 0.0;  ///< margin within it on all four sides, outside of a border
 };
 
 /// The ink of parts too small to be seen: so much line, spread like that. In turtle steps.

@@ -1,4 +1,4 @@
-// art/sheet/sheet.h: many prints on one sheet: a poster, rows of generations, a contact sheet.
+// art/sheet/sheet.h: draws many prints on one sheet: a poster, rows of generations, a contact sheet.
 #pragma once
 
 #include "art/drawing/draw.h"
@@ -25,10 +25,10 @@ struct SheetCell {
     std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
     std::string heading;               ///< if there is one, a row begins here, under it
     std::optional<ViewWindow> window;  ///< what of the drawing fills the cell; see DrawOptions
-    bool only_dots = false;            ///< of a kolam, whose dots the style has
+    bool only_dots = false;            ///< draw only the dots of a kolam; the style must have dots
     bool colours_strokes = false;      ///< each stroke in the next colour of the palette
-    bool border = false;               ///< of red earth, around the cell
-    bool may_be_empty = false;         ///< if nothing is drawn the cell is empty
+    bool border = false;               ///< add a frame of red earth around the cell
+    bool may_be_empty = false;         ///< a drawing without lines gives an empty cell
     double budget = 200e6;             ///< most nodes of the derivation that are visited in one pass
 };
 
@@ -47,7 +47,7 @@ struct SheetOptions {
     std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
     std::size_t caption_lines = 5;    ///< most lines of a caption; what goes on ends in `…`
     bool same_scale = false;          ///< steps are equally long: in each row, if rows have headings, else everywhere
-    Press press;                      ///< how the sheet goes to press
+    Press press;                      ///< settings for the print shop
     std::string pattern;              ///< text that is kept with the file, so that it can be made again
     std::string made;                 ///< what made it
     std::optional<double> animation;  ///< seconds in which an SVG draws itself

@@ -203,7 +203,7 @@ TEST_F(Hpgl, WhatThePlotterDoesNotReachIsRefused) {
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(
             error.what(),
-            "the drawing leaves the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); a margin of 15.0mm "
+            "the drawing exceeds the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); a margin of 15.0mm "
             "keeps it inside");
     }
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});

@@ -432,7 +432,7 @@ TEST_F(GalleryTest, NothingDependsOnTheClockOrOnThreads) {
 TEST_F(GalleryTest, MemoryStaysWithinItsBudget) {
     const Outcome refused = gallery({"hilbert", "-f", "png", "--size", "A0", "--memory", "1M", "-o", "out"});
     EXPECT_EQ(refused.status, 1);
-    EXPECT_TRUE(has(refused.errors, "of memory, more than is left for it"));
+    EXPECT_TRUE(has(refused.errors, "of memory, more than is available"));
     if (sanitized) return;
     const Outcome outcome = gallery({"snake-kolam", "dragon", "hilbert", "gosper*", "-f", "png", "--size", "A1",
                                      "--memory", "300M", "-o", "out"});
@@ -449,7 +449,7 @@ TEST_F(GalleryTest, SheetsStayWithinTheMemory) {
     EXPECT_TRUE(has(sheet("8G", {"--dry-run"}).output, "poster.png"));
     const Outcome too_little = sheet("1M", {"--dry-run"});
     EXPECT_EQ(too_little.status, 1);
-    EXPECT_TRUE(has(too_little.output, "poster.png                               it takes about"));
+    EXPECT_TRUE(has(too_little.output, "poster.png                               it needs about"));
     if (sanitized) return;
     ASSERT_EQ(sheet("8G").status, 0);
     const std::string whole = contents(folder / "out/poster.png");
