@@ -14,7 +14,7 @@ constexpr std::size_t most_nesting = 256;                            // of an ex
 constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as written anew
 constexpr double degree = 0.017453292519943295;
 
-/// Counts one more for as long as it lives.
+/// Increments a counter during its lifetime.
 struct Level {
     explicit Level(std::size_t& counted) : count(counted) { ++count; }
     ~Level() { --count; }
@@ -58,7 +58,7 @@ Value number(Reader& reader, std::size_t at) {
     return {fmt::format("{}", value)};
 }
 
-/// Functions of one argument and what they are called in patterns; empty for those that are written otherwise.
+/// Functions of one argument and their names in patterns; empty for those that need another notation.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> functions = {{{"sin", "sin"},
                                                                                       {"cos", "cos"},
                                                                                       {"tan", "tan"},
@@ -245,10 +245,10 @@ Value Expressions::operand(Reader& reader) {
         return {name};
     }
     if (name == "Z") {
-        report_.once("Z", at, "Z as the derivation length: it stays what the file says");
+        report_.once("Z", at, "Z as the derivation length: it keeps the value in the file");
         return {fmt::format("{}", steps)};
     }
-    lose(at, name == "Q" ? "Q, the number of the step, is not to be had" : fmt::format("'{}' is not defined", name));
+    lose(at, name == "Q" ? "Q, the number of the step, is not available" : fmt::format("'{}' is not defined", name));
 }
 
 Value Expressions::call(Reader& reader, const std::string& name, std::size_t at) {

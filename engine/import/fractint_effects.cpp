@@ -87,7 +87,7 @@ Flags Effects::followed(const Flags& sensitive) const {
     return result;
 }
 
-/// Composes effects for more and more steps to go, until they settle.
+/// Composes effects for an increasing number of remaining steps, until they no longer change.
 void Effects::compose() {
     std::map<char, Effect> none;
     for (const auto& [letter, rule] : entry_.rules) {

@@ -8,7 +8,7 @@
 namespace sikku {
 namespace {
 
-// What tables repeat, together: productions that all of them share.
+// Limit for all tables together: each repeats the productions that they share.
 constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
 
 /// Productions of equal predecessor and contexts.

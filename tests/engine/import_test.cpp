@@ -342,8 +342,8 @@ TEST(ImportFractint, Colours) {
     for (int order = 0; order < 4; ++order) expect_same_picture(erased, pattern, order, true);
     const auto stepped = fractint("A {\nangle 6\naxiom F<1F>2F\n}\n");
     ASSERT_EQ(stepped[0].losses.size(), 1U);
-    EXPECT_TRUE(has(stepped[0].losses[0], "line 3: that stepping through the colours passes over colour 0"));
-    EXPECT_TRUE(has(stepped[0].pattern, "Not carried over: line 3: that stepping"));
+    EXPECT_TRUE(has(stepped[0].losses[0], "line 3: cycles of colours that skip colour 0"));
+    EXPECT_TRUE(has(stepped[0].pattern, "Not carried over: line 3: cycles"));
 }
 
 TEST(ImportFractint, OneHeadingForTwoIsTold) {
@@ -433,7 +433,7 @@ TEST(ImportFractint, MistakesAreTold) {
     expect("A {\naxiom F\nangle 8\nFF=F\n}\n", {{{4, 1}, "expected 'Angle n', 'Axiom word' or a rule"}});
     expect("A {\naxiom F[+F\nangle 8\n}\n", {{{2, 8}, "this '[' is not closed"}});
     expect("A {\naxiom F@F\nangle 8\n}\n", {{{2, 8}, "a number above 0 after '@'"}});
-    expect("A {\naxiom F@1.2.3F\nangle 8\n}\n", {{{2, 9}, "no decimal number"}});
+    expect("A {\naxiom F@1.2.3F\nangle 8\n}\n", {{{2, 9}, "not a decimal number"}});
     expect("A {\naxiom F\xC3\xA4\nangle 8\n}\n", {{{2, 8}, "ASCII"}});
     expect("A {\naxiom F\nangle 8\n", {{{1, 3}, "the entry 'A' has no end: expected '}'"}});
     expect("A {\n}\nB {\naxiom F\n}\n", {{{1, 1}, "no axiom"}, {{3, 1}, "no angle"}});
@@ -817,11 +817,11 @@ TEST(ImportCpfg, LossesAreTold) {
         has(losses(head + "A(x) : {x=1;} 1 {\nx=2;\n} --> B(x)\nendlsystem\n"), "the C statements of a production"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\ndecomposition\nB --> (\nendlsystem\n"), "line 4: the decomposition"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nhomomorphism\nmaximum depth: 3\nB --> BC\nendlsystem\n"),
-                    "line 5: that the homomorphism is applied to its own successors"));
+                    "line 5: a homomorphism that is applied to its own successors"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nendlsystem\nLsystem: 2\n"), "line 5: the sub-L-systems"));
     EXPECT_TRUE(
-        has(losses("#include <stdio.h>\n" + head + "A(x) --> B\nendlsystem\n"), "line 1: what #include would bring"));
-    EXPECT_TRUE(has(losses("Lsystem: 1\nring Lsystem\nAxiom: F\nendlsystem\n"), "line 2: that the word is a ring"));
+        has(losses("#include <stdio.h>\n" + head + "A(x) --> B\nendlsystem\n"), "line 1: the contents of #include"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nring Lsystem\nAxiom: F\nendlsystem\n"), "line 2: the ring of the word"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nStartEach: {\n a=1;\n}\nAxiom: F\nendlsystem\n"),
                     "line 2: the C statements of 'starteach:'"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA --> C\nA > B --> D\nendlsystem\n"),
@@ -829,7 +829,7 @@ TEST(ImportCpfg, LossesAreTold) {
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA > =]B --> D\nendlsystem\n"),
                     "line 3: this production: a right context"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: [AB]\nA > [B]C --> D\nendlsystem\n"),
-                    "that a branch in a right context ends"));
+                    "right contexts that end with their branch"));
     // Constants that are set once, when all begins, are defines.
     const ImportedSystem start = cpfg(
         "#define SI 1.5\nLsystem: 0\nStart: {c=SI+2*0.25;n = c;}\nderivation length: 1\nAxiom: A\nA --> F(c)F(n+1)\n"
@@ -866,7 +866,7 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect(head + "A(x) : x = 1 --> B\nendlsystem\n", {{{3, 10}, "expected '=='"}});
     expect(head + "A(x) : --> B(x+)\nendlsystem\n", {{{3, 16}, "expected a number, a name or '('"}});
     expect(head + "A(x) : (x --> B\n\nA(y) --> B)\nendlsystem\n",
-           {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is no symbol"}});
+           {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is not a symbol"}});
     expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "no number that a double holds"}});
     expect(head + "A(x) --> B : 1 2\nendlsystem\n", {{{3, 16}, "expected the end of the line"}});
     expect("/* no end\n", {{{1, 1}, "this comment has no end"}, {{1, 1}, "there is no line 'Lsystem:'"}});
@@ -907,7 +907,7 @@ TEST(ImportProgram, CollectionsBecomeFolders) {
     EXPECT_TRUE(
         has(outcome.errors, "there is a kites-darts.lsys already: 'kites-DARTS' of line 10 is kites-darts-2.lsys"));
     EXPECT_TRUE(has(outcome.errors, "3 patterns in "));
-    EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: that stepping through the colours"));
+    EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: cycles of colours"));
     const std::vector<std::string> files = {"kites-darts-2.lsys", "kites-darts.lsys", "koch.lsys"};
     for (const std::string& name : files) {
         const Outcome checked = run({"check", folder.file("out/" + name)});
@@ -991,7 +991,7 @@ TEST(ImportProgram, BadInput) {
     refused(fed("", "A {}\n", 8 << 20), "has no axiom");
     refused(fed("", "A{axiom F\nangle 4\n}\n", 8 << 20), "more than 10,000 entries");
     refused(fed("", "A {\n", 16 << 20), "has no end");
-    refused(fed("Lsystem: 1\nAxiom: ", "(", 16 << 20), "'(' is no symbol");
+    refused(fed("Lsystem: 1\nAxiom: ", "(", 16 << 20), "'(' is not a symbol");
     refused(fed("Lsystem: 1\nAxiom: F(1", "+1", 16 << 20), "longer than 1 MB");
     refused(fed("Lsystem: 1\nAxiom: F\n", "A --> B\n", 8 << 20), "more than 10,000 productions");
     refused(fed("Lsystem: 1\nStart: {", "\n", 16 << 20), "");

@@ -505,7 +505,7 @@ TEST(ModuleMistakes, HaveTheirPlaces) {
     expect_mistakes("axiom: A\n[B] < A --> C\n", {{{2, 1}, "left context holds no brackets"}});
     expect_mistakes("axiom: A\nA% --> C\n", {{{2, 2}, "gone before"}});
     expect_mistakes("axiom: A%(3)\n", {{{1, 10}, "no parameters"}});
-    expect_mistakes("axiom: A\nignore: F(1)\n", {{{2, 10}, "no parameters"}});
+    expect_mistakes("axiom: A\nignore: F(1)\n", {{{2, 10}, "cannot contain parameters"}});
     expect_mistakes("axiom: A\ndefine a = random(0, 1)\n", {{{2, 12}, "chance has no place here"}});
     expect_mistakes("axiom: A\nseed: -1\n", {{{2, 7}, "whole number"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(x)\nA(y) --> A(y)\n", {{{3, 1}, "can never apply"}});

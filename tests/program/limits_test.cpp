@@ -179,10 +179,10 @@ TEST(Limits, FractintEntriesThatGrow) {
         EXPECT_LT(outcome.seconds, sanitized ? 100 : 20);
         EXPECT_LT(outcome.peak, most_kilobytes);
         EXPECT_TRUE(has(outcome.errors + outcome.output,
-                        words.back() == "--list" ? "has mistakes" : "longer than 16 MB and twice the file"));
+                        words.back() == "--list" ? "has mistakes" : "exceed 16 MB plus twice the size"));
     }
     const std::string large = folder.write("large.l", fractint_bomb(1, 100'000));
-    expect_refused(run({"import", large}), "a pattern longer than 4 MB");
+    expect_refused(run({"import", large}), "exceeds 4 MB");
 }
 
 // --- galleries --------------------------------------------------------------------------------------------------
