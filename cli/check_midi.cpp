@@ -1,4 +1,4 @@
-// cli/check_midi.cpp: validates MIDI files and reads back what they were made from.
+// cli/check_midi.cpp: validates MIDI files and reads the patterns in them.
 #include "cli/command.h"
 #include "engine/base/input_file.h"
 #include "engine/language/pattern.h"

@@ -89,7 +89,8 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
-/// Checks every variant as well. Each is compiled in full: many variants of a large pattern would take minutes.
+/// Checks all variants, up to a limit: each is compiled in full, which would take minutes for many variants of a
+/// large pattern.
 void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
     constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
     const std::size_t size = pattern.source->text().size();
@@ -141,11 +142,11 @@ void add_patterns(CLI::App& app) {
 
 void add_show(CLI::App& app, bool& quiet) {
     auto* command =
-        app.add_subcommand("show", "Print the text of a pattern, or of the pattern a print was made from");
+        app.add_subcommand("show", "Print the text of a pattern, or of the pattern in a print or MIDI file");
     auto what = std::make_shared<std::string>();
     command
         ->add_option("PATTERN", *what,
-                     "bundled pattern, pattern file, -, print (SVG, PDF, PNG, TIFF, JPEG, EXR) or MIDI file")
+                     "bundled pattern, pattern file, - for standard input, print, model or MIDI file")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });

@@ -1,4 +1,4 @@
-// music/melody/mapping.h: from the symbols of a word to notes.
+// music/melody/mapping.h: turns the symbols of a word into notes.
 #pragma once
 
 #include "engine/derivation/derivation.h"

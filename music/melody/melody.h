@@ -1,5 +1,5 @@
-// music/melody/melody.h: how a pattern wants to be played: the keys scale, tonic, anchor, unit, vertical, … of its
-// file.
+// music/melody/melody.h: the settings of a melody, from the keys scale, tonic, anchor, unit, vertical, … of a
+// pattern.
 #pragma once
 
 #include "engine/language/pattern.h"
@@ -68,8 +68,8 @@ struct Melody {
 /// Gives the text of a file that `scale:` or `keyboard:` names, or throws.
 using FileReader = std::function<std::string(const std::string& path)>;
 
-/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, scales
-/// in files are not read.
+/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, files
+/// of scales are not read.
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics);
 
 /// Every note higher by `semitones`; whole ones move the tonic's name, and so key signature and spelling, too.

@@ -1,5 +1,5 @@
-// tests/engine/import_test.cpp: systems of Fractint and cpfg against interpreters of their own and against the
-// patterns that come along.
+// tests/engine/import_test.cpp: compares imported systems of Fractint and cpfg with independent interpreters and with
+// the bundled patterns.
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"
@@ -905,7 +905,7 @@ TEST(ImportProgram, CollectionsBecomeFolders) {
     EXPECT_EQ(outcome.status, 2) << "one entry is bad";
     EXPECT_TRUE(has(outcome.errors, "some.l:14:1: the entry 'Bad' has no axiom\n"));
     EXPECT_TRUE(
-        has(outcome.errors, "there is a kites-darts.lsys already: 'kites-DARTS' of line 10 is kites-darts-2.lsys"));
+        has(outcome.errors, "kites-darts.lsys exists already: 'kites-DARTS' of line 10 becomes kites-darts-2.lsys"));
     EXPECT_TRUE(has(outcome.errors, "3 patterns in "));
     EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: cycles of colours"));
     const std::vector<std::string> files = {"kites-darts-2.lsys", "kites-darts.lsys", "koch.lsys"};
@@ -941,12 +941,12 @@ TEST(ImportProgram, OneSystemGoesToOneFileOrOut) {
     }
     const Outcome unknown = run({"import", file, "Kock"});
     EXPECT_EQ(unknown.status, 2);
-    EXPECT_TRUE(has(unknown.errors, "holds no system 'Kock'; did you mean 'Koch'?"));
+    EXPECT_TRUE(has(unknown.errors, "contains no system 'Kock'; did you mean 'Koch'?"));
     const Outcome list = run({"import", file, "--list"});
     EXPECT_EQ(list.status, 0);
-    EXPECT_TRUE(has(list.output, "Koch                     line 1      exact\n"));
-    EXPECT_TRUE(has(list.output, "kites-DARTS              line 10     1 thing not carried over\n"));
-    EXPECT_TRUE(has(list.output, "Bad                      line 14     has mistakes\n"));
+    EXPECT_TRUE(has(list.output, "Koch                     line 1      complete\n"));
+    EXPECT_TRUE(has(list.output, "kites-DARTS              line 10     1 feature not supported\n"));
+    EXPECT_TRUE(has(list.output, "Bad                      line 14     has errors\n"));
 }
 
 TEST(ImportProgram, ViewFilesBesideAreRead) {

@@ -1,4 +1,4 @@
-// tests/music/scala_test.cpp: scales and key maps in the files of Scala.
+// tests/music/scala_test.cpp: scales and key maps in Scala files.
 #include "music/scale/scale.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// tests/music/scale_test.cpp: the scales that come along, the melakarta, how a melody takes its degrees, `sikku
-// scales`.
+// tests/music/scale_test.cpp: the bundled scales, the melakarta, the degrees of melodies, `sikku scales`.
 #include "music/scale/scale.h"
 
 #include "tests/program.h"

@@ -1,4 +1,4 @@
-// tests/program/bad_input_test.cpp: whatever is handed to the program, it answers or refuses, soon, in little memory.
+// tests/program/bad_input_test.cpp: the program accepts or refuses any input quickly and in little memory.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/program/cli_test.cpp: the program as its user meets it: commands, exit statuses, outputs, signals.
+// tests/program/cli_test.cpp: the program as seen by its users: commands, exit statuses, outputs, signals.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/program/gallery_test.cpp: `sikku gallery` from outside: what it makes, how it goes on, and what it refuses.
+// tests/program/gallery_test.cpp: the outputs, resumption and errors of `sikku gallery`.
 #include "tests/gallery.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/program/growth_test.cpp: generations one after the other, views and models, by running the program.
+// tests/program/growth_test.cpp: runs the program to make animations, views and models.
 #include "art/drawing/growth.h"
 #include "tests/program.h"
 #include "tests/tools.h"

@@ -1,4 +1,4 @@
-// tests/program/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
+// tests/program/print_options_test.cpp: runs the program to draw dots, borders, animations, tiles and plots.
 #include "art/print/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
