@@ -46,6 +46,11 @@ bool begins_as_obj(std::string_view head) {
     return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
 }
 
+/// For formats that are recognised only to name them in messages.
+std::optional<Provenance> read_no_provenance(const InputFile&) {
+    return std::nullopt;
+}
+
 struct Format {
     std::string_view name;
     bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
@@ -63,9 +68,8 @@ constexpr std::array<Format, 13> formats = {{
     {"HP-GL", begins_with<'I', 'N', ';'>, read_comment_provenance},
     {"G-code", begins_as_gcode, read_comment_provenance},
     {"OBJ", begins_as_obj, read_comment_provenance},
-    // These contain no SVG pattern, and are only named.
-    {"HTML", begins_as_html, read_svg_provenance},
-    {"MusicXML", begins_as_musicxml, read_svg_provenance},
+    {"HTML", begins_as_html, read_no_provenance},
+    {"MusicXML", begins_as_musicxml, read_no_provenance},
     {"SVG", begins_as_xml, read_svg_provenance},
 }};
 

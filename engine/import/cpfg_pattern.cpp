@@ -192,9 +192,8 @@ private:
             const std::string predecessor = type_of(rule.predecessor);
             contexts[predecessor].insert(context_of(rule));
             if (contexts[predecessor].size() == 2) {
-                report_.once(
-                    "mixed" + predecessor, rule.at,
-                    "that with 'seed:' chance decides among all productions that match, whatever their contexts");
+                report_.once("mixed" + predecessor, rule.at,
+                             "random choice among all matching productions, whatever their contexts, with 'seed:'");
             }
             ++members[predecessor + "|" + context_of(rule)];
         }

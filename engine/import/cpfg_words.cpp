@@ -68,8 +68,8 @@ void Words::note(char letter, std::size_t at) {
     if (letter == '?' || letter == '$') report_.once("?", at, "queries and sub-L-systems");
     if (letter == '{') {
         report_.once("{", at,
-                     "which vertices polygons have: here the place of '{' and the ends of all steps, '.' and G being "
-                     "nothing special");
+                     "the vertices of polygons: here they are the position of '{' and the ends of all steps, without "
+                     "special rules for '.' and G");
     }
 }
 

@@ -343,13 +343,13 @@ TEST(ImportFractint, Colours) {
     const auto stepped = fractint("A {\nangle 6\naxiom F<1F>2F\n}\n");
     ASSERT_EQ(stepped[0].losses.size(), 1U);
     EXPECT_TRUE(has(stepped[0].losses[0], "line 3: cycles of colours that skip colour 0"));
-    EXPECT_TRUE(has(stepped[0].pattern, "Not carried over: line 3: cycles"));
+    EXPECT_TRUE(has(stepped[0].pattern, "Not supported: line 3: cycles"));
 }
 
 TEST(ImportFractint, OneHeadingForTwoIsTold) {
     const auto systems = fractint("A {\nangle 6\naxiom F+D\\20\n}\n");
     ASSERT_EQ(systems[0].losses.size(), 1U);
-    EXPECT_TRUE(has(systems[0].losses[0], "line 3: F and G go one way and D and M another"));
+    EXPECT_TRUE(has(systems[0].losses[0], "line 3: separate headings of F and G and of D and M"));
     // Turns of the heading that no step takes do nothing in either program.
     for (const char* entry :
          {"A {\nangle 6\naxiom F+F\\20F/3F\nF=F+F\\5F\n}\n", "A {\nangle 6\naxiom D+D\\20|DM/3D\nD=D\\5M-D\n}\n"}) {
@@ -907,7 +907,7 @@ TEST(ImportProgram, CollectionsBecomeFolders) {
     EXPECT_TRUE(
         has(outcome.errors, "kites-darts.lsys exists already: 'kites-DARTS' of line 10 becomes kites-darts-2.lsys"));
     EXPECT_TRUE(has(outcome.errors, "3 patterns in "));
-    EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: cycles of colours"));
+    EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: not supported: cycles of colours"));
     const std::vector<std::string> files = {"kites-darts-2.lsys", "kites-darts.lsys", "koch.lsys"};
     for (const std::string& name : files) {
         const Outcome checked = run({"check", folder.file("out/" + name)});
