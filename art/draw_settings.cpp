@@ -338,7 +338,7 @@ const std::array table = {
                .value = "SIZE[,centre]",
                .group = plotters},
               set_paper},
-    Option<S>{{.name = "travel", .help = "show pen-up travel in a layer of its own", .group = plotters, .kind = flag},
+    Option<S>{{.name = "travel", .help = "show pen-up travel in a separate layer", .group = plotters, .kind = flag},
               [](S& s, Text t) { s.travel = is_true(t); }},
     Option<S>{{.name = "pen-speed",
                .help = "drawing speed in mm/s, for the time estimate and G-code (40)",

@@ -190,8 +190,8 @@ void submit(const Options& options, std::size_t jobs) {
     const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
                                          quoted(folder.string() + ".%j.log"));
     if (!is_in_path("sbatch")) {
-        tell("sikku: there is no sbatch here; {} is to be handed in where there is one:\n  id=$({})\n  {}$id {}\n",
-             script, array, last, quoted(script));
+        tell("sikku: sbatch is not available here; submit {} where it is:\n  id=$({})\n  {}$id {}\n", script, array,
+             last, quoted(script));
         return;
     }
     // Another cluster's name may follow behind a semicolon.

@@ -137,7 +137,7 @@ void import_file(const ImportOptions& options, bool quiet) {
     if (options.list) return list_systems(systems, indices);
     const bool to_folder = !options.output.empty() && !options.output.ends_with(".lsys");
     if (!to_folder && indices.size() != 1) {
-        throw UsageError(fmt::format("{} holds {}: name one of them, or give a folder with -o; --list tells them",
+        throw UsageError(fmt::format("{} contains {}: name one of them, or give a folder with -o; --list lists them",
                                      options.file, counted(systems.size(), "system")));
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) {

@@ -59,7 +59,7 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid, const
     if (!found) {
         throw std::runtime_error(fmt::format(
             "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
-            "--attempts; on a small grid --enumerate tells whether there is one",
+            "--attempts; on a small grid --enumerate shows whether there is one",
             grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
     }
     return {std::move(found->crossings), found->changed, found->attempt};

@@ -51,8 +51,8 @@ void show_scales(const ScalesOptions& options) {
     if (found.empty()) found = search_scales(options.words);
     if (found.empty()) {
         const std::vector<std::string> near = similar_scales(wanted);
-        throw UsageError(fmt::format("there is no scale '{}'; {}", printable(wanted, 80),
-                                     near.empty() ? std::string("`sikku scales` lists those that come along")
+        throw UsageError(fmt::format("unknown scale '{}'; {}", printable(wanted, 80),
+                                     near.empty() ? std::string("`sikku scales` lists the bundled ones")
                                                   : fmt::format("did you mean {}?", fmt::join(near, " or "))));
     }
     if (!options.as_json) {

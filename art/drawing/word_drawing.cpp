@@ -179,7 +179,7 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 void require_ink(const Box& box) {
     if (!box.empty()) return;
     throw std::runtime_error(
-        "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
+        "there is nothing to draw: the word contains no step that draws, no polygon, no disc, or none in a "
         "colour that is seen");
 }
 

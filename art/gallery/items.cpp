@@ -34,7 +34,7 @@ std::optional<GalleryRange> read_range(const std::string& key, const std::string
     GalleryRange range{numbers[0], numbers.size() == 3 ? numbers[2] : 1.0, 0};
     const double steps = (numbers[1] - range.first) / range.step;
     if (range.step == 0 || !(steps >= 0)) {
-        fail(place, fmt::format("{}: the range {} holds nothing", key, printable(text, 80)));
+        fail(place, fmt::format("{}: the range {} is empty", key, printable(text, 80)));
     }
     range.count = std::floor(steps + 1e-9) + 1;
     return range;

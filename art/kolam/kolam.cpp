@@ -76,7 +76,7 @@ KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, cons
     derive(grammar, *turtle, derivation);
     const Strokes strokes = reader.finish();
     if (strokes.count() == 0) {
-        throw std::runtime_error("there is nothing to examine: the word holds no step that draws");
+        throw std::runtime_error("there is nothing to examine: the word contains no step that draws");
     }
     return examine(plane, strokes, options);
 }

@@ -66,7 +66,7 @@ Spot parse_spot(std::string_view text) {
     if (!is_printable(name)) refuse("its name contains control characters or invalid UTF-8");
     if (colour_text.empty()) refuse("its colour is missing");
     const auto colour = parse_colour(colour_text);
-    if (!colour) refuse(fmt::format("'{}' is no colour: write #rrggbb or a CSS name", printable(colour_text)));
+    if (!colour) refuse(fmt::format("'{}' is not a colour: write #rrggbb or a CSS name", printable(colour_text)));
     if (colour->alpha != 255) refuse("the colour of an ink is not transparent");
     return {std::string(name), *colour};
 }

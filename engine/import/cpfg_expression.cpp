@@ -53,7 +53,7 @@ Value number(Reader& reader, std::size_t at) {
     const std::string_view text = reader.ahead();
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc()) mistake(at, "this is no number that a double holds");
+    if (problem != std::errc()) mistake(at, "this number is out of range");
     reader.take(static_cast<std::size_t>(end - text.data()));
     return {fmt::format("{}", value)};
 }
@@ -233,7 +233,7 @@ Value Expressions::operand(Reader& reader) {
         return value;
     }
     if (is_digit(byte) || byte == '.') return number(reader, at);
-    if (byte == '"' || byte == '&') lose(at, "strings and addresses are no numbers");
+    if (byte == '"' || byte == '&') lose(at, "strings and addresses are not numbers");
     const std::string name = identifier(reader);
     if (name.empty()) mistake(at, "expected a number, a name or '('");
     const char after = next(reader);

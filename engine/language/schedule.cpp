@@ -76,8 +76,8 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
             const std::string_view near = nearest(name, names);
             diagnostics.error(value.part(begin),
                               name.empty()   ? std::string("expected the name of a table")
-                              : near.empty() ? fmt::format("there is no table '{}'", name)
-                                             : fmt::format("there is no table '{}'; did you mean '{}'?", name, near));
+                              : near.empty() ? fmt::format("unknown table '{}'", name)
+                                             : fmt::format("unknown table '{}'; did you mean '{}'?", name, near));
             return std::nullopt;
         }
         const auto count = count_at(value, at, diagnostics);

@@ -118,8 +118,8 @@ TEST(Words, TheEmptyWordHasThreeSpellings) {
         const std::string text = "axiom: FGF\nderivation length: 1\nF --> ";
         EXPECT_EQ(derived_text(text + nothing + "\n"), "G") << nothing;
     }
-    expect_mistakes("axiom: F\n* --> F\n", {{{2, 1}, "no predecessor"}});
-    expect_mistakes("axiom: F\n\xCE\xB5 --> F\n", {{{2, 1}, "no predecessor"}});
+    expect_mistakes("axiom: F\n* --> F\n", {{{2, 1}, "cannot be a predecessor"}});
+    expect_mistakes("axiom: F\n\xCE\xB5 --> F\n", {{{2, 1}, "cannot be a predecessor"}});
     expect_mistakes("axiom: F\nF --> F*\n", {{{2, 8}, "stands alone"}});
 }
 
@@ -431,7 +431,7 @@ TEST(Schedule, MistakesNameTheirPlace) {
         expect_mistakes("axiom: F\nschedule: " + schedule + "\n" + tables, {{{2, column}, essence}});
     };
     expect("grow*2 grwo", 18, "did you mean 'grow'?");
-    expect("grow*2 zzzzzz", 18, "no table 'zzzzzz'");
+    expect("grow*2 zzzzzz", 18, "unknown table 'zzzzzz'");
     expect("grow*", 16, "expected a whole number");
     expect("grow*-1", 16, "expected a whole number");
     expect("grow*1.5", 16, "expected a whole number");

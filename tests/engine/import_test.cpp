@@ -867,7 +867,7 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect(head + "A(x) : --> B(x+)\nendlsystem\n", {{{3, 16}, "expected a number, a name or '('"}});
     expect(head + "A(x) : (x --> B\n\nA(y) --> B)\nendlsystem\n",
            {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is not a symbol"}});
-    expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "no number that a double holds"}});
+    expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "number is out of range"}});
     expect(head + "A(x) --> B : 1 2\nendlsystem\n", {{{3, 16}, "expected the end of the line"}});
     expect("/* no end\n", {{{1, 1}, "this comment has no end"}, {{1, 1}, "there is no line 'Lsystem:'"}});
     // The preprocessor.

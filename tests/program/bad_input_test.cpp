@@ -379,8 +379,8 @@ TEST(BadInput, LongTokens) {
     expect_mistake(token + ": 3\naxiom: F\n", "-:1:1: unknown key");
     expect_mistake(token + "\naxiom: F\n", "-:1:1: ");
     expect_mistake("axiom: F(" + token + ")\n", "is not defined");
-    expect_mistake("axiom: F(" + token + "(1))\n", "there is no function");
-    expect_mistake("axiom: F\nschedule: " + token, "there is no table");
+    expect_mistake("axiom: F(" + token + "(1))\n", "unknown function");
+    expect_mistake("axiom: F\nschedule: " + token, "unknown table");
     expect_mistake("axiom: F\nline: " + token, "-:2:7: ");
     expect_mistake("axiom: F\nstroke: " + token, "-:2:9: ");
     expect_mistake("axiom: F\npalette: " + token, "-:2:10: ");

@@ -217,7 +217,7 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
     expect_failure(run({"measure", "-"}, {.input = "axim: F"}), 2, "did you mean 'axiom'");
     expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
-    expect_failure(run({"patterns", "plant"}), 2, "there are no patterns 'plant'; did you mean 'plants'?");
+    expect_failure(run({"patterns", "plant"}), 2, "unknown kind of patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
     expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2,
                    "there are: curves, kolams, melodies, plants, tilings, words");

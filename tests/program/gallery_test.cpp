@@ -105,7 +105,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     refused("x = \n", "bad.toml:1:5");
     refused("pattern = 'hilbert'\nn = 'a'\n", "bad.toml:2:1: n: expected a whole number");
     refused("pattern = 'hilbert'\nn = -1\n", "bad.toml:2:1: n: expected a whole number");
-    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: n: the range 5:1 holds nothing");
+    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: n: the range 5:1 is empty");
     refused("pattern = 'hilbert'\nn = []\n", "bad.toml:2:1: n: this list is empty");
     refused("[[item]]\nn = 3\n", "bad.toml:1:1: this item has no pattern");
     refused("pattern = 'hilbrt'\n", "bad.toml:1:1: no file or pattern named 'hilbrt'; did you mean 'hilbert'?");
@@ -124,7 +124,7 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
     folder.write("bad.jsonl", "{\"pattern\": \"hilbert\"}\n{\"pattern\": \"hilbert\", \"nn\": 3}\n");
     EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:2:24: unknown key 'nn'"));
     folder.write("bad.jsonl", "{\"pattern\": }\n");
-    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:1:13: this is no JSON"));
+    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:1:13: invalid JSON"));
     EXPECT_EQ(gallery({"--file", "none.toml"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--memory", "much"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--only", "hilbrt"}).status, 2);
@@ -574,7 +574,7 @@ TEST_F(GalleryTest, MistakesInValuesHavePlaces) {
     refused("name = \"a\\nx\"\n", "cannot be the name");
     refused("n = '0:1e300'\n", "this would make 1e+300 jobs");
     EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "contact 3x"));
-    EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 holds nothing"));
+    EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 is empty"));
     EXPECT_EQ(gallery({"hilbert", "--json"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--name", "\xFFx", "--list"}).status, 2);
     // Not mistakes.

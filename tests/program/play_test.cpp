@@ -150,7 +150,7 @@ TEST(Play, Mistakes) {
         EXPECT_EQ(outcome.status, status) << outcome.errors;
         EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
     };
-    refused(hilbert, {"--scale", "majr"}, 2, "there is no scale 'majr'; near it are major");
+    refused(hilbert, {"--scale", "majr"}, 2, "unknown scale 'majr'; near it are major");
     refused(hilbert, {"--tempo", "0"}, 2, "quarter notes a minute");
     refused(hilbert, {"--tempo", "nan"}, 2, "quarter notes a minute");
     refused(hilbert, {"--meter", "4/0"}, 2, "expected a meter");
@@ -172,7 +172,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
     refused(hilbert, {"--from-bar", "1000"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--range", "fold C5-C4"}, 2, "the lowest and the highest note");
-    refused(hilbert, {"--scale", ""}, 2, "there is no scale ''");
+    refused(hilbert, {"--scale", ""}, 2, "unknown scale ''");
     refused(hilbert, {"--keyboard", "/dev/zero"}, 2, "over 1 MB");
     refused(hilbert, {"-n", "10"}, 2, "6 hours 45 minutes", "x.wav");
     refused(hilbert, {}, 2, "unknown extension", "x.ogg");
@@ -181,7 +181,7 @@ TEST(Play, Mistakes) {
     std::string branches = "heading: 0\naxiom: ";
     for (int i = 0; i < 20; ++i) branches += "[FFFF]";
     refused(branches + "\n", {}, 2, "too many voices");
-    refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: there is no scale");
+    refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: unknown scale");
 }
 
 TEST(Play, ScalesOfFiles) {
