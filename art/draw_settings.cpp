@@ -20,16 +20,6 @@ namespace {
 
 constexpr double longest = 10'000;  // millimetres: wider than any press or plotter
 
-[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& message) {
-    throw SettingError(option, value, message);
-}
-
-double to_number(const std::string& text) {
-    double value = 0;
-    read_number(text, value);  // the table has checked it
-    return value;
-}
-
 int to_int(const std::string& text) {
     return static_cast<int>(to_number(text));
 }
@@ -40,17 +30,17 @@ bool is_true(const std::string& text) {
 
 double length(const char* option, const std::string& text, double dpi) {
     const auto value = parse_length(text, dpi);
-    if (!value) refuse(option, text, "expected a length such as 5mm, 1.5cm, 2in, 12pt or 300px");
+    if (!value) refuse_option(option, text, "expected a length such as 5mm, 1.5cm, 2in, 12pt or 300px");
     return *value;
 }
 
 Page sheet(const char* option, const std::string& text, double dpi) {
     const auto size = parse_size(text, dpi);
     if (!size) {
-        refuse(option, text, "expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm");
+        refuse_option(option, text, "expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm");
     }
     if (!(size->x >= 1 && size->y >= 1 && size->x <= longest && size->y <= longest)) {
-        refuse(option, text, "expected a page between 1 mm and 10 m wide and high");
+        refuse_option(option, text, "expected a page between 1 mm and 10 m wide and high");
     }
     return {size->x, size->y, 10.0};
 }
@@ -58,7 +48,7 @@ Page sheet(const char* option, const std::string& text, double dpi) {
 void set_step(DrawSettings& settings, const std::string& text) {
     settings.step = length("step", text, settings.dpi);
     if (!(*settings.step >= 1e-9 && *settings.step <= longest)) {
-        refuse("step", text, "expected a step of at least 10^-9 mm and at most 10 m");
+        refuse_option("step", text, "expected a step of at least 10^-9 mm and at most 10 m");
     }
 }
 
@@ -66,8 +56,8 @@ void set_window(DrawSettings& settings, const std::string& text) {
     settings.window = parse_window(text);
     settings.window_text = text;
     if (!settings.window) {
-        refuse("window", text,
-               "expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 and Y0 below Y1");
+        refuse_option("window", text,
+                      "expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 and Y0 below Y1");
     }
 }
 
@@ -80,7 +70,7 @@ void set_dots(DrawSettings& settings, const std::string& text) {
 void set_dot_spacing(DrawSettings& settings, const std::string& text) {
     settings.dot_spacing = length("dot-spacing", text, settings.dpi);
     if (!(*settings.dot_spacing > 0 && *settings.dot_spacing <= longest)) {
-        refuse("dot-spacing", text, "expected a length above 0 and at most 10 m");
+        refuse_option("dot-spacing", text, "expected a length above 0 and at most 10 m");
     }
 }
 
@@ -91,14 +81,14 @@ void set_generations(DrawSettings& settings, const std::string& text) {
         std::int64_t value = -1;
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
         if (error != std::errc() || end != part.data() + part.size() || value < 0) {
-            refuse("generations", text, "expected two derivation lengths such as 0:4");
+            refuse_option("generations", text, "expected two derivation lengths such as 0:4");
         }
         return value;
     };
     const std::int64_t first = whole(std::string_view(text).substr(0, colon));
     const std::int64_t last = colon == std::string::npos ? first : whole(std::string_view(text).substr(colon + 1));
     if (last > most_steps) {
-        refuse("generations", text, fmt::format("expected derivation lengths up to {}", most_steps));
+        refuse_option("generations", text, fmt::format("expected derivation lengths up to {}", most_steps));
     }
     settings.generations = {first, last};
 }
@@ -106,7 +96,7 @@ void set_generations(DrawSettings& settings, const std::string& text) {
 void set_animation(DrawSettings& settings, const std::string& text) {
     double seconds = 20;
     if ((!text.empty() && !read_number(text, seconds)) || !(seconds > 0 && seconds <= 86'400)) {
-        refuse("animate", text, "expected seconds, above 0 and at most a day");
+        refuse_option("animate", text, "expected seconds, above 0 and at most a day");
     }
     settings.animation = seconds;
 }
@@ -120,12 +110,13 @@ void set_hatch(DrawSettings& settings, const std::string& text) {
         if (begin == 0) {
             hatch.spacing = length("hatch", part, settings.dpi);
             if (!(hatch.spacing >= 0.05 && hatch.spacing <= longest)) {
-                refuse("hatch", text, "expected a spacing of at least 0.05mm and at most 10 m");
+                refuse_option("hatch", text, "expected a spacing of at least 0.05mm and at most 10 m");
             }
         } else if (part == "cross") {
             hatch.is_crossed = true;
         } else if (!read_number(part, hatch.angle) || !(std::fabs(hatch.angle) <= 360)) {
-            refuse("hatch", text, "expected a spacing, then an angle in degrees or 'cross': 0.5mm,30 or 0.5mm,cross");
+            refuse_option("hatch", text,
+                          "expected a spacing, then an angle in degrees or 'cross': 0.5mm,30 or 0.5mm,cross");
         }
         begin = end + 1;
     }
@@ -134,15 +125,15 @@ void set_hatch(DrawSettings& settings, const std::string& text) {
 void set_pen_width(DrawSettings& settings, const std::string& text) {
     settings.pen_width = length("pen-width", text, settings.dpi);
     if (!(settings.pen_width >= 0.05 && settings.pen_width <= 100)) {
-        refuse("pen-width", text, "expected a width between 0.05mm and 100mm");
+        refuse_option("pen-width", text, "expected a width between 0.05mm and 100mm");
     }
 }
 
 void set_paper(DrawSettings& settings, const std::string& text) {
     settings.paper = parse_hpgl_paper(text, settings.dpi);
     if (!settings.paper) {
-        refuse("hpgl-paper", text,
-               "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
+        refuse_option("hpgl-paper", text,
+                      "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
     }
 }
 
@@ -153,12 +144,12 @@ void set_tile(DrawSettings& settings, const std::string& text) {
     settings.tile->margin = 5.0;
     if (comma == std::string::npos) return;
     settings.tile->margin = length("tile", text.substr(comma + 1), settings.dpi);
-    if (settings.tile->margin < 0) refuse("tile", text, "expected a margin of 0 or more");
+    if (settings.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
 }
 
 void set_profile(DrawSettings& settings, const std::string& text) {
     const auto profile = gcode_profile(text);
-    if (!profile) refuse("profile", text, "expected grbl or z");
+    if (!profile) refuse_option("profile", text, "expected grbl or z");
     settings.gcode = *profile;
 }
 
@@ -170,12 +161,12 @@ void parse_press(const char* option, const std::string& text, const Parse& parse
     } catch (const SettingError&) {
         throw;
     } catch (const std::runtime_error& error) {
-        refuse(option, text, error.what());
+        refuse_option(option, text, error.what());
     }
 }
 
 void set_word(const char* option, std::string_view word, const std::string& text, bool& value) {
-    if (text != word) refuse(option, text, fmt::format("expected {}", word));
+    if (text != word) refuse_option(option, text, fmt::format("expected {}", word));
     value = true;
 }
 
@@ -202,7 +193,7 @@ const std::array table = {
     Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH"},
               [](S& s, Text t) {
                   s.page.margin = length("margin", t, s.dpi);
-                  if (s.page.margin < 0) refuse("margin", t, "expected 0 or more");
+                  if (s.page.margin < 0) refuse_option("margin", t, "expected 0 or more");
               }},
     Option<S>{{.name = "fit", .help = "fill the page within its margins (default)", .kind = flag},
               [](S& s, Text t) { s.fit = is_true(t); }},
@@ -310,7 +301,7 @@ const std::array table = {
                .group = plotters},
               [](S& s, Text t) {
                   s.split = length("split", t, s.dpi);
-                  if (!(s.split > 0)) refuse("split", t, "expected a length above 0");
+                  if (!(s.split > 0)) refuse_option("split", t, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
                .help = "width of the plotter's pen; wider strokes take several passes (each stroke's own width)",
@@ -394,7 +385,7 @@ const std::array table = {
                .kind = whole},
               [](S& s, Text t) {
                   s.press.bits = to_int(t);
-                  if (s.press.bits != 1 && s.press.bits != 8) refuse("bits", t, "expected 1 or 8");
+                  if (s.press.bits != 1 && s.press.bits != 8) refuse_option("bits", t, "expected 1 or 8");
               }},
     Option<S>{
         {.name = "screen",
@@ -439,14 +430,7 @@ const std::array table = {
                .is_alone = true,
                .letter = 'j'},
               [](S& s, Text t) { s.threads = to_int(t); }},
-    Option<S>{{.name = "budget",
-               .help = "maximum number of derivation nodes visited (2e8)",
-               .value = "NODES",
-               .kind = number},
-              [](S& s, Text t) {
-                  s.budget = to_number(t);
-                  if (!(s.budget > 0)) refuse("budget", t, "expected a number above 0");
-              }},
+    Option<S>{budget_option, [](S& s, Text t) { s.budget = read_budget(t); }},
 };
 
 }  // namespace
@@ -467,10 +451,23 @@ DrawSettings read_draw_settings(const OptionValues& values) {
     Page& page = settings.page;
     if (settings.landscape && page.height > page.width) std::swap(page.width, page.height);
     if (!(2 * page.margin < std::min(page.width, page.height))) {
-        refuse("margin", fmt::format("{:g}mm", page.margin),
-               fmt::format("the margins leave nothing of a page of {:g} x {:g} mm", page.width, page.height));
+        refuse_option("margin", fmt::format("{:g}mm", page.margin),
+                      fmt::format("the margins leave nothing of a page of {:g} x {:g} mm", page.width, page.height));
     }
     return settings;
+}
+
+DrawingOptions drawing_options(const DrawSettings& settings) {
+    DrawingOptions options;
+    options.placement.rotate = settings.rotate;
+    options.placement.mirror = settings.mirror;
+    options.placement.step = settings.step;
+    options.window = settings.window;
+    options.only_dots = settings.only_dots;
+    options.colours_strokes = settings.colours_strokes;
+    options.border = settings.border;
+    options.budget = settings.budget;
+    return options;
 }
 
 Style read_print_style(const Document& document, const DrawSettings& settings) {
@@ -503,7 +500,7 @@ struct Conflict {
 
 void refuse_first(std::initializer_list<Conflict> conflicts) {
     for (const Conflict& conflict : conflicts) {
-        if (conflict.is_given) refuse(conflict.option, "", conflict.reason);
+        if (conflict.is_given) refuse_option(conflict.option, "", conflict.reason);
     }
 }
 
@@ -577,8 +574,8 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
     const auto [first, last] = *settings.generations;
     const std::int64_t most = is_sheet ? 100 : most_frames;
     if (last < first || last - first >= most) {
-        refuse("generations", fmt::format("{}:{}", first, last),
-               fmt::format("expected up to {} derivation lengths, the lowest first", most));
+        refuse_option("generations", fmt::format("{}:{}", first, last),
+                      fmt::format("expected up to {} derivation lengths, the lowest first", most));
     }
     if (is_sheet) {
         constexpr const char* filled = "each drawing of a sheet of generations is scaled to fill its cell";
@@ -596,8 +593,9 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
     refuse_first({{press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
     const PixelSize size = pixel_size(settings.page, settings.dpi);
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
-        refuse("dpi", fmt::format("{:g}", settings.dpi),
-               "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
+        refuse_option(
+            "dpi", fmt::format("{:g}", settings.dpi),
+            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
     }
 }
 
@@ -607,8 +605,8 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     if (info(format).kind == FormatKind::model) return check_model(settings);
     check_placement(settings);
     if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
-        refuse("dpi", fmt::format("{:g}", settings.dpi),
-               "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
+        refuse_option("dpi", fmt::format("{:g}", settings.dpi),
+                      "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
     }
     try {
         check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
@@ -617,7 +615,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     } catch (const SettingError&) {
         throw;
     } catch (const std::runtime_error& error) {
-        refuse("", "", error.what());
+        refuse_option("", "", error.what());
     }
     constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
     const bool is_untrimmed = settings.plotter || settings.tile;

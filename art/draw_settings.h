@@ -1,6 +1,7 @@
 // art/draw_settings.h: typed settings of a print, and the table of options that sets them.
 #pragma once
 
+#include "art/drawing/draw_options.h"
 #include "art/drawing/growth.h"
 #include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
@@ -71,6 +72,9 @@ DrawSettings read_draw_settings(const OptionValues& values);
 /// Reads the style of a document, with `dots` and `view` as the settings override them. @throws SettingError,
 /// PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
+
+/// The options of the drawing, on its own page or in the cell of a sheet.
+DrawingOptions drawing_options(const DrawSettings& settings);
 
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

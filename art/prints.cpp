@@ -14,23 +14,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace sikku {
 namespace {
-
-std::string time_text(double seconds) {
-    if (!(seconds < 1e12)) return "forever";
-    const auto whole = static_cast<long long>(std::llround(seconds));
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-    return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
 
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     const auto line = [&](const PlotTally& tally) {
@@ -53,6 +42,12 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     }
 }
 
+void report_text(const DrawReport& report, const std::filesystem::path& name, Made& made) {
+    if (!report.leaves_pattern_out) return;
+    made.warn(
+        fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
+}
+
 /// A planned print or model.
 class PrintWork : public Work {
 public:
@@ -72,9 +67,11 @@ public:
     }
 
     Cost forecast() const override;
-    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) override;
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+              int threads) override;
 
 private:
+    Cost forecast(const Grammar& grammar) const;
     bool is_model() const { return info(format_).kind == FormatKind::model; }
     bool is_growth() const { return format_ == PrintFormat::gif || settings_.frames; }
 
@@ -86,18 +83,11 @@ private:
     }
 
     void plan_drawing() {
+        static_cast<DrawingOptions&>(drawing_) = drawing_options(settings_);
         drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
-        drawing_.placement.rotate = settings_.rotate;
-        drawing_.placement.mirror = settings_.mirror;
-        drawing_.placement.step = settings_.step;
-        drawing_.window = settings_.window;
-        drawing_.only_dots = settings_.only_dots;
         drawing_.dot_spacing = settings_.dot_spacing;
-        drawing_.colours_strokes = settings_.colours_strokes;
-        drawing_.border = settings_.border;
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression;
-        drawing_.budget = settings_.budget;
         if (settings_.tile) drawing_.tiles = TileOptions{*settings_.tile, settings_.overlap};
         if (!settings_.plotter && !is_for_plotters(format_)) return;
         PlotOptions& plot = drawing_.plot.emplace();
@@ -115,12 +105,12 @@ private:
         const bool is_spatial = document_.grammar().is_spatial();
         if (is_model()) require_straight("models have straight lines, not splines");
         if (settings_.generations && document_.has_override("derivation length")) {
-            throw SettingError("generations", "", "cannot be combined with a derivation length");
+            refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (!is_spatial) return;
         require_straight("drawings that pitch, roll or bend have straight lines, not splines");
         constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
-        const auto refuse = [](const char* option, const char* why) { throw SettingError(option, "", why); };
+        const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
         if (settings_.border) refuse("border", plane);
@@ -171,6 +161,7 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     growth.is_animation = format_ == PrintFormat::gif;
     growth.made = [this](const Grammar& generation) { return made_with(generation); };
     const DrawReport report = draw_growth(document_.grammar(), print_, options, growth, name, destination);
+    report_text(report, name, made);
     if (report.overflows) {
         made.warn("the largest generation is larger than the page within its margins and is cut off");
     }
@@ -196,6 +187,7 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.made = print_.made;
     sheet.threads = options.threads;
     sheet.compression = options.compression;
+    sheet.monitor = options.monitor;
     sheet.watch = options.watch;
     draw_sheet(generations(cell, first, last), sheet, name, destination);
 }
@@ -205,13 +197,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     // Before the drawing, which may take long.
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
-    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
-        made.warn("'view' has no effect: this drawing lies in the plane");
-    }
-    if (report.leaves_pattern_out) {
-        made.warn(fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes",
-                              name.string()));
-    }
+    report_text(report, name, made);
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
         made.warn("no dots were drawn: the lines enclose none");
     }
@@ -244,9 +230,11 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
 }
 
-Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
+Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                     int threads) {
     Made made;
     DrawOptions options = drawing_;
+    if (threads > 0) options.threads = threads;
     options.monitor = monitor;
     options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
@@ -259,20 +247,27 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     } else {
         make_print(destination, name, options, made);
     }
+    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
+        made.warn("'view' has no effect: this drawing lies in the plane");
+    }
     return made;
 }
 
 Cost PrintWork::forecast() const {
+    if (!settings_.generations) return forecast(document_.grammar());
+    // The last generation is the most expensive.
+    const auto [first, last] = *settings_.generations;
+    const auto largest = document_.grammar().with_steps(last);
+    Cost result = forecast(largest ? *largest : document_.grammar());
+    result.seconds *= static_cast<double>(last - first + 1);
+    result.bytes *= static_cast<double>(last - first + 1);
+    return result;
+}
+
+Cost PrintWork::forecast(const Grammar& given) const {
     Cost result;
-    const Grammar grammar = shorten(document_.grammar());
-    DrawingCost cost;
-    {
-        // The parts of large words are large, too: not several at a time.
-        static std::mutex mutex;
-        std::unique_lock lock(mutex, std::defer_lock);
-        if (!is_vector(drawing_.format)) lock.lock();
-        cost = drawing_cost(grammar, print_, drawing_);
-    }
+    const Grammar grammar = shorten(given);
+    const DrawingCost cost = drawing_cost(grammar, print_, drawing_);
     const auto text = static_cast<double>(print_.pattern.size());
     const bool spline = print_.style.line == Line::spline;
     result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
@@ -290,7 +285,6 @@ Cost PrintWork::forecast() const {
         case PrintFormat::gcode:
             result.seconds += cost.lines * 3e-6;
             result.bytes = 500 + cost.lines * (spline ? 60 : 12);
-            result.memory += cost.lines * 250;
             return result;
         default:
             break;
@@ -325,14 +319,15 @@ public:
                                const std::filesystem::path& folder) const override {
         DrawSettings settings = read_draw_settings(values);
         if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
-        check_draw_settings(settings, known(format));
-        return std::make_unique<PrintWork>(document, known(format), std::move(settings));
+        const PrintFormat print = known(format);
+        check_draw_settings(settings, print);
+        return std::make_unique<PrintWork>(document, print, std::move(settings));
     }
 
 private:
     static PrintFormat known(std::string_view format) {
         if (const auto found = named_format(format)) return *found;
-        throw SettingError("format", std::string(format), "unknown format");
+        refuse_option("format", std::string(format), "unknown format");
     }
     std::vector<FormatName> formats_;
     std::vector<const OptionInfo*> options_;

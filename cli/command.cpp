@@ -1,19 +1,17 @@
 #include "cli/command.h"
 
-#include "art/style/style.h"
-#include "engine/derivation/forecast.h"
-#include "music/melody/melody.h"
+#include "art/prints.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <system_error>
 
 namespace sikku {
@@ -76,18 +74,9 @@ NamedText read_pattern_text(const std::string& pattern) {
     }
 }
 
-void check_values(const Pattern& pattern, Diagnostics& diagnostics) {
-    read_style(pattern, 96, diagnostics);  // errors do not depend on the resolution
-    read_melody(pattern, {}, diagnostics);
-}
-
-Grammar compile(const Pattern& pattern, Diagnostics& diagnostics) {
-    // Files and galleries have thousands of variants and jobs.
-    if (interrupted()) throw Interrupted();
-    check_keys(pattern, diagnostics);
-    Grammar grammar = compile_grammar(pattern, diagnostics);
-    check_values(pattern, diagnostics);
-    return grammar;
+std::span<const Interpreter* const> interpreters() {
+    static const std::array all = {&prints(), &scores()};
+    return all;
 }
 
 Document load(const PatternOptions& options, bool quiet) {
@@ -112,9 +101,8 @@ Document load(const PatternOptions& options, bool quiet) {
     NamedText text = read_pattern_text(options.pattern);
     Diagnostics diagnostics;
     if (interrupted()) throw Interrupted();
-    Document document = Document::compile(std::move(text.name), std::move(text.text),
-                                          {options.variant, std::move(settings)}, diagnostics);
-    if (!diagnostics.is_unreadable()) check_values(document.pattern(), diagnostics);
+    Document document = compile(std::move(text.name), std::move(text.text), {options.variant, std::move(settings)},
+                                interpreters(), diagnostics);
     diagnostics.throw_if_errors();
     if (!quiet) {
         for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());

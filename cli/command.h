@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -71,11 +72,8 @@ void add_override_options(CLI::App& command, PatternOptions& options);
 /// `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
-/// Checks the values of the keys that art and music own.
-void check_values(const Pattern& pattern, Diagnostics& diagnostics);
-
-/// Compiles what a pattern states; mistakes in its keys, in its grammar and in its style go to `diagnostics`.
-Grammar compile(const Pattern& pattern, Diagnostics& diagnostics);
+/// The interpreters: prints, then scores.
+std::span<const Interpreter* const> interpreters();
 
 /// Reads, compiles and checks a pattern; warnings are printed unless `quiet`.
 /// @throws PatternError, UsageError for an unknown name

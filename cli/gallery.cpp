@@ -282,8 +282,7 @@ void print_result(const Gallery& gallery, const GalleryResult& result, const Opt
     std::size_t told = 0;
     for (const std::size_t job : result.made) {
         const FinishedJob& made = result.finished.at(job);
-        for (const std::string& text : made.told) {
-            if (text.find("warning:") == std::string::npos) continue;
+        for (const std::string& text : made.warnings) {
             if (++told <= 20) tell("{}: {}\n", printable(made.file, 2000), printable(text, 2000));
         }
     }

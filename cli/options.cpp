@@ -1,10 +1,10 @@
 #include "cli/options.h"
 
-#include "art/prints.h"
-#include "engine/base/diagnostic.h"
-#include "music/scores.h"
+#include "cli/command.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace sikku {
 
@@ -52,12 +52,9 @@ OptionValues TableOptions::values() const {
 namespace {
 
 bool is_option(std::string_view name) {
-    for (const Interpreter* interpreter : {&prints(), &scores()}) {
-        for (const OptionInfo* info : interpreter->options()) {
-            if (info->name == name) return true;
-        }
-    }
-    return false;
+    const auto all = interpreters();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Interpreter* one) { return find_option(one->options(), name) != nullptr; });
 }
 
 std::string with_dashes(const std::string& message) {

@@ -1,7 +1,9 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
 #include "art/provenance/provenance.h"
 #include "cli/command.h"
+#include "engine/base/keys.h"
 #include "engine/base/text.h"
+#include "engine/language/grammar.h"
 #include "music/scale/scale.h"
 
 #include <fmt/format.h>
@@ -89,6 +91,13 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
+void check_pattern(const Pattern& pattern, Diagnostics& diagnostics) {
+    if (interrupted()) throw Interrupted();
+    check_keys(pattern, diagnostics);
+    compile_grammar(pattern, diagnostics);
+    for (const Interpreter* interpreter : interpreters()) interpreter->check_keys(pattern, diagnostics);
+}
+
 /// Checks all variants, up to a limit: each is compiled in full, which would take minutes for many variants of a
 /// large pattern.
 void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
@@ -101,11 +110,10 @@ void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
         return;
     }
     for (const Variant& variant : pattern.variants) {
-        if (interrupted()) throw Interrupted("interrupted");
         if (diagnostics.has_errors()) return;
         Pattern varied = pattern;
         apply_overrides(varied, variant.name.view(), {}, diagnostics);
-        compile(varied, diagnostics);
+        check_pattern(varied, diagnostics);
     }
 }
 
@@ -121,7 +129,7 @@ bool check(const std::string& file) {
     NamedText text = read_pattern_text(file);
     const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
     if (!diagnostics.is_unreadable()) {
-        compile(pattern, diagnostics);
+        check_pattern(pattern, diagnostics);
         if (!diagnostics.has_errors()) check_variants(pattern, diagnostics);
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());

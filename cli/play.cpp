@@ -1,16 +1,12 @@
 // cli/play.cpp: `sikku play`: a curve as music.
 #include "cli/command.h"
 #include "cli/options.h"
-#include "engine/base/keys.h"
-#include "engine/base/text.h"
 #include "music/scores.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 namespace sikku {
 namespace {
@@ -24,13 +20,9 @@ struct PlayCommand {
 
 /// The name of the format with the file's extension. @throws UsageError
 std::string format_of(const std::string& output) {
-    const std::string dotted = lower_case(std::filesystem::path(output).extension().string());
-    const std::string extension = dotted.empty() ? "" : dotted.substr(1);
-    for (const FormatName& format : scores().formats()) {
-        if (extension == format.extension || (!extension.empty() && extension == format.alias)) {
-            return std::string(format.extension);
-        }
-    }
+    const std::string extension = std::filesystem::path(output).extension().string();
+    const FormatName* format = find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1));
+    if (format) return std::string(format->extension);
     throw UsageError(
         fmt::format("-o {}: unknown extension; a score is .mid, .musicxml or .ly, sound is .wav or .flac, "
                     "and .svg or .html show it",

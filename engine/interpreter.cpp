@@ -1,18 +1,37 @@
 #include "engine/interpreter.h"
 
 #include "engine/base/keys.h"
+#include "engine/base/text.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace sikku {
 
+const FormatName* find_format(std::span<const FormatName> formats, std::string_view name) {
+    const std::string wanted = lower_case(name);
+    const auto found = std::find_if(formats.begin(), formats.end(), [&](const FormatName& row) {
+        return wanted == row.extension || (!wanted.empty() && wanted == row.alias);
+    });
+    return found == formats.end() ? nullptr : &*found;
+}
+
+Document compile(std::string name, std::string text, const Overrides& overrides,
+                 std::span<const Interpreter* const> interpreters, Diagnostics& diagnostics) {
+    Document document = Document::compile(std::move(name), std::move(text), overrides, diagnostics);
+    if (diagnostics.is_unreadable()) return document;
+    for (const Interpreter* interpreter : interpreters) interpreter->check_keys(document.pattern(), diagnostics);
+    return document;
+}
+
 std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
                    const std::string& after) {
     std::string text = "sikku " SIKKU_VERSION ", -n " + std::to_string(grammar.steps()) + before;
     const Overrides& overrides = document.overrides();
     if (!overrides.variant.empty()) text += " --variant " + overrides.variant;
-    const auto is_seed = [](const Setting& setting) { return setting.origin == "--seed"; };
+    const auto is_seed = [](const Setting& setting) {
+        return setting.origin == "--seed" || setting.origin == "seed";
+    };
     for (const Setting& setting : overrides.settings) {
         if (is_seed(setting)) text += " --seed " + setting.value;
     }
@@ -42,15 +61,12 @@ void require_known(const Interpreter& interpreter, const Document& document, con
 
 std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
                            const OptionValues& values) {
-    const auto options = interpreter.options();
     OptionValues own;
     std::vector<Setting> settings;
     for (const OptionValue& value : values) {
         require_known(interpreter, document, value.name);
-        const auto row = std::find_if(options.begin(), options.end(),
-                                      [&](const OptionInfo* info) { return info->name == value.name; });
         const KeyInfo* key = find_language_key(value.name);
-        const bool is_option = row != options.end();
+        const bool is_option = find_option(interpreter.options(), value.name) != nullptr;
         if (is_option) own.push_back(value);
         // A seed applies to both the pattern and the option.
         if (!is_option || (key && key->owner == KeyOwner::engine)) {

@@ -45,9 +45,11 @@ public:
     virtual Cost forecast() const = 0;
     /// Names and contents of the files besides the pattern that determine the output.
     virtual std::vector<std::pair<std::string, std::string>> read_files() const { return {}; }
-    /// Writes `name`, and further outputs beside it if the format has several; either all appear or none.
+    /// Writes `name`, and further outputs beside it if the format has several; each appears whole or not at all.
+    /// @param threads threads for pixels; 0: the number in the options
     /// @throws SettingError, BudgetError, WordError, Stopped; std::runtime_error if an output cannot be written
-    virtual Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) = 0;
+    virtual Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                      int threads = 0) = 0;
 };
 
 /// One format of an interpreter: `svg`, `mid`.
@@ -57,6 +59,9 @@ struct FormatName {
     std::string_view alias{};    ///< another extension, or empty
     bool is_several = false;     ///< needs several derivation lengths, or has several files
 };
+
+/// The row of that extension or alias (any case), or null.
+const FormatName* find_format(std::span<const FormatName> formats, std::string_view name);
 
 /// Plans works. Stateless; there is one instance of each kind.
 class Interpreter {
@@ -77,6 +82,10 @@ public:
     virtual std::unique_ptr<Work> plan(const Document& document, std::string_view format, const OptionValues& values,
                                        const std::filesystem::path& folder = {}) const = 0;
 };
+
+/// Calls Document::compile() and checks the values of the keys that these interpreters own.
+Document compile(std::string name, std::string text, const Overrides& overrides,
+                 std::span<const Interpreter* const> interpreters, Diagnostics& diagnostics);
 
 /// The command line that makes the same output: `sikku 0.1.0, -n 4 --window … --set '…'`. Outputs store it beside the
 /// text of the pattern.

@@ -3,29 +3,11 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 
-#include <charconv>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 namespace sikku {
 namespace {
-
-[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& message) {
-    throw SettingError(option, value, message);
-}
-
-double to_number(const std::string& text) {
-    double value = 0;
-    read_number(text, value);  // the table has checked it
-    return value;
-}
-
-template <typename Whole>
-void set_whole(const char* option, const std::string& text, Whole& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) refuse(option, text, "too large");
-}
 
 using S = PlaySettings;
 using Text = const std::string&;
@@ -49,9 +31,9 @@ std::vector<Option<S>> make_table() {
     }
     const std::vector<Option<S>> own = {
         {{.name = "from-bar", .help = "first bar, counted from 1 (1)", .value = "BAR", .kind = whole, .least = 1},
-         [](S& s, Text t) { set_whole("from-bar", t, s.from_bar); }},
+         [](S& s, Text t) { read_whole("from-bar", t, s.from_bar); }},
         {{.name = "bars", .help = "number of bars (all)", .value = "BARS", .kind = whole, .least = 1},
-         [](S& s, Text t) { set_whole("bars", t, s.bars); }},
+         [](S& s, Text t) { read_whole("bars", t, s.bars); }},
         {{.name = "seconds",
           .help = "maximum length in seconds (all)",
           .value = "SECONDS",
@@ -73,28 +55,21 @@ std::vector<Option<S>> make_table() {
           .most = 1},
          [](S& s, Text t) { s.humanise = to_number(t); }},
         {{.name = "seed", .help = "random seed of the pattern and of humanise (0)", .value = "N", .kind = whole},
-         [](S& s, Text t) { set_whole("seed", t, s.seed); }},
+         [](S& s, Text t) { read_whole("seed", t, s.seed); }},
         {{.name = "midi-format",
           .help = "1: a track for each voice; or 0 (1)",
           .value = "0|1",
           .kind = whole,
           .most = 1},
-         [](S& s, Text t) { set_whole("midi-format", t, s.format); }},
+         [](S& s, Text t) { read_whole("midi-format", t, s.format); }},
         {{.name = "tuning",
           .help = "microtones by pitch bend or by the MIDI Tuning Standard: bend or mts (bend)",
           .value = "bend|mts"},
          [](S& s, Text t) {
-             if (t != "bend" && t != "mts") refuse("tuning", t, "expected bend or mts");
+             if (t != "bend" && t != "mts") refuse_option("tuning", t, "expected bend or mts");
              s.tuning = t == "mts" ? Tuning::mts : Tuning::bend;
          }},
-        {{.name = "budget",
-          .help = "maximum number of derivation nodes visited (2e8)",
-          .value = "NODES",
-          .kind = number},
-         [](S& s, Text t) {
-             s.budget = to_number(t);
-             if (!(s.budget > 0)) refuse("budget", t, "expected a number above 0");
-         }},
+        {budget_option, [](S& s, Text t) { s.budget = read_budget(t); }},
     };
     table.insert(table.end(), own.begin(), own.end());
     return table;

@@ -1,5 +1,6 @@
 #include "music/scores.h"
 
+#include "engine/base/chance.h"
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 #include "engine/base/output_file.h"
@@ -22,10 +23,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 namespace sikku {
@@ -48,14 +47,6 @@ constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi
                                                           {{"flac", "sound"}, ScoreFormat::flac},
                                                           {{"notes.svg", "the notes", "svg"}, ScoreFormat::svg},
                                                           {{"html", "play"}, ScoreFormat::html}}};
-
-std::optional<ScoreFormat> score_format(std::string_view extension) {
-    const std::string name = lower_case(extension);
-    for (const ScoreFormatInfo& row : format_table) {
-        if (name == row.name.extension || (!row.name.alias.empty() && name == row.name.alias)) return row.format;
-    }
-    return std::nullopt;
-}
 
 /// A pattern that is a part of the score.
 struct Player {
@@ -94,9 +85,8 @@ public:
     void notes(std::span<const Note> notes) override {
         changed_.assign(notes.begin(), notes.end());
         for (Note& note : changed_) {
-            const std::uint64_t chance =
-                scrambled(seed_ ^ scrambled(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
-                                            static_cast<std::uint64_t>(note.voice)));
+            const std::uint64_t chance = next(seed_ ^ next(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
+                                                           static_cast<std::uint64_t>(note.voice)));
             const double late = static_cast<double>(chance >> 40) / 0x1p24;
             const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
             const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
@@ -111,12 +101,7 @@ public:
 
 private:
     /// Steele, Lea and Flood 2014: SplitMix64.
-    static std::uint64_t scrambled(std::uint64_t value) {
-        value += 0x9E3779B97F4A7C15;
-        value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9;
-        value = (value ^ (value >> 27)) * 0x94D049BB133111EB;
-        return value ^ (value >> 31);
-    }
+    static std::uint64_t next(std::uint64_t value) { return scrambled(value + 0x9E3779B97F4A7C15); }
     NoteSink& sink_;
     double amount_;
     std::uint64_t seed_;
@@ -138,13 +123,8 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     std::error_code error;
     const bool is_there = std::filesystem::exists(first / name, error);
     const std::filesystem::path path = (is_there ? first : then) / name;
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(most_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!stream.eof() && text.size() <= most_bytes) {
-        throw std::runtime_error(fmt::format("{}: this file cannot be read", name));
-    }
+    if (std::filesystem::is_fifo(path, error)) throw std::runtime_error(fmt::format("{}: this is a pipe", name));
+    std::string text = read_file(path, name, most_bytes);
     if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
     if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
     return text;
@@ -283,13 +263,6 @@ ScoreHead head_of(const PlaySettings& options, std::vector<Player>& players, con
     return head;
 }
 
-std::string time_text(double seconds) {
-    if (!std::isfinite(seconds) || seconds > 1e12) return fmt::format("{:.3g} years", seconds / 31'556'952);
-    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3600) return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 Integer bars_of(const Integer& ticks, const Meter& meter) {
     return (ticks + meter.bar() - 1) / meter.bar();
 }
@@ -419,16 +392,6 @@ void report_notation(const Notation& notation, Made& made) {
     }
 }
 
-/// Symbols of the word that draw, disc or polygon corner alike.
-double drawn_symbols(const Grammar& grammar, const Forecast& known) {
-    double drawn = 0;
-    for (std::size_t symbol = 0; symbol < grammar.symbols().size() && symbol < known.rough_counts.size(); ++symbol) {
-        const Action action = grammar.symbols()[symbol].command.action;
-        if (action == Action::draw || action == Action::disc) drawn += known.rough_counts[symbol];
-    }
-    return drawn;
-}
-
 /// A planned score.
 class ScoreWork : public Work {
 public:
@@ -452,7 +415,8 @@ public:
 
     Cost forecast() const override;
     std::vector<std::pair<std::string, std::string>> read_files() const override { return files_; }
-    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) override;
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+              int threads) override;
     std::string describe(const Monitor& monitor) const {
         return description(players_, piece_of(settings_, players_.front().melody, monitor),
                            settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
@@ -550,7 +514,8 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
 
-Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor) {
+Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+                     int /*threads*/) {
     Made made;
     for (const Player& player : players_) {
         for (const std::string& warning : player.warnings) made.warn(warning);
@@ -584,7 +549,10 @@ Cost ScoreWork::forecast() const {
         const auto known = estimate(grammar, true);
         double nodes = std::min(known ? known->nodes : unknown_symbols, settings_.budget);
         double notes = std::min(known ? drawn_symbols(grammar, *known) : nodes / 2, nodes);
-        if (settings_.bars > 0 || settings_.seconds > 0) nodes = notes = std::min(notes, 10'000.0);
+        if (settings_.bars > 0 || settings_.seconds > 0) {
+            nodes = notes = std::min(
+                notes, std::max(10'000.0, 64.0 * static_cast<double>(settings_.bars) + 32 * settings_.seconds));
+        }
         result.seconds += 0.0015 + nodes * 15e-9 + notes * 80e-9 + matching_seconds(grammar, settings_.budget);
         result.bytes += 600 + notes * 9;
         result.memory += 8e6;
@@ -601,9 +569,12 @@ Cost ScoreWork::forecast() const {
     return result;
 }
 
+/// @throws SettingError
 ScoreFormat known(std::string_view format) {
-    if (const auto found = score_format(format)) return *found;
-    throw SettingError("format", std::string(format), "unknown format");
+    for (const ScoreFormatInfo& row : format_table) {
+        if (find_format(std::span(&row.name, 1), format)) return row.format;
+    }
+    refuse_option("format", std::string(format), "unknown format");
 }
 
 class Scores : public Interpreter {

@@ -12,6 +12,10 @@ inline bool has_program(const std::string& name) {
     return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
+/// Skips the rest of a test if the program is not installed.
+#define NEEDS(program) \
+    if (!has_program(program)) GTEST_SKIP() << program " is not installed"
+
 /// Standard output and error of a command, and whether it succeeded.
 struct ToolOutcome {
     bool ok = false;

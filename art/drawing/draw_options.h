@@ -12,6 +12,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 namespace sikku {
@@ -23,16 +25,21 @@ struct DrawnExtent {
     double around = 0.0;  ///< the same for lines that continue outside a window
 };
 
-struct DrawOptions {
-    PrintFormat format = PrintFormat::svg;
+/// Options of a drawing that hold for a page of its own and for a cell of a sheet.
+struct DrawingOptions {
     PlacementOptions placement;
-    std::optional<DrawnExtent> frame;  ///< extent to place on the page instead of the drawing's own
-    std::optional<ViewWindow> window;  ///< part of the drawing that fills the page; only for lines in one pen
-    bool may_be_empty = false;  ///< a drawing without lines gives an empty page, as for one of several generations
-    bool only_dots = false;     ///< draw only the dots of a kolam, to practise on
+    std::optional<ViewWindow> window;  ///< the part of the drawing that fills the page within its margins
+    bool may_be_empty = false;     ///< a drawing without lines gives an empty page, as for one of several generations
+    bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
+    bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
+    bool border = false;           ///< add a frame of red earth within the margins: see draw_border()
+    double budget = 200e6;         ///< maximum number of derivation nodes visited in one pass
+};
+
+struct DrawOptions : DrawingOptions {
+    PrintFormat format = PrintFormat::svg;
+    std::optional<DrawnExtent> frame;   ///< extent to place on the page instead of the drawing's own
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
-    bool colours_strokes = false;       ///< draw each stroke in the next colour of the palette
-    bool border = false;                ///< add a frame of red earth within the margins: see draw_border()
     /// Arranges the lines for a plotter, which HP-GL and G-code always do. The format sets start and home.
     std::optional<PlotOptions> plot;
     bool shows_travel = false;  ///< draw pen-up travel of the plot in a separate layer
@@ -41,16 +48,25 @@ struct DrawOptions {
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.
     std::optional<TileOptions> tiles;
-    int threads = 0;        ///< for raster formats; 0: all cores
-    int compression = 6;    ///< PNG compression, 1 (fast) to 9 (small)
-    double budget = 200e6;  ///< maximum number of derivation nodes visited in one pass
-    Monitor monitor = {};   ///< polled in long stages that read no words
+    int threads = 0;       ///< for raster formats; 0: all cores
+    int compression = 6;   ///< PNG compression, 1 (fast) to 9 (small)
+    Monitor monitor = {};  ///< polled in long stages that read no words
     /// Called once, before the word is read, with the number of passes. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
     /// stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
+
+/// Returns the options with a `watch` that serialises its calls.
+inline DrawOptions with_locked_watch(DrawOptions options) {
+    if (!options.watch) return options;
+    options.watch = [watch = options.watch, mutex = std::make_shared<std::mutex>()](std::uint64_t symbols) {
+        const std::scoped_lock lock(*mutex);
+        watch(symbols);
+    };
+    return options;
+}
 
 /// Report about a finished drawing.
 struct DrawReport {

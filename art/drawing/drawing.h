@@ -90,6 +90,7 @@ struct DrawingCost {
     double lines = 0;          ///< lines, polygons and discs drawn in a pass
     double memory = 0;         ///< bytes, on one thread
     double thread_memory = 0;  ///< bytes for each further thread
+    double kept_memory = 0;    ///< bytes of `memory` that the drawing itself keeps
     double lines_memory = 0;   ///< bytes of `memory` kept by a Raster when it has read the whole drawing
 };
 

@@ -163,7 +163,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                         most_frames, most_steps));
     }
     Print print = given;
-    DrawOptions options = given_options;
+    DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
     if (!is_vector(options.format)) prepare_images(options.threads);
     if (options.dot_spacing) set_step(grammar, print.style, options, growth);
@@ -182,12 +182,15 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
         draw_gif(grammar, print, options, growth, file, destination, report);
         return report;
     }
+    bool leaves_pattern_out = false;
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
         if (growth.made) print.made = growth.made(generation);
         report = draw(generation, print, framed(grammar, print.style, options, growth, n),
                       frame_file(file, n, growth.last), destination);
+        leaves_pattern_out = leaves_pattern_out || report.leaves_pattern_out;
     }
+    report.leaves_pattern_out = leaves_pattern_out;
     return report;
 }
 

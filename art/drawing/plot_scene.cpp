@@ -138,7 +138,7 @@ private:
     }
 
     std::size_t passes(const SceneSegment& segment) const {
-        return options_.pen_width > 0 ? pass_offsets(width(segment), options_.pen_width).size() : 1;
+        return options_.pen_width > 0 ? pass_count(width(segment), options_.pen_width) : 1;
     }
 
     /// Draws consecutive segments of the same colour and number of passes as one stroke.
@@ -174,6 +174,7 @@ private:
 
     /// Fills the width of the stem in passes back and forth, with round ends.
     void draw_wide(std::span<const SceneSegment> stem, std::size_t count, Owner owner) {
+        require_few_passes(stem.size(), count);
         const Pen real = pen(stem[0].colour, stem[0].after);
         const double half_pen = options_.pen_width / 2 / step_;
         std::vector<glm::dvec3> points;

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -256,6 +255,8 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
     }
     for (const auto& output : outputs) output->commit();
     drawing.report(report);
+    report.leaves_pattern_out =
+        !is_vector(options.format) && !keeps_text(info(options.format).extension, print.pattern);
     report.overflows = false;
     report.sheets = static_cast<int>(tiling.tiles.size());
     return report;

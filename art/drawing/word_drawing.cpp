@@ -137,13 +137,7 @@ DerivationOptions reading(const DrawOptions& options) {
 /// Stems and spheres that are kept, as far as they are known beforehand.
 double parts_of(const Grammar& grammar) {
     const auto known = estimate(grammar, true);
-    if (!known) return 0;
-    double parts = 0;
-    for (std::size_t i = 0; i < std::min(known->rough_counts.size(), grammar.symbols().size()); ++i) {
-        const Action action = grammar.symbols()[i].command.action;
-        if (action == Action::draw || action == Action::disc) parts += known->rough_counts[i];
-    }
-    return parts;
+    return known ? drawn_symbols(grammar, *known) : 0;
 }
 
 /// @throws BudgetError, if there are more parts of a scene than `most`, before they are read

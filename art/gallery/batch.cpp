@@ -1,14 +1,14 @@
 #include "art/gallery/batch.h"
 
+#include "engine/base/text.h"
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 
 namespace sikku {
@@ -17,33 +17,6 @@ namespace {
 /// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
 /// the beginning.
 constexpr int most_picture_threads = 3;
-
-}  // namespace
-
-std::string time_text(double seconds) {
-    if (!std::isfinite(seconds) || seconds > 1e10) return "for ever";
-    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
-    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-    if (seconds < 3599.5) {
-        const auto whole = static_cast<long>(std::lround(seconds));
-        return fmt::format("{} min {} s", whole / 60, whole % 60);
-    }
-    return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-std::string bytes_text(double bytes) {
-    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
-    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
-    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
-    return fmt::format("{:.1f} GB", bytes / 1e9);
-}
-
-namespace {
-
-bool has_option(const Interpreter& interpreter, std::string_view name) {
-    const auto options = interpreter.options();
-    return std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) { return info->name == name; });
-}
 
 }  // namespace
 
@@ -66,12 +39,13 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
-        make(place.path(), file.told);
+        make(place.path(), file);
     } catch (const Stopped&) {
         throw;
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(place.readable(error.what()));
     }
+    for (std::string& line : file.warnings) line = place.readable(line, file.file);
     for (std::string& line : file.told) line = place.readable(line, file.file);
     const auto made = folder.status(file.file);
     if (!made) throw std::runtime_error("nothing to write");
@@ -84,7 +58,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
 void Batch::run(std::vector<Task> tasks, double memory) {
     const auto order = [&](const Task& task) {
         const bool is_begun = record_.is_begun(jobs_[task.job].file());
-        return std::pair(is_begun, is_begun ? task.forecast.cost() : -task.forecast.cost());
+        return std::pair(is_begun, is_begun ? task.forecast.seconds : -task.forecast.seconds);
     };
     std::vector<std::pair<std::pair<bool, double>, std::size_t>> places;
     for (std::size_t i = 0; i < tasks.size(); ++i) places.emplace_back(order(tasks[i]), i);
@@ -92,7 +66,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     double cost = 0;
     for (const auto& [place, task] : places) {
         waiting_.push_back(tasks[task]);
-        cost += tasks[task].forecast.cost();
+        cost += tasks[task].forecast.seconds;
     }
     listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
@@ -142,11 +116,21 @@ void Batch::tell_waiting() {
 }
 
 void Batch::work() {
-    while (const auto turn = next()) {
-        make(*turn);
-        record_.release(jobs_[turn->task.job].file());
+    try {
+        while (const auto turn = next()) {
+            make(*turn);
+            record_.release(jobs_[turn->task.job].file());
+            changed_.notify_all();
+            listener_.finish(turn->task.forecast.seconds);
+        }
+    } catch (...) {
+        // After an error such as a failed lock, the other threads end, too.
+        {
+            const std::lock_guard guard(mutex_);
+            stopped_ = true;
+        }
         changed_.notify_all();
-        listener_.finish(turn->task.forecast.cost());
+        throw;
     }
 }
 
@@ -169,7 +153,7 @@ void Batch::make(const Turn& turn) {
     } catch (const std::bad_alloc&) {
         problem = "there is not enough memory for this";
     } catch (const std::exception& error) {
-        problem = error.what();
+        problem = *error.what() ? error.what() : "unknown error";
     }
     const std::lock_guard guard(mutex_);
     free_ += turn.memory;
@@ -190,17 +174,18 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.file = job.file();
     result.hash = hashes_[turn.task.job];
     result.job = job.text();
-    const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
+    const auto make = [&](const std::filesystem::path& path, FinishedJob& file) {
         OptionValues values = job.values();
-        if (has_option(job.interpreter(), "jobs")) values.push_back({"jobs", std::to_string(turn.threads)});
+        if (find_option(job.interpreter().options(), "jobs"))
+            values.push_back({"jobs", std::to_string(turn.threads)});
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);
-        const Document document = job.document();
-        for (const Diagnostic& warning : document.warnings()) told.push_back(warning.text());
-        const auto work = job.interpreter().plan(document, job.format, values, job.folder);
-        for (const Remark& remark : work->make(file_system(), path, monitor).remarks) {
-            told.push_back((remark.is_warning ? "warning: " : "") + remark.text);
+        for (const Diagnostic& warning : job.document().warnings()) file.warnings.push_back(warning.text());
+        const auto work = job.work();
+        job.works->forget(job.file());
+        for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
+            (remark.is_warning ? file.warnings : file.told).push_back(std::move(remark.text));
         }
     };
     const bool replaces = options_.replaces || record_.is_ours(result.file);

@@ -12,22 +12,16 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace sikku {
 
-/// `3.2 s`, `1 min 20 s`, `2.5 h`.
-std::string time_text(double seconds);
-/// `17 kB`, `1.2 GB`.
-std::string bytes_text(double bytes);
-
 /// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
 
-/// Receives the output path and a list for its messages.
-using FileMaker = std::function<void(const std::filesystem::path& path, std::vector<std::string>& told)>;
+/// Makes a file at a path and adds its messages to `file`.
+using FileMaker = std::function<void(const std::filesystem::path& path, FinishedJob& file)>;
 
 /// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
 /// @param file  its `file`, `hash` and `job` are known

@@ -3,6 +3,18 @@
 #include "engine/derivation/forecast.h"
 
 namespace sikku {
+namespace {
+
+std::string length_of(const Grammar& grammar) {
+    try {
+        if (const auto word = forecast(grammar, false)) return word->length();
+    } catch (const BudgetError&) {
+        // Words too long to count can still be drawn.
+    }
+    return "?";
+}
+
+}  // namespace
 
 JobForecast forecast_job(const GalleryJob& job, bool exact) {
     JobForecast result;
@@ -13,11 +25,8 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
         return result;
     }
     try {
-        const Document document = job.document();
-        if (exact) {
-            if (const auto word = forecast(document.grammar(), false)) result.symbols = word->length();
-        }
-        const Cost cost = job.interpreter().plan(document, job.format, job.values(), job.folder)->forecast();
+        if (exact) result.symbols = length_of(job.document().grammar());
+        const Cost cost = job.work()->forecast();
         result.seconds = cost.seconds;
         result.bytes = cost.bytes;
         result.memory = cost.memory;

@@ -15,11 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <mutex>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -323,6 +320,7 @@ private:
         GalleryJob job;
         job.language = &keys_;
         job.documents = documents_;
+        job.works = works_;
         job.format = format;
         job.pattern = pattern;
         job.place = item.place;
@@ -418,6 +416,7 @@ private:
     std::map<std::pair<std::shared_ptr<const std::vector<std::string>>, std::filesystem::path>, PatternShelf::List>
         found_;
     std::shared_ptr<Documents> documents_ = std::make_shared<Documents>();
+    std::shared_ptr<Works> works_ = std::make_shared<Works>();
     Compilations compilations_;
     std::map<const GalleryPattern*, bool> defines_angle_;
     std::vector<PatternShelf::List> patterns_;
@@ -518,30 +517,6 @@ std::string GalleryJob::text() const {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-namespace {
-
-/// Returns the hash of an ICC profile, computed once per run; empty if it cannot be read, which the print itself
-/// reports.
-std::string profile_digits(const std::filesystem::path& file) {
-    static std::mutex mutex;
-    static std::map<std::filesystem::path, std::string> known;
-    const std::lock_guard guard(mutex);
-    const auto [entry, is_new] = known.try_emplace(file);
-    if (!is_new) return entry->second;
-    constexpr std::uint64_t largest_profile = 16 << 20;
-    try {
-        const InputFile profile(file);
-        if (profile.size() > largest_profile) return {};
-        TextHash hash;
-        hash.add(profile.read(0, profile.size()));
-        entry->second = hash.digits();
-    } catch (const std::system_error&) {
-    }
-    return entry->second;
-}
-
-}  // namespace
-
 std::string GalleryJob::hash() const {
     TextHash hash;
     hash.add_piece(SIKKU_VERSION);
@@ -558,13 +533,14 @@ std::string GalleryJob::hash() const {
         hash.add_piece(value);
     }
     // The contents of the file may change.
-    if (keys.contains("cmyk")) hash.add_piece(profile_digits(folder / keys.at("cmyk")));
+    if (keys.contains("cmyk")) hash.add_piece(works->digits_of(folder / keys.at("cmyk")));
     if (pattern->text) {
-        const std::string whole = text() + pattern->text->text;
-        if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
+        // Search for scales and key maps instead of compiling, which would take long for every job of a finished
+        // gallery.
+        const std::string whole = lower_case(text() + pattern->text->text);
+        if (whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos) {
             try {
-                for (const auto& [file, held] :
-                     interpreter().plan(document(), format, values(), folder)->read_files()) {
+                for (const auto& [file, held] : work()->read_files()) {
                     hash.add_piece(file);
                     hash.add_piece(held);
                 }
@@ -593,21 +569,25 @@ Document GalleryJob::document() const {
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
     if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
     if (keys.contains("variant")) settings.variant = keys.at("variant");
-    std::string key = fmt::format("{}:{}", static_cast<const void*>(pattern.get()), settings.variant);
+    std::string key = fmt::format("{}", static_cast<const void*>(pattern.get()));
+    const auto add = [&key](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
+    add(settings.variant);
     for (const Setting& setting : settings.settings) {
-        key += fmt::format(":{}:{}:{}", setting.key, setting.value.size(), setting.value);
+        add(setting.key);
+        add(setting.value);
     }
     return documents->get(key, pattern->text->text.size(), [&] {
         Diagnostics diagnostics;
-        Document document = Document::compile(pattern->text->name, pattern->text->text, settings, diagnostics);
-        if (!diagnostics.is_unreadable()) {
-            for (const Interpreter* interpreter : language->interpreters()) {
-                interpreter->check_keys(document.pattern(), diagnostics);
-            }
-        }
+        Document document =
+            compile(pattern->text->name, pattern->text->text, settings, language->interpreters(), diagnostics);
         diagnostics.throw_if_errors();
         return document;
     });
+}
+
+std::shared_ptr<Work> GalleryJob::work() const {
+    const std::size_t bytes = pattern->text ? pattern->text->text.size() : 0;
+    return works->get(file(), bytes, [&] { return interpreter().plan(document(), format, values(), folder); });
 }
 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys) {
@@ -638,23 +618,6 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys&
     std::vector<GalleryJob> jobs = expansion.jobs();
     if (request.title.empty()) request.title = title_of(jobs);
     return jobs;
-}
-
-void TextHash::add(std::string_view bytes) {
-    constexpr Unsigned128 prime = (Unsigned128{1} << 88) + 0x13b;
-    Unsigned128 state = (Unsigned128{high_} << 64) | low_;
-    for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * prime;
-    high_ = static_cast<std::uint64_t>(state >> 64);
-    low_ = static_cast<std::uint64_t>(state);
-}
-
-void TextHash::add_piece(std::string_view bytes) {
-    add(fmt::format("{}:", bytes.size()));
-    add(bytes);
-}
-
-std::string TextHash::digits() const {
-    return fmt::format("{:016x}{:016x}", high_, low_);
 }
 
 }  // namespace sikku

@@ -4,6 +4,7 @@
 #include "art/gallery/documents.h"
 #include "art/gallery/keys.h"
 #include "art/gallery/patterns.h"
+#include "engine/base/hash.h"
 #include "engine/interpreter.h"
 
 #include <cstdint>
@@ -26,6 +27,7 @@ struct GalleryJob {
     std::string format;  ///< extension: svg, png, mid …; `notes.svg` is the score of `sikku play`
     const GalleryKeys* language = nullptr;  ///< must outlive the job
     std::shared_ptr<Documents> documents;   ///< shared by the jobs of a gallery
+    std::shared_ptr<Works> works;           ///< shared by the jobs of a gallery
     std::shared_ptr<const GalleryPattern> pattern;
     std::map<std::string, std::string> keys;       ///< the given options of draw or play that apply to this job
     std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
@@ -41,6 +43,8 @@ struct GalleryJob {
     /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides. @throws
     /// PatternError, GalleryError
     Document document() const;
+    /// The planned work, cached unless there are too many. @throws what Interpreter::plan() and document() throw
+    std::shared_ptr<Work> work() const;
     /// The job as one line of JSON, which read_manifest() reads back. Equal jobs have equal texts.
     std::string text() const;
     /// Hash of everything that determines the contents of the file, as 32 hexadecimal digits: settings, pattern,
@@ -67,20 +71,7 @@ struct GalleryRequest {
 /// Lists all jobs in the order of the request; an empty request lists all bundled patterns that draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
 /// @throws GalleryError with file, line and column for every error that can be detected before a pattern is compiled;
-/// Interrupted
+/// Stopped
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys);
-
-/// The 128-bit FNV-1a hash of Fowler, Noll and Vo, computed incrementally.
-class TextHash {
-public:
-    void add(std::string_view bytes);
-    /// Adds a text together with its length, so that adjacent texts cannot be confused.
-    void add_piece(std::string_view bytes);
-    std::string digits() const;
-
-private:
-    std::uint64_t high_ = 0x6c62272e07bb0142;
-    std::uint64_t low_ = 0x62b821756295c58d;
-};
 
 }  // namespace sikku

@@ -48,10 +48,8 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
         const Interpreter* reader = reader_of(key.owner);
         if (!reader) continue;
         // Keys that are also options of the interpreter use its table.
-        const auto options = reader->options();
-        const bool is_option = std::any_of(options.begin(), options.end(), [&](const OptionInfo* info) {
-            return info->name == key.name && info->is_key && !info->sets_more;
-        });
+        const OptionInfo* option = find_option(reader->options(), key.name);
+        const bool is_option = option && option->is_key && !option->sets_more;
         keys_.push_back(
             {.name = std::string(key.name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
     }

@@ -1,6 +1,6 @@
 #include "art/gallery/locks.h"
 
-#include "art/gallery/jobs.h"
+#include "engine/base/hash.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -81,6 +81,7 @@ RecordText read_record(const std::string& text) {
             job.bytes = json.at("bytes").get<std::uint64_t>();
             job.content = json.at("content").get<std::string>();
             job.job = json.at("job").dump();
+            if (json.contains("warnings")) job.warnings = json.at("warnings").get<std::vector<std::string>>();
             if (json.contains("told")) job.told = json.at("told").get<std::vector<std::string>>();
             if (!is_inside(job.file)) continue;
             record.claims.erase(job.file);
@@ -160,6 +161,7 @@ std::string FinishedJob::line() const {
     json["bytes"] = bytes;
     json["content"] = content;
     json["job"] = read_json(job);
+    if (!warnings.empty()) json["warnings"] = warnings;
     if (!told.empty()) json["told"] = told;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -253,7 +255,7 @@ void GalleryRecord::take_in(const RecordText& record, bool keeps) {
     for (const auto& entry : record.finished) {
         const FinishedJob& job = entry.second;
         Known& known = known_[entry.first];
-        std::erase_if(known.versions, [&](const FinishedJob& version) { return version.line() == job.line(); });
+        std::erase_if(known.versions, [&](const FinishedJob& version) { return version == job; });
         known.versions.push_back(job);
         known.kept = known.kept || keeps;
     }
@@ -396,8 +398,7 @@ bool GalleryRecord::is_in_the_whole(const std::vector<FinishedJob>& jobs) const 
     const RecordText whole = read_record(folder_.read(std::string(whole_name)));
     return std::all_of(jobs.begin(), jobs.end(), [&](const FinishedJob& job) {
         const auto found = whole.finished.find(job.file);
-        return found != whole.finished.end() && found->second.line() == job.line() &&
-               !whole.claims.contains(job.file);
+        return found != whole.finished.end() && found->second == job && !whole.claims.contains(job.file);
     });
 }
 

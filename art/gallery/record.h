@@ -16,15 +16,17 @@ namespace sikku {
 
 /// What is known of a file that was made. Nothing in it depends on when or how fast it was made.
 struct FinishedJob {
-    std::string file;               ///< path below the folder
-    std::string hash;               ///< GalleryJob::hash()
-    std::uint64_t bytes = 0;        ///< of the file
-    std::string content;            ///< hash of the file's bytes
-    std::string job;                ///< GalleryJob::text()
-    std::vector<std::string> told;  ///< what there was to tell, warnings first of all
+    std::string file;         ///< path below the folder
+    std::string hash;         ///< GalleryJob::hash()
+    std::uint64_t bytes = 0;  ///< of the file
+    std::string content;      ///< hash of the file's bytes
+    std::string job;          ///< GalleryJob::text()
+    std::vector<std::string> warnings;
+    std::vector<std::string> told;  ///< facts
 
     /// One line of JSON, with its line feed.
     std::string line() const;
+    bool operator==(const FinishedJob&) const = default;
 };
 
 struct RecordText;

@@ -24,7 +24,7 @@ void require_resources(int threads) {
     if (const int there = startable_threads(wanted); there < wanted) {
         throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, but only " +
                                  std::to_string(there) +
-                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads (-j 1)");
+                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads");
     }
     constexpr std::size_t address_space = std::size_t{640} << 20;
     void* const reserved =

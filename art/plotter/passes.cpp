@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <stdexcept>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -179,10 +181,21 @@ PenPath reversed(const PenPath& path) {
 
 }  // namespace
 
+std::size_t pass_count(double width, double pen) {
+    return static_cast<std::size_t>(std::clamp(std::ceil(width / pen - 0.1), 1.0, 1e5));
+}
+
+void require_few_passes(std::size_t pieces, std::size_t passes) {
+    constexpr std::size_t most = 20'000'000;
+    if (pieces > most / passes) {
+        throw std::runtime_error("the passes of one stroke would have over 20 million pieces; use a wider pen");
+    }
+}
+
 std::vector<double> pass_offsets(double width, double pen) {
-    const double count = std::clamp(std::ceil(width / pen - 0.1), 1.0, 1e5);
+    std::vector<double> offsets(pass_count(width, pen));
+    const auto count = static_cast<double>(offsets.size());
     const double apart = count > 1 ? std::min(pen, (width - pen) / (count - 1)) : 0.0;
-    std::vector<double> offsets(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         offsets[i] = (static_cast<double>(i) - (count - 1) / 2) * apart;
     }
@@ -192,6 +205,7 @@ std::vector<double> pass_offsets(double width, double pen) {
 std::vector<PenPath> pen_passes(const PenPath& stroke, double width, double pen, double tolerance) {
     const std::vector<double> offsets = pass_offsets(width, pen);
     if (offsets.size() == 1) return {stroke};
+    require_few_passes(stroke.pieces.size(), offsets.size());
     const std::vector<Part> parts = parts_of(stroke);
     std::vector<PenPath> result;
     if (parts.empty()) {

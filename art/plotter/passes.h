@@ -25,6 +25,11 @@ struct PenPath {
 /// in the middle. At most 10^5.
 std::vector<double> pass_offsets(double width, double pen);
 
+/// The number of these passes, without computing them.
+std::size_t pass_count(double width, double pen);
+/// Checks the passes of one stroke. @throws std::runtime_error for more than 20 million pieces
+void require_few_passes(std::size_t pieces, std::size_t passes);
+
 /// Passes that cover a stroke of that width: an open stroke is one path back and forth, a closed one has a closed
 /// path for each pass. Ends and outer corners are round, like those of the stroke; the rims of ends are scalloped by
 /// less than a pen. No pass exceeds the stroke by more than `tolerance`, which also bounds the error of offset

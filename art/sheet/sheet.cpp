@@ -121,15 +121,10 @@ auto named(const SheetCell& cell, Work&& work) {
 
 DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     DrawOptions drawing;
+    static_cast<DrawingOptions&>(drawing) = cell;
     drawing.format = options.format;
-    drawing.placement = cell.placement;
+    drawing.monitor = options.monitor;
     drawing.placement.scale = 1.0;
-    drawing.window = cell.window;
-    drawing.only_dots = cell.only_dots;
-    drawing.colours_strokes = cell.colours_strokes;
-    drawing.border = cell.border;
-    drawing.may_be_empty = cell.may_be_empty;
-    drawing.budget = cell.budget;
     return drawing;
 }
 
@@ -199,6 +194,8 @@ private:
     Measures measures(const Grid& grid) const;
     double drawn_step(const Subject& subject, double width, double height, double factor) const;
     double pen_factor(const SheetCell& cell, double width, double height) const;
+    void lay_out(const Grid& grid, const Measures& m);
+    void place_drawings(const Measures& m);
     void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
@@ -403,6 +400,7 @@ const Plan& Sheet::arrange() {
     const Grid* best = nullptr;
     double most = 0;
     for (const Grid& grid : all) {
+        options_.monitor.check();
         const double area = score(grid);
         if (area > most * (1 + 1e-9)) {
             most = area;
@@ -415,6 +413,14 @@ const Plan& Sheet::arrange() {
                         options_.page.width, options_.page.height));
     }
     const Measures m = measures(*best);
+    lay_out(*best, m);
+    place_drawings(m);
+    check_inks();
+    return plan_;
+}
+
+/// Lays out texts and cells, without their drawings.
+void Sheet::lay_out(const Grid& grid, const Measures& m) {
     const Page& page = options_.page;
     const double shorter = std::min(page.width, page.height);
     if (!options_.title.empty()) {
@@ -429,13 +435,13 @@ const Plan& Sheet::arrange() {
                                small,
                                text_pen(stem * small, true)});
     }
-    plan_.layout.columns = best->columns;
-    plan_.layout.rows = static_cast<int>(best->rows.size());
+    plan_.layout.columns = grid.columns;
+    plan_.layout.rows = static_cast<int>(grid.rows.size());
     plan_.layout.letters = m.letters;
     double top = m.first.y;
     std::size_t next = 0;
-    for (std::size_t row = 0; row < best->rows.size(); ++row) {
-        if (best->headed[row]) {
+    for (std::size_t row = 0; row < grid.rows.size(); ++row) {
+        if (grid.headed[row]) {
             const double height = m.letters * 1.35;
             plan_.texts.push_back({shortened(cells_[next].heading, height, page.width - page.margin - m.first.x),
                                    {m.first.x, top + height},
@@ -444,9 +450,9 @@ const Plan& Sheet::arrange() {
             top += m.heading;
         }
         // Rows under a heading begin below it, others stand in the middle.
-        const bool is_headed = std::find(best->headed.begin(), best->headed.end(), true) != best->headed.end();
-        const double indent = is_headed ? 0.0 : (best->columns - best->rows[row]) * m.across / 2;
-        for (int column = 0; column < best->rows[row]; ++column, ++next) {
+        const bool is_headed = std::find(grid.headed.begin(), grid.headed.end(), true) != grid.headed.end();
+        const double indent = is_headed ? 0.0 : (grid.columns - grid.rows[row]) * m.across / 2;
+        for (int column = 0; column < grid.rows[row]; ++column, ++next) {
             PlacedCell cell;
             cell.window = {m.first.x + indent + column * m.across,     top, m.width, m.height, false,
                            border_margin * std::min(m.width, m.height)};
@@ -457,7 +463,10 @@ const Plan& Sheet::arrange() {
         }
         top += m.down;
     }
+}
 
+/// Places the drawings in their cells.
+void Sheet::place_drawings(const Measures& m) {
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
@@ -499,8 +508,6 @@ const Plan& Sheet::arrange() {
         print.press = options_.press;
         if (options_.format != PrintFormat::pdf) print = as_picture(print);
     }
-    check_inks();
-    return plan_;
 }
 
 /// Checks the spot colours. @throws std::runtime_error if one occurs in no cell
@@ -668,11 +675,14 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
     if (!(options_.memory > 0)) return {threads, 0};
     double most = 1, thread = 1;
+    double memory = options_.memory;  // excluding the memory that drawings keep
+    for (const Subject& subject : subjects_) memory -= subject.cost.kept_memory;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
-            if (subjects_[i].cost.memory > options_.memory) refuse_memory(subjects_[i].cost.memory, options_.memory);
+            const DrawingCost& cost = subjects_[i].cost;
+            if (cost.memory - cost.kept_memory > memory) refuse_memory(cost.memory, options_.memory);
         });
-        most = std::max(most, subjects_[i].cost.memory);
+        most = std::max(most, subjects_[i].cost.memory - subjects_[i].cost.kept_memory);
         thread = std::max(thread, subjects_[i].cost.thread_memory);
     }
     double pixels = 0, kept = 0;
@@ -682,11 +692,11 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
         kept = std::max(kept, lines);
         pixels = std::max(pixels, (strip.bottom - strip.top) * stride);
     }
-    const auto readers = [&](double memory, double each) {
-        return static_cast<int>(std::clamp(memory / each, 1.0, static_cast<double>(threads)));
+    const auto readers = [&](double room, double each) {
+        return static_cast<int>(std::clamp(room / each, 1.0, static_cast<double>(threads)));
     };
-    if (pixels + most <= options_.memory) return {readers(options_.memory - pixels, most), 0};
-    const double left = options_.memory - kept - most;
+    if (pixels + most <= memory) return {readers(memory - pixels, most), 0};
+    const double left = memory - kept - most;
     const double rows = std::floor(left / 2 / stride / 128) * 128;
     if (rows < 128) refuse_memory(kept + most + 256 * stride, options_.memory);
     return {readers(left / 2, thread), static_cast<int>(std::min(rows, 4096.0))};
@@ -715,23 +725,24 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 }
 
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
-    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return 0;
-    double most = 0, lines = 0;
+    double most = 0, lines = 0, kept = 0;
     for (const SheetCell& cell : cells) {
         named(cell, [&] {
             const DrawingCost cost =
                 drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
-            most = std::max(most, cost.memory);
+            most = std::max(most, cost.memory - cost.kept_memory);
             lines += cost.lines_memory;
+            kept += cost.kept_memory;
         });
     }
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return kept;
     const PixelSize size = pixel_size(options.page, options.dpi);
     const double stride = 3.0 * size.width;
     const double shape = options.page.height / options.page.width;
     const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
-    const double whole = stride * size.height / rows + most;
+    const double whole = stride * size.height / rows + most + kept;
     if (!(options.memory > 0) || whole <= options.memory) return whole;
-    return lines / rows + most + 256 * stride;
+    return lines / rows + most + kept + 256 * stride;
 }
 
 }  // namespace sikku

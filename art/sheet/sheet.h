@@ -16,20 +16,14 @@
 namespace sikku {
 
 /// One drawing of a sheet. It fills its cell, on its own ground, in its own style. Widths in millimetres are meant
-/// for an A4 page, and are scaled with the drawing, but lines are not thinned below 0.1 mm.
-struct SheetCell {
+/// for an A4 page, and are scaled with the drawing, but lines are not thinned below 0.1 mm. Rotation, mirroring and
+/// step of the placement are used; `scale` is ignored.
+struct SheetCell : DrawingOptions {
     std::shared_ptr<const Grammar> grammar;
     Style style;
-    PlacementOptions placement;        ///< rotation, mirroring and step; `scale` is ignored
     std::string title;                 ///< title of its layers
     std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
     std::string heading;               ///< if not empty, begins a row under this heading
-    std::optional<ViewWindow> window;  ///< part of the drawing that fills the cell; see DrawOptions
-    bool only_dots = false;            ///< draw only the dots of a kolam; the style must have dots
-    bool colours_strokes = false;      ///< draw each stroke in the next colour of the palette
-    bool border = false;               ///< add a frame of red earth around the cell
-    bool may_be_empty = false;         ///< a drawing without lines gives an empty cell
-    double budget = 200e6;             ///< maximum number of derivation nodes visited in one pass
 };
 
 struct SheetOptions {
@@ -54,6 +48,7 @@ struct SheetOptions {
     int threads = 0;                  ///< 0: all cores
     int compression = 6;              ///< PNG compression, 1 (fast) to 9 (small)
     double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};             ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
@@ -76,7 +71,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
                        const std::filesystem::path& file, Destination& destination = file_system());
 
 /// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
-/// the options allow that, otherwise the minimum. 0 for other formats.
+/// the options allow that, otherwise the minimum. For other formats, the memory of the drawings.
 /// @throws what draw_sheet() throws for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 

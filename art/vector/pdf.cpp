@@ -150,6 +150,19 @@ struct Layer : VectorLayer {
     int points = 0;                  ///< of the open path
 };
 
+void end_path(Layer& layer) {
+    if (layer.path_open) layer.text.append("S\n");
+    layer.path_open = false;
+    layer.points = 0;
+}
+
+/// An empty last block, and the checksum.
+void end_packed(Layer& layer) {
+    layer.packed += std::string_view("\x03\x00", 2);
+    for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
+    layer.packed_bytes += 6;
+}
+
 class Writer final : public VectorWriter<Layer, PagesWriter> {
 public:
     Writer(const Print& print, Output& file)
@@ -537,12 +550,6 @@ private:
         if (layer_->points > most_path_points) end_path(*layer_);
     }
 
-    static void end_path(Layer& layer) {
-        if (layer.path_open) layer.text.append("S\n");
-        layer.path_open = false;
-        layer.points = 0;
-    }
-
     /// Compresses what the layer holds if it is at least `least` bytes.
     void pack(Layer& layer, std::size_t least) {
         if (layer.text.size() < least) return;
@@ -559,13 +566,6 @@ private:
             write(layer.packed);
             layer.packed.clear();
         }
-    }
-
-    /// An empty last block, and the checksum.
-    static void end_packed(Layer& layer) {
-        layer.packed += std::string_view("\x03\x00", 2);
-        for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
-        layer.packed_bytes += 6;
     }
 
     int write_plain_stream(const std::string& text) {

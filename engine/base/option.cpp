@@ -19,10 +19,30 @@ bool is_whole(std::string_view text) {
 
 }  // namespace
 
+void refuse_option(std::string_view option, const std::string& value, const std::string& message) {
+    throw SettingError(std::string(option), value, message);
+}
+
+double to_number(const std::string& text) {
+    double value = 0;
+    read_number(text, value);
+    return value;
+}
+
+double read_budget(const std::string& text) {
+    const double budget = to_number(text);
+    if (!(budget > 0)) refuse_option(budget_option.name, text, "expected a number above 0");
+    return budget;
+}
+
+const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name) {
+    const auto row =
+        std::find_if(table.begin(), table.end(), [&](const OptionInfo* one) { return one->name == name; });
+    return row == table.end() ? nullptr : *row;
+}
+
 void check_option(const OptionInfo& option, const std::string& text) {
-    const auto refuse = [&](const std::string& message) {
-        throw SettingError(std::string(option.name), text, message);
-    };
+    const auto refuse = [&](const std::string& message) { refuse_option(option.name, text, message); };
     if (option.kind == OptionKind::text) return;
     if (option.kind == OptionKind::flag) {
         if (text != "true" && text != "false") refuse("expected true or false");
@@ -42,19 +62,18 @@ void check_option(const OptionInfo& option, const std::string& text) {
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::string& name = values[i].name;
-        const auto row =
-            std::find_if(table.begin(), table.end(), [&](const OptionInfo* one) { return one->name == name; });
-        if (row == table.end()) {
+        const OptionInfo* row = find_option(table, name);
+        if (!row) {
             std::vector<std::string_view> names;
             for (const OptionInfo* one : table) names.push_back(one->name);
             const std::string_view near = nearest(name, names);
-            throw SettingError(name, "",
-                               near.empty() ? std::string("unknown option")
-                                            : fmt::format("unknown option; did you mean '{}'?", near));
+            refuse_option(name, "",
+                          near.empty() ? std::string("unknown option")
+                                       : fmt::format("unknown option; did you mean '{}'?", near));
         }
-        if ((*row)->is_list) continue;
+        if (row->is_list) continue;
         for (std::size_t j = 0; j < i; ++j) {
-            if (values[j].name == name) throw SettingError(name, "", "given twice");
+            if (values[j].name == name) refuse_option(name, "", "given twice");
         }
     }
 }

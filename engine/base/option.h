@@ -2,11 +2,13 @@
 // languages all read the same rows.
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -33,7 +35,7 @@ struct OptionInfo {
 };
 
 /// `set` reads the text of a value; numbers are in range, flags are `true` or `false`.
-/// @throws SettingError (through refuse()) for a value that cannot be read
+/// @throws SettingError (through refuse_option()) for a value that cannot be read
 template <typename Settings>
 struct Option {
     OptionInfo info;
@@ -66,23 +68,35 @@ private:
 /// Checks a value against the kind and the range of its option. @throws SettingError
 void check_option(const OptionInfo& option, const std::string& text);
 
-/// The row of that name, or null.
-template <typename Settings>
-const Option<Settings>* find_option(std::span<const Option<Settings>> table, std::string_view name) {
-    for (const Option<Settings>& row : table) {
-        if (row.info.name == name) return &row;
-    }
-    return nullptr;
+/// Throws a SettingError.
+[[noreturn]] void refuse_option(std::string_view option, const std::string& value, const std::string& message);
+
+/// Converts a checked text to its number.
+double to_number(const std::string& text);
+
+/// Reads a whole number. @throws SettingError if it does not fit
+template <typename Whole>
+void read_whole(std::string_view option, const std::string& text, Whole& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) refuse_option(option, text, "too large");
 }
 
-/// Applies values in the order of the table, so that rows may build on those before them (lengths in px on `dpi`).
-/// @throws SettingError for unknown names, repeated names of options that are not lists, and invalid values
-template <typename Settings>
-void apply_options(std::span<const Option<Settings>> table, const OptionValues& values, Settings& settings);
+/// The option `budget`, which all interpreters have.
+constexpr OptionInfo budget_option = {.name = "budget",
+                                      .help = "maximum number of derivation nodes visited (2e8)",
+                                      .value = "NODES",
+                                      .kind = OptionKind::number};
+/// @throws SettingError
+double read_budget(const std::string& text);
+
+/// The row of that name, or null.
+const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name);
 
 /// Throws SettingError for unknown and repeated names.
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values);
 
+/// Applies values in the order of the table, so that rows may build on those before them (lengths in px on `dpi`).
+/// @throws SettingError for unknown names, repeated names of options that are not lists, and invalid values
 template <typename Settings>
 void apply_options(std::span<const Option<Settings>> table, const OptionValues& values, Settings& settings) {
     std::vector<const OptionInfo*> known;

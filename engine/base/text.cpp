@@ -2,6 +2,10 @@
 
 #include "engine/base/diagnostic.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace sikku {
 
 std::string lower_case(std::string_view text) {
@@ -72,6 +76,25 @@ std::string xml_escaped(std::string_view text) {
         i += length;
     }
     return result;
+}
+
+std::string time_text(double seconds) {
+    if (!std::isfinite(seconds)) return "forever";
+    if (seconds > 1e10) return fmt::format("{:.3g} years", seconds / 31'556'952);
+    if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
+    if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+    if (seconds < 3599.5) {
+        const auto whole = static_cast<long>(std::lround(seconds));
+        return fmt::format("{} min {} s", whole / 60, whole % 60);
+    }
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string bytes_text(double bytes) {
+    if (bytes < 999.5) return fmt::format("{:.0f} B", bytes);
+    if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
+    if (bytes < 999.95e6) return fmt::format("{:.1f} MB", bytes / 1e6);
+    return fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::string to_hex(std::string_view bytes) {

@@ -32,6 +32,11 @@ std::string counted(std::uint64_t count, std::string_view what);
 /// The same for a number in decimal digits.
 std::string counted(std::string_view digits, std::string_view what);
 
+/// Formats a duration: `320 ms`, `3.2 s`, `1 min 20 s`, `2.5 h`; above about three centuries in years.
+std::string time_text(double seconds);
+/// `17 kB`, `1.2 GB`.
+std::string bytes_text(double bytes);
+
 /// Two small digits for each byte.
 std::string to_hex(std::string_view bytes);
 

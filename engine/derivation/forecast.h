@@ -42,6 +42,9 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 /// The same without exact counts, at a cost that does not grow with the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
+/// Estimates the number of symbols of a forecast word that draw lines or discs.
+double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
+
 /// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.
 double expected_symbols(const Grammar& grammar, bool interpreted);
 

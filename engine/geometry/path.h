@@ -46,6 +46,23 @@ public:
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
 };
 
+/// Passes a drawing on to another sink; derived classes override what they change.
+class PathFilter : public PathSink {
+public:
+    explicit PathFilter(PathSink& sink) : sink_(sink) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+
+protected:
+    PathSink& sink_;
+};
+
 /// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
 /// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.
 class OutlineSink {

@@ -28,7 +28,9 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
     /// Sorted by kind and name.
-    const std::vector<LibraryPattern>& patterns() const { return *patterns_; }
+    const std::vector<LibraryPattern>& patterns() const& { return *patterns_; }
+    /// For temporary libraries, as in a loop over their patterns: returns a copy.
+    std::vector<LibraryPattern> patterns() && { return *patterns_; }
     /// The pattern of that name, or null.
     const LibraryPattern* find(std::string_view name) const;
     /// The path of the bundled gallery file posters/NAME.toml, or `name` itself if a file has that name.

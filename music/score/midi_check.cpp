@@ -35,6 +35,21 @@ std::string name_of(int channel, int key) {
     return fmt::format("channel {}, key {}", channel + 1, key);
 }
 
+/// Sizes of meta events in the standard.
+struct MetaForm {
+    int type;
+    std::size_t size;
+    std::string_view name;
+};
+
+constexpr std::array<MetaForm, 7> meta_forms = {{{0x20, 1, "channel prefix"},
+                                                 {0x21, 1, "port"},
+                                                 {end_of_track, 0, "end-of-track"},
+                                                 {tempo_type, 3, "tempo"},
+                                                 {0x54, 5, "SMPTE offset"},
+                                                 {0x58, 4, "time signature"},
+                                                 {0x59, 2, "key signature"}}};
+
 /// One event as it lies in the file.
 struct Layout {
     std::uint64_t delta = 0;
@@ -521,18 +536,6 @@ private:
     }
 
     void read_meta(TrackState& track, const Layout& event) {
-        struct Form {
-            int type;
-            std::size_t size;
-            std::string_view name;
-        };
-        static constexpr std::array<Form, 7> forms = {{{0x20, 1, "channel prefix"},
-                                                       {0x21, 1, "port"},
-                                                       {end_of_track, 0, "end-of-track"},
-                                                       {tempo_type, 3, "tempo"},
-                                                       {0x54, 5, "SMPTE offset"},
-                                                       {0x58, 4, "time signature"},
-                                                       {0x59, 2, "key signature"}}};
         if (event.type > 0x7F) {
             fault(track, event.at + 1, fmt::format("a meta event of type {:02X}, which is above 7F", event.type));
             return;
@@ -540,7 +543,7 @@ private:
         if (event.type == 0 && event.size != 2 && event.size != 0) {
             fault(track, event.length_at, fmt::format("a sequence number of {} instead of 2", bytes_of(event.size)));
         }
-        for (const Form& form : forms) {
+        for (const MetaForm& form : meta_forms) {
             if (form.type != event.type) continue;
             if (form.size != event.size) {
                 fault(track, event.length_at,

@@ -41,9 +41,6 @@ protected:
     ScratchFolder folder_;
 };
 
-#define NEEDS(program) \
-    if (!has_program(program)) GTEST_SKIP() << "no " program " on this machine"
-
 TEST_F(Pdf, IsSoundAndHasItsBoxes) {
     NEEDS("qpdf");
     NEEDS("pdfinfo");

@@ -171,9 +171,6 @@ TEST(Press, OneBitLeavesBlackAndWhite) {
     EXPECT_EQ(make_raster(picture)->channels(), 1);
 }
 
-#define NEEDS(program) \
-    if (!has_program(program)) GTEST_SKIP() << "no " program " on this machine"
-
 class PressPdf : public ::testing::Test {
 protected:
     template <typename Draw>

@@ -174,7 +174,7 @@ TEST(Audio, FlacHoldsTheSamplesOfTheWav) {
     const std::string flac = contents(folder / "x.flac");
     EXPECT_EQ(flac.substr(0, 4), "fLaC");
     EXPECT_LT(flac.size(), contents(folder / "x.wav").size() * 3 / 4);
-    if (!has_program("flac")) GTEST_SKIP() << "flac is not installed";
+    NEEDS("flac");
     ToolOutcome outcome = run("flac --warnings-as-errors -s -t '" + folder.file("x.flac") + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     outcome = run("flac -s -d -o '" + folder.file("back.wav") + "' '" + folder.file("x.flac") + "'");

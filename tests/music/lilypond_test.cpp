@@ -178,7 +178,7 @@ TEST(LilyPond, IsTheSameInAnyLocale) {
 
 // Takes seconds, so only where LilyPond happens to be: everything that is written at once.
 TEST(LilyPond, CompilesWithoutWarnings) {
-    if (!has_program("lilypond")) GTEST_SKIP() << "lilypond is not installed";
+    NEEDS("lilypond");
     const ScratchFolder folder;
     TestScore score = random_score(5, true);
     score.head.title = "\"#{}$\\ <é> \xFF \x01";

@@ -497,7 +497,7 @@ TEST(Midi, TheForecastIsNearAndNeverTooSmall) {
 // --- other people's readers ---------------------------------------------------------------------------------------
 
 TEST(MidiReaders, MidicsvReadsTheTinyScore) {
-    if (!has_program("midicsv")) GTEST_SKIP() << "midicsv is not installed";
+    NEEDS("midicsv");
     const ScratchFolder folder;
     const ToolOutcome outcome = run("midicsv '" + folder.write("tiny.mid", make_midi(tiny_score())) + "'");
     EXPECT_TRUE(outcome.ok);

@@ -270,7 +270,7 @@ TEST(MusicSvg, TextsAreTexts) {
     EXPECT_EQ(document.document_element().child("title").child_value(), expected);
     EXPECT_EQ(document.document_element().child("desc").child_value(), expected);
     const ScratchFolder folder;
-    if (!has_program("xmllint")) GTEST_SKIP() << "xmllint is not installed";
+    NEEDS("xmllint");
     const ToolOutcome outcome =
         run("xmllint --nonet --noout '" + folder.write("x.svg", svg(about, hilbert(), 1920)) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
@@ -286,7 +286,7 @@ TEST(MusicSvg, HoldsVeryMany) {
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(text.c_str()));
     EXPECT_EQ(children(group(document, "roll"), "rect").size(), 100'000U);
-    if (!has_program("xmllint")) GTEST_SKIP() << "xmllint is not installed";
+    NEEDS("xmllint");
     const ToolOutcome outcome = run("xmllint --nonet --noout '" + folder.write("x.svg", text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }

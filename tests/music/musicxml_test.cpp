@@ -262,7 +262,7 @@ TEST(MusicXml, TextsAreEscaped) {
 }
 
 TEST(MusicXml, IsWellFormedToOthers) {
-    if (!has_program("xmllint")) GTEST_SKIP() << "xmllint is not installed";
+    NEEDS("xmllint");
     const ScratchFolder folder;
     for (unsigned seed = 0; seed < 8; ++seed) {
         TestScore score = random_score(seed, true);

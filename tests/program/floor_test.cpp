@@ -168,7 +168,7 @@ TEST(Floor, AnOptionInTheTableIsAKeyOfGalleryFilesAndOfManifests) {
     EXPECT_THROW(gallery_jobs(unknown, GalleryKeys({&prints(), &scores()})), GalleryError);
 }
 
-TEST(Floor, APatternInSeveralFormatsIsCompiledOnce) {
+TEST(Floor, APatternInSeveralFormatsIsCompiledOnceAndPlannedOncePerOutput) {
     const ScratchFolder folder;
     const GalleryKeys keys({&prints(), &scores()});
     GalleryRequest request;
@@ -183,6 +183,7 @@ TEST(Floor, APatternInSeveralFormatsIsCompiledOnce) {
     EXPECT_TRUE(result.troubles.empty());
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "g" / "poster.pdf"));
     EXPECT_EQ(gallery.jobs().front().documents->compiled(), 2U);
+    EXPECT_EQ(gallery.jobs().front().works->planned(), 6U);
 }
 
 TEST(Floor, EveryOptionOfTheTablesIsInTheHelp) {

@@ -60,7 +60,7 @@ TEST_F(Growth, FramesAreFilesInTheSamePlace) {
 TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     ASSERT_EQ(draw({"bush.lsys", "--generations", "2:4", "--frames", "--dpi", "40"}, "g.png").status, 0);
     ASSERT_EQ(draw({"bush.lsys", "-n", "4", "--dpi", "40"}, "alone.png").status, 0);
-    if (!has_program("iinfo")) GTEST_SKIP() << "iinfo is not installed";
+    NEEDS("iinfo");
     const auto pixels = [&](const std::string& name) {
         const std::string told = run("iinfo --hash '" + (folder_ / name).string() + "'").text;
         const std::size_t hash = told.find("SHA-1: ");

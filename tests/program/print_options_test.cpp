@@ -161,7 +161,7 @@ TEST_F(PrintOptions, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {
     EXPECT_EQ(count(document, "//path[@pathLength]"), count(document, "//path"));
     EXPECT_TRUE(has(rules, "prefers-reduced-motion"));
     // Not only drawings of one stroke, and readers that know no animation show them.
-    if (!has_program("rsvg-convert")) GTEST_SKIP() << "rsvg-convert is not installed";
+    NEEDS("rsvg-convert");
     const std::string file = (folder_ / "print.svg").string();
     EXPECT_TRUE(run("rsvg-convert " + file + " -o " + file + ".png").ok);
     ASSERT_EQ(draw({"tree-in-voices", "-n", "3"}, "still.svg").status, 0);

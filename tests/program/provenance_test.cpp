@@ -1,4 +1,4 @@
-// tests/art/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and
+// tests/program/provenance_test.cpp: `sikku show` of prints and scores: round trips of the program's own files, and
 // untrusted files cost little.
 #include "art/provenance/provenance.h"
 
