@@ -48,7 +48,7 @@ void report_text(const DrawReport& report, const std::filesystem::path& name, Ma
         fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
 }
 
-/// A print or model, planned.
+/// A planned print or model.
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
@@ -100,7 +100,7 @@ private:
         drawing_.gcode = settings_.gcode;
     }
 
-    /// Refuses what this drawing cannot have. @throws SettingError, PatternError
+    /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
     void check_drawing() const {
         const bool is_spatial = document_.grammar().is_spatial();
         if (is_model()) require_straight("models have straight lines, not splines");
@@ -109,7 +109,7 @@ private:
         }
         if (!is_spatial) return;
         require_straight("drawings that pitch, roll or bend have straight lines, not splines");
-        constexpr const char* plane = "only for drawings in the plane; this one pitches, rolls or bends";
+        constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
@@ -117,9 +117,9 @@ private:
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
         if (settings_.tile && !is_vector(format_))
-            refuse("tile", "drawings in space are cut into sheets as SVG or PDF");
+            refuse("tile", "drawings in space can be cut into sheets only as SVG or PDF");
         if (!settings_.press.spots.empty() && !drawing_.plot) {
-            refuse("spot", "drawings in space are lit, in more shades than there are inks");
+            refuse("spot", "drawings in space have more shades of light than there are inks");
         }
     }
 
@@ -150,7 +150,7 @@ void PrintWork::make_model(Destination& destination, const std::filesystem::path
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
-/// Derivation lengths one after the other, as an animation or as files of their own.
+/// Makes an animation of several generations, or a file for each.
 void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
                             Made& made) {
     GrowthOptions growth;
@@ -167,7 +167,7 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     }
 }
 
-/// Derivation lengths side by side, as books show them.
+/// Makes a sheet of several generations side by side.
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const auto [first, last] = *settings_.generations;
@@ -180,7 +180,7 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.title = print_.title;
     sheet.animation = print_.animation;
     sheet.press = print_.press;
-    // Captions are short, and are read from as far as the drawings.
+    // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
     sheet.inset = 0.055;
     sheet.pattern = print_.pattern;
@@ -199,7 +199,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
     report_text(report, name, made);
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
-        made.warn("there are no dots: the lines enclose none");
+        made.warn("no dots were drawn: the lines enclose none");
     }
     if (report.is_empty) {
         made.warn("the window contains no part of the drawing");
@@ -217,7 +217,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         const std::size_t pens = report.plot->colours - report.plot->merged.size();
         if (pens > most) {
             made.warn(
-                fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                fmt::format("the plot needs {} pens, but HP-GL plotters hold up to {}: the option 'pens' merges "
                             "colours",
                             pens, most));
         }
@@ -225,7 +225,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(
-            "the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: the rest is cut off",
+            "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
             report.size.x, report.size.y, report.room.x, report.room.y));
     }
 }
@@ -255,7 +255,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
 
 Cost PrintWork::forecast() const {
     if (!settings_.generations) return forecast(document_.grammar());
-    // No generation costs more than the last.
+    // The last generation is the most expensive.
     const auto [first, last] = *settings_.generations;
     const auto largest = document_.grammar().with_steps(last);
     Cost result = forecast(largest ? *largest : document_.grammar());

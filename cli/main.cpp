@@ -40,7 +40,7 @@ std::string unexpected(const CLI::App& app, const std::string& argument) {
                                     : fmt::format("; did you mean '{}'?", near));
 }
 
-/// CLI11 alone would only say that a command is missing.
+/// Reports an unknown command with the nearest one: CLI11 would only report a missing command.
 void require_command(const CLI::App& app, const std::string& wanted) {
     std::vector<std::string_view> names;
     for (const CLI::App* command : app.get_subcommands({})) {
@@ -49,11 +49,11 @@ void require_command(const CLI::App& app, const std::string& wanted) {
     }
     const std::string_view near = sikku::nearest(wanted, names);
     throw sikku::UsageError(
-        fmt::format("there is no command '{}'{}", sikku::printable(wanted, 80),
+        fmt::format("unknown command '{}'{}", sikku::printable(wanted, 80),
                     near.empty() ? "; `sikku --help` lists them" : fmt::format("; did you mean '{}'?", near)));
 }
 
-/// Does what the command line asks for, tells what went wrong with it, and returns the exit status.
+/// Executes the command line, reports errors, and returns the exit status.
 int run(int argc, char** argv) {
     using namespace sikku;
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
@@ -79,7 +79,8 @@ int run(int argc, char** argv) {
     add_manual(app);
     app.footer(
         "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
-        "Exit status: 0; 2 for usage, unknown names and patterns with errors; 1 for other failures; 130, 143 and 129 "
+        "Exit status: 0 for success; 2 for errors in the command line or in patterns; 1 for other failures; 130, 143 "
+        "and 129 "
         "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
         "once. Output files appear whole or not at all.");
     try {
@@ -90,18 +91,20 @@ int run(int argc, char** argv) {
         return error.get_exit_code();
     } catch (const CLI::ExtrasError&) {
         const std::vector<std::string> extras = app.remaining(true);
-        // The value of an unknown option stands before it in this list.
+        // In this list the value of an unknown option precedes its name.
         const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
             return text.starts_with("-") && text != "-";
         });
         return fail(2, unexpected(app, option == extras.end() ? extras.front() : *option));
     } catch (const CLI::ParseError& error) {
-        // CLI11 by itself prints without looking whether it can; what is lost here main() sees.
+        // CLI11 would ignore failures of printing; main() checks standard output.
         std::ostringstream help;
         std::ostringstream mistake;
         const int status = app.exit(error, help, mistake) == 0 ? 0 : 2;
         std::fputs(help.str().c_str(), stdout);
-        return status == 0 ? 0 : fail(status, mistake.str());
+        if (status == 0) return 0;
+        const bool lacks_command = error.get_name() == "RequiredError" && app.get_subcommands().empty();
+        return fail(status, lacks_command ? "expected a command; `sikku --help` lists them" : mistake.str());
     } catch (const PatternError& error) {
         tell("{}\n", error.what());
         return 2;
@@ -129,7 +132,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     sikku::catch_signals();
     const int status = run(argc, argv);
-    // Output that is lost is a failure, also where it would have told mistakes; other failures were told already.
+    // Lost output is a failure, even if it was an error report; other failures were reported already.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     return lost && (status == 0 || status == 2) ? fail(1, "standard output cannot be written") : status;
 }

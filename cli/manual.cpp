@@ -1,5 +1,5 @@
-// cli/manual.cpp: `sikku manual`: the manual of the commands, from the same pages as --help. Not listed: the build
-// and the tests use it.
+// cli/manual.cpp: `sikku manual` prints the manual of the commands from the pages of --help. Help does not list it:
+// the build and the tests use it.
 #include "cli/command.h"
 #include "cli/help.h"
 #include "engine/base/output.h"
@@ -12,7 +12,7 @@
 namespace sikku {
 namespace {
 
-/// A cell of a table of Markdown; code if `is_code`.
+/// Formats a cell of a Markdown table, as code if `is_code`.
 std::string cell(const std::string& text, bool is_code) {
     std::string result;
     for (const char letter : text) {
@@ -49,7 +49,7 @@ std::string markdown_manual(const CLI::App& app) {
     return text;
 }
 
-/// Text of roff, in which hyphens, backslashes and leading dots and quotes have meanings of their own.
+/// Escapes text for roff: hyphens, backslashes, and leading dots and quotes.
 std::string roff(const std::string& text) {
     std::string result;
     for (const char letter : text) {
@@ -77,7 +77,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// @param others  names of further pages
+/// @param others  names of the other pages
 std::string man_page(const HelpPage& page, const std::vector<std::string>& others) {
     std::string text =
         fmt::format(".TH {} 1 \"\" \"Sikku {}\" \"Sikku\"\n.SH NAME\n{} \\- {}\n", upper(hyphenated(page.name)),
@@ -123,7 +123,7 @@ void add_manual(CLI::App& app) {
     auto format = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
     command->add_option("FORMAT", *format, "markdown or man")->required()->check(CLI::IsMember({"markdown", "man"}));
-    command->add_option("FOLDER", *folder, "where the man pages go (the working directory)");
+    command->add_option("FOLDER", *folder, "folder for the man pages (the working directory)");
     command->callback([format, folder, &app] {
         if (*format == "man") return write_man_pages(app, folder->empty() ? "." : *folder);
         fmt::print("{}", markdown_manual(app));

@@ -43,7 +43,7 @@ void list_patterns(const std::string& kind, bool names_only) {
     for (const LibraryPattern& known : patterns) kinds.insert(known.kind);
     if (kinds.empty()) throw UsageError("no patterns were found");
     const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
-    throw UsageError(fmt::format("there are no patterns '{}'; {}", kind,
+    throw UsageError(fmt::format("unknown kind of patterns '{}'; {}", kind,
                                  near.empty() ? fmt::format("there are: {}", fmt::join(kinds, ", "))
                                               : fmt::format("did you mean '{}'?", near)));
 }
@@ -98,7 +98,8 @@ void check_pattern(const Pattern& pattern, Diagnostics& diagnostics) {
     for (const Interpreter* interpreter : interpreters()) interpreter->check_keys(pattern, diagnostics);
 }
 
-/// Checks every variant as well. Each is compiled in full: many variants of a large pattern would take minutes.
+/// Checks all variants, up to a limit: each is compiled in full, which would take minutes for many variants of a
+/// large pattern.
 void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
     constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
     const std::size_t size = pattern.source->text().size();
@@ -149,11 +150,11 @@ void add_patterns(CLI::App& app) {
 
 void add_show(CLI::App& app, bool& quiet) {
     auto* command =
-        app.add_subcommand("show", "Print the text of a pattern, or of the pattern a print was made from");
+        app.add_subcommand("show", "Print the text of a pattern, or of the pattern in a print or MIDI file");
     auto what = std::make_shared<std::string>();
     command
         ->add_option("PATTERN", *what,
-                     "bundled pattern, pattern file, -, print (SVG, PDF, PNG, TIFF, JPEG, EXR) or MIDI file")
+                     "bundled pattern, pattern file, - for standard input, print, model or MIDI file")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });

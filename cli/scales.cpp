@@ -51,8 +51,8 @@ void show_scales(const ScalesOptions& options) {
     if (found.empty()) found = search_scales(options.words);
     if (found.empty()) {
         const std::vector<std::string> near = similar_scales(wanted);
-        throw UsageError(fmt::format("there is no scale '{}'; {}", printable(wanted, 80),
-                                     near.empty() ? std::string("`sikku scales` lists those that come along")
+        throw UsageError(fmt::format("unknown scale '{}'; {}", printable(wanted, 80),
+                                     near.empty() ? std::string("`sikku scales` lists the bundled ones")
                                                   : fmt::format("did you mean {}?", fmt::join(near, " or "))));
     }
     if (!options.as_json) {
@@ -70,12 +70,12 @@ void add_scales(CLI::App& app) {
     auto* command = app.add_subcommand("scales", "List the bundled scales, or show one");
     auto options = std::make_shared<ScalesOptions>();
     command->add_option("WORDS", options->words, "scale, words to search for, or Scala file (.scl)");
-    command->add_option("--tonic", options->tonic, "first note of the scale, for names of notes")
+    command->add_option("--tonic", options->tonic, "first note of the scale, which determines the names of notes")
         ->type_name("NOTE")
         ->capture_default_str();
     command->add_flag("--json", options->as_json, "print an array of JSON");
     command->footer(
-        "Notes that a piano lacks are named with their distance in cents: E-14.\n\n"
+        "Notes between the keys of a piano are named with their distance in cents: E-14.\n\n"
         "Examples:\n"
         "  sikku scales\n"
         "  sikku scales harmonic minor --tonic D\n"

@@ -39,7 +39,7 @@ struct ScoreFormatInfo {
     ScoreFormat format;
 };
 
-/// A drawn score is `notes.svg` where prints are `svg`.
+/// The formats of scores. A drawn score is named `notes.svg`, because `svg` is a print.
 constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
                                                           {{"musicxml", "MusicXML", "xml"}, ScoreFormat::musicxml},
                                                           {{"ly", "LilyPond"}, ScoreFormat::lilypond},
@@ -53,7 +53,7 @@ struct Player {
     Document document;
     Melody melody;
     int first_voice = 0;
-    std::vector<std::string> warnings;  ///< about values of options
+    std::vector<std::string> warnings;  ///< warnings about values of options
 };
 
 /// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
@@ -149,7 +149,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
     player.melody = read_melody(
         player.document.pattern(),
         [&](const std::string& file) {
-            // Files named by the pattern lie beside it, those named by options in the folder of the options.
+            // Files that the pattern names are beside it; files that options name are in the folder of the options.
             const bool is_option = std::any_of(settings.keys.begin(), settings.keys.end(),
                                                [&](const Setting& setting) { return setting.value == file; });
             std::string text =
@@ -159,7 +159,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
         },
         diagnostics);
     diagnostics.throw_if_errors();
-    // Those about the pattern itself are the document's.
+    // Warnings about the pattern itself belong to the document.
     for (const Diagnostic& warning : diagnostics.list()) {
         const bool is_own = std::any_of(settings.keys.begin(), settings.keys.end(),
                                         [&](const Setting& setting) { return setting.origin == warning.file; });
@@ -192,7 +192,8 @@ PlayOptions piece_of(const PlaySettings& options, const Melody& melody, const Mo
     playing.watch = [monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     const std::int64_t bar = melody.meter.bar();
     if (options.from_bar - 1 > (INT64_MAX / 4) / bar) {
-        throw SettingError("from-bar", std::to_string(options.from_bar), "more than 2^60 ticks from the beginning");
+        throw SettingError("from-bar", std::to_string(options.from_bar),
+                           "this bar is more than 2^60 ticks from the beginning");
     }
     playing.from = (options.from_bar - 1) * bar;
     if (options.bars > 0) playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
@@ -275,7 +276,7 @@ std::string range_of(const PlayReport& report, const Melody& melody) {
     return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
 }
 
-/// Reports without writing a score: by playing, or, where that is too long, by the fold.
+/// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
 std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
     PlayOptions playing = piece;
     playing.budget = std::min(piece.budget, 20e6);
@@ -391,7 +392,7 @@ void report_notation(const Notation& notation, Made& made) {
     }
 }
 
-/// A score, planned.
+/// A planned score.
 class ScoreWork : public Work {
 public:
     /// @throws SettingError, PatternError; std::runtime_error if a file that a pattern names cannot be read
@@ -404,7 +405,7 @@ public:
         for (const Document& document : documents) {
             players_.push_back(read_player(settings_, document, folder, witness));
             Melody& melody = players_.back().melody;
-            // The lowest octave of MIDI is below what MusicXML can write.
+            // MusicXML cannot represent the lowest octave of MIDI.
             if (format == ScoreFormat::musicxml) melody.lowest = std::max(melody.lowest, lowest_in_musicxml);
             midi_.microtonal = midi_.microtonal || melody.is_microtonal();
         }
@@ -439,7 +440,7 @@ private:
     Monitor monitor_;
 };
 
-/// @throws BudgetError for more notes than a MIDI file holds
+/// @throws BudgetError for more notes than a MIDI file can contain
 void ScoreWork::check_size(const PlayOptions& playing) const {
     const bool as_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
     if (!as_midi || playing.to < INT64_MAX) return;
@@ -447,7 +448,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
         const auto known = census(player.document.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(
-                fmt::format("{} notes would make a file of over 4 GiB, which MIDI cannot hold; limit the "
+                fmt::format("{} notes would exceed the limit of MIDI files, 4 GiB; limit the "
                             "bars or seconds",
                             known->notes.str()));
         }
@@ -461,7 +462,7 @@ double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing,
     const double seconds = static_cast<double>(report.end) / static_cast<double>(ticks_per_quarter) * 60 / head.tempo;
     if (seconds > most_audio_seconds) {
         throw ScoreError(
-            fmt::format("{} of sound are too long: a WAV file holds 6 hours 45 minutes; limit the bars or "
+            fmt::format("{} of sound are too long: a WAV file can contain 6 hours 45 minutes; limit the bars or "
                         "seconds",
                         time_text(seconds)));
     }
@@ -531,7 +532,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
         if (format_ == ScoreFormat::wav || format_ == ScoreFormat::flac) {
             throw std::runtime_error(fmt::format("cannot write '{}': sound needs a regular file", name.string()));
         }
-        // Writers go back to the beginning, pipes cannot.
+        // Writers of sound seek to the beginning, which pipes do not support.
         MemoryOutput whole;
         write(head, playing, whole, made);
         output->write(whole.bytes());
@@ -541,7 +542,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
 }
 
 Cost ScoreWork::forecast() const {
-    constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving shows
+    constexpr double unknown_symbols = 1e6;  // assumed for words of unknown length
     Cost result;
     for (const Player& player : players_) {
         const Grammar& grammar = player.document.grammar();

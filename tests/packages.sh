@@ -2,7 +2,7 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
-# For tests: the framework, independent readers of what the program writes, and the linters.
+# For tests: the framework, independent readers of the program's outputs, and the linters.
 test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
     midicsv python3-mido clang-format clang-tidy)

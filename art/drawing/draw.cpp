@@ -21,7 +21,7 @@
 namespace sikku {
 namespace {
 
-/// Keeping a part of a model, whose tubes have sides, takes the memory and time of about so many nodes.
+/// Memory and time of one part of a model, in nodes: its tubes have many sides.
 constexpr double nodes_of_modelled_part = 200;
 
 void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
@@ -92,7 +92,7 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
     const DrawOptions options = with_locked_watch(given_options);
     if (!is_vector(options.format)) prepare_images(options.threads);
     if (grammar.is_spatial() && print.animation) {
-        throw std::runtime_error("animations are for drawings in the plane");
+        throw std::runtime_error("animations apply only to drawings in the plane");
     }
     const auto drawing = make_drawing(grammar, print.style, options);
     if (options.tiles) return draw_tiles(*drawing, std::move(print), options, file, destination);

@@ -35,8 +35,8 @@ constexpr double line_bytes = 5;         // of a line in a raster
 constexpr double band_pixel_bytes = 10;  // of a band that is rendered
 constexpr double picture_bytes = 6e6;    // of the library, for a file
 constexpr double writer_bytes = 5e6;
-constexpr double scene_line_bytes = 60;      // of a line in space
-constexpr double ornament_line_bytes = 250;  // of a line whose dots or strands are looked for
+constexpr double scene_line_bytes = 60;      // memory of a line in space
+constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
 constexpr double plot_line_bytes = 400;
 constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
 
@@ -249,7 +249,7 @@ DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const 
     return seen;
 }
 
-/// How often a pen that is thinner than the lines goes along each of them.
+/// Number of passes of a pen that is narrower than the lines.
 double plot_passes(const Print& print, const PlotOptions& plot) {
     if (!(plot.pen_width > 0) || print.style.stroke.in_steps) return 1;
     return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
@@ -285,7 +285,7 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     return cost;
 }
 
-/// Whether the drawing may be seen through its parts; otherwise `why` gets the reason, if a window needs one.
+/// True if the drawing can be drawn from its parts; otherwise `why` receives the reason if there is a window.
 bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& options, std::string& why) {
     const auto none = [&](const char* reason) {
         why = reason;
@@ -320,7 +320,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
 }
 
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why) {
-    if (grammar.is_spatial()) throw std::runtime_error("this drawing has no window: " + why);
+    if (grammar.is_spatial()) throw std::runtime_error("this drawing cannot be shown through a window: " + why);
     try {
         require_affordable(grammar, true, options.budget);
     } catch (const BudgetError&) {
@@ -331,7 +331,7 @@ void require_window(const Grammar& grammar, const DrawOptions& options, const st
 DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
     const Grammar grammar = shorten(given_grammar);
     std::string why;
-    // Galleries forecast on many threads, and parts take much memory: one at a time.
+    // One at a time, because galleries forecast on many threads and parts take much memory.
     static std::mutex mutex;
     std::unique_lock lock(mutex, std::defer_lock);
     if (may_be_seen(grammar, given.style, options, why)) lock.lock();
@@ -397,10 +397,11 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
             extent_.box.add(turned * glm::dvec3(corner, 1.0));
         }
     }
-    if (extent_.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
+    if (extent_.box.empty())
+        throw std::runtime_error("there is nothing to draw: the word contains no step that draws");
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
-    if (!view_) throw std::runtime_error("the drawing is too large to be looked at");
+    if (!view_) throw std::runtime_error("the drawing is too large to be drawn");
 }
 
 void SeenDrawing::read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
@@ -414,7 +415,7 @@ void SeenDrawing::read(const Print& print, const Window& window, double pixel, B
     // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
     // wide.
     sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
-    // Curves are told from the lines through their control points only where steps are.
+    // Curves differ from the lines through their control points only where steps are visible.
     if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
         sight.ink = spline_ ? spline_share_ : 1;
         return add(view_->read(sight, sink, budget, watch));
@@ -462,7 +463,7 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// A picture made in strips. Memory: what the strips under way take; for render_rows(), all lines that are seen.
+/// A picture rendered in strips. Memory: the strips in progress; for render_rows(), all visible lines.
 class StripRendering : public Rendering {
 public:
     StripRendering(const SeenDrawing& drawing, const Print& print, const Window& window)
@@ -551,7 +552,7 @@ void StripRendering::render(int threads, const RowSink& sink) {
                [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & drawn & hand_on); });
 }
 
-/// All that is seen, from one walk.
+/// All visible lines, from a single walk.
 const Raster& StripRendering::whole() const {
     std::call_once(once_, [this] {
         auto raster = make_raster(print_);

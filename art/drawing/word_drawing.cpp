@@ -173,7 +173,7 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 void require_ink(const Box& box) {
     if (!box.empty()) return;
     throw std::runtime_error(
-        "there is nothing to draw: the word holds no step that draws, no polygon, no disc, or none in a "
+        "there is nothing to draw: the word contains no step that draws, no polygon, no disc, or none in a "
         "colour that is seen");
 }
 
@@ -252,8 +252,8 @@ DrawnExtent WordDrawing::measured() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return {found.box, found.widest};
     }
-    // Straight lines that are all visible are folded for their extent; a spline without brackets and lifts is one
-    // stroke, and is folded for whether it closes.
+    // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
+    // one stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();

@@ -22,7 +22,7 @@ constexpr int most_picture_threads = 3;
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";
-    return fmt::format("it takes about {} of memory, more than is left for it ({})", bytes_text(forecast.memory),
+    return fmt::format("it needs about {} of memory, more than is available ({})", bytes_text(forecast.memory),
                        bytes_text(memory));
 }
 
@@ -35,7 +35,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
             fmt::format("'{}' already exists and was not made by this gallery; only a forced run replaces it",
                         folder.shown(file.file)));
     }
-    // The target of a link is not in the way.
+    // Check the link itself, not its target.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
@@ -79,7 +79,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
-/// Finds the first job that fits in memory and that no other run is making; nullopt when nothing is left to begin.
+/// Finds the first job that fits in memory and that no other run is making; nullopt if no job is left to begin.
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -124,7 +124,7 @@ void Batch::work() {
             listener_.finish(turn->task.forecast.seconds);
         }
     } catch (...) {
-        // Such as a lock that fails: the other threads end, too.
+        // After an error such as a failed lock, the other threads end, too.
         {
             const std::lock_guard guard(mutex_);
             stopped_ = true;

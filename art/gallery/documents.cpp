@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_documents = 256;
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::uint64_t most_hashed_bytes = std::uint64_t{16} << 20;
-constexpr std::size_t work_bytes = 8192;  // of a planned work, beside its text
+constexpr std::size_t work_bytes = 8192;  // memory of a planned work without its text
 
 }  // namespace
 

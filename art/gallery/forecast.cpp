@@ -9,7 +9,7 @@ std::string length_of(const Grammar& grammar) {
     try {
         if (const auto word = forecast(grammar, false)) return word->length();
     } catch (const BudgetError&) {
-        // What is too long to count may be drawn.
+        // Words too long to count can still be drawn.
     }
     return "?";
 }

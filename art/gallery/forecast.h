@@ -1,4 +1,4 @@
-// art/gallery/forecast.h: what a job of a gallery will cost, before it is begun.
+// art/gallery/forecast.h: estimates the cost of a job before it begins.
 #pragma once
 
 #include "art/gallery/jobs.h"

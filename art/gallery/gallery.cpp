@@ -32,7 +32,7 @@ void for_each_number(std::size_t count, int threads, const Monitor& monitor, con
     });
 }
 
-/// Requested sheets.
+/// The sheets that were requested.
 std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
     std::vector<SheetRequest> sheets;
     if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
@@ -40,7 +40,7 @@ std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, 
     return sheets;
 }
 
-/// Does the job use the module for pictures?
+/// True if the job uses the module for pictures.
 bool is_picture(const GalleryJob& job) {
     const auto format = print_format(job.file());
     return &job.interpreter() == &prints() && format && !is_vector(*format);
@@ -178,7 +178,7 @@ void Gallery::select() {
 std::vector<std::pair<std::string, JobForecast>> Gallery::sheet_forecasts(
     const std::vector<const GalleryJob*>& jobs) const {
     std::vector<std::pair<std::string, JobForecast>> forecasts;
-    // A part of the jobs makes no sheets.
+    // Runs for a part of the jobs make no sheets.
     if (chosen_.size() != jobs_.size()) return forecasts;
     for (const SheetRequest& sheet : sheets_of(request_, options_.threads, memory_)) {
         for (const std::string& file : sheet_files(sheet)) {
@@ -258,7 +258,7 @@ GalleryResult Gallery::make(GalleryListener& listener) {
     try {
         record.complete(order, batch.begun, shard.count == 1);
     } catch (const std::exception& error) {
-        result.troubles.push_back(error.what());  // the lines appended so far hold all the same
+        result.troubles.push_back(error.what());  // the lines appended so far remain valid
     }
     return result;
 }

@@ -1,4 +1,4 @@
-// art/gallery/shards.h: a gallery cut into parts for several machines.
+// art/gallery/shards.h: divides a gallery into parts for several machines.
 #pragma once
 
 #include <cstddef>

@@ -31,7 +31,7 @@ bool is_print(const GalleryJob& job) {
 /// Jobs of one name, in the order of their first.
 struct NamedJobs {
     std::vector<const GalleryJob*> jobs;
-    /// @param format  its extension; jobs may have the alias
+    /// @param format extension of the format; jobs may use its alias
     const GalleryJob* find(std::string_view format) const {
         for (const GalleryJob* job : jobs) {
             if (find_format(job->interpreter().formats(), job->format)->extension == format) return job;
@@ -234,7 +234,7 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Monitor& monitor) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
-    if (cells.empty()) throw GalleryError("there is no print to show on a sheet");
+    if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
     options.monitor = monitor;
     options.watch = [monitor](std::uint64_t) { monitor.check(); };

@@ -1,4 +1,4 @@
-// art/gallery/summary.h: what is made of a whole gallery: its page, a poster, a contact sheet.
+// art/gallery/summary.h: makes the page, the poster and the contact sheet of a gallery.
 #pragma once
 
 #include "art/gallery/jobs.h"
@@ -13,7 +13,7 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Whether a file that begins with these (up to 4096) bytes is a page written by write_gallery_index().
+/// True if a file that begins with these (up to 4096) bytes was written by write_gallery_index().
 bool is_gallery_page(std::string_view beginning);
 
 struct SheetRequest {

@@ -13,10 +13,10 @@
 namespace sikku {
 namespace {
 
-/// Rejects limits under which the libraries of the module, which start threads and allocate memory on loading, would
-/// end the program.
+/// Rejects limits under which the libraries of the module would abort: they start threads and allocate memory on
+/// loading.
 void require_resources(int threads) {
-    // Logging of an unused library; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    // One for the log of an unused library, the pools of OpenImageIO and OpenEXR, the bands of the picture.
     constexpr int at_load = 4;
     constexpr int least_pool = 3;
     const int bands = thread_count(threads);

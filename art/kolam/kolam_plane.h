@@ -1,5 +1,5 @@
-// art/kolam/kolam_plane.h: the planes in which drawings are examined: where points are, which way lines go, where
-// they meet; in whole numbers, and in doubles with a tolerance.
+// art/kolam/kolam_plane.h: geometric predicates for examinations, in exact whole numbers, and in doubles with a
+// tolerance.
 #pragma once
 
 #include "engine/geometry/lattice.h"

@@ -274,7 +274,7 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
     bool moves = false;
     const std::string& text = options.end;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        // Comments may contain anything.
+        // Comments may contain any characters.
         if (text[i] == '(' || text[i] == ';') {
             i = text.find(text[i] == '(' ? ')' : '\n', i);
             if (i == std::string::npos) break;

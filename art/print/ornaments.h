@@ -1,4 +1,4 @@
-// art/print/ornaments.h: what is drawn around and beside a pattern's own lines: the dots of a kolam, a border.
+// art/print/ornaments.h: adds dots, a border and strand colours to the lines of a pattern.
 #pragma once
 
 #include "art/print/print.h"
@@ -47,7 +47,7 @@ public:
         sink_.disc(centre, radius, pen);
     }
 
-    std::vector<glm::dvec2> places;  ///< of the visible ones
+    std::vector<glm::dvec2> places;  ///< positions of the visible discs
 
 private:
     const Style& style_;
@@ -74,7 +74,7 @@ public:
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
 
 private:
-    /// A visible stroke begins with the pen, or where an invisible one ends.
+    /// Starts a visible stroke when the pen becomes visible.
     void look(const Pen& pen) {
         const bool is_seen = style_.draws(pen);
         if (is_seen && !is_seen_) ++stroke_;

@@ -66,7 +66,7 @@ Spot parse_spot(std::string_view text) {
     if (!is_printable(name)) refuse("its name contains control characters or invalid UTF-8");
     if (colour_text.empty()) refuse("its colour is missing");
     const auto colour = parse_colour(colour_text);
-    if (!colour) refuse(fmt::format("'{}' is no colour: write #rrggbb or a CSS name", printable(colour_text)));
+    if (!colour) refuse(fmt::format("'{}' is not a colour: write #rrggbb or a CSS name", printable(colour_text)));
     if (colour->alpha != 255) refuse("the colour of an ink is not transparent");
     return {std::string(name), *colour};
 }
@@ -96,7 +96,7 @@ void check_press(const Press& press, PrintFormat format) {
         throw std::runtime_error(
             fmt::format("a bleed of {:.6g} mm: it is 0 to {:.6g} mm wide", press.bleed, most_bleed));
     }
-    if (press.bleed > 0.0 && is_for_plotters(format)) throw std::runtime_error("what a plotter draws has no bleed");
+    if (press.bleed > 0.0 && is_for_plotters(format)) throw std::runtime_error("a plot has no bleed");
     if (press.bits != 1 && press.bits != 8) {
         throw std::runtime_error(fmt::format("{} bits a channel: pictures have 8, or 1 as line art", press.bits));
     }

@@ -88,7 +88,7 @@ void Screener::diffuse(std::span<const std::uint8_t> greys, std::span<std::uint8
         const std::size_t ahead = is_back ? x : x + 2;
         const std::size_t behind = is_back ? x + 2 : x;
         const int wanted = 16 * greys[x] + errors_[x + 1];
-        // Pure black and white are kept: lines keep their edges.
+        // Pure black and white stay unchanged, so that lines keep their edges.
         const bool is_white = greys[x] == 255 || (greys[x] != 0 && wanted >= 16 * 128);
         result[x] = is_white ? 255 : 0;
         if (greys[x] == 0 || greys[x] == 255) continue;

@@ -30,6 +30,14 @@ bool begins_as_tiff(std::string_view head) {
            head.starts_with("MM\0+"sv);
 }
 
+bool begins_as_html(std::string_view head) {
+    return begins_as_xml(head) && head.find("<!DOCTYPE html") != std::string_view::npos;
+}
+
+bool begins_as_musicxml(std::string_view head) {
+    return begins_as_xml(head) && head.find("<score-partwise") != std::string_view::npos;
+}
+
 bool begins_as_gcode(std::string_view head) {
     return head.find("(recipe: sikku:") != std::string_view::npos;
 }
@@ -38,13 +46,18 @@ bool begins_as_obj(std::string_view head) {
     return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
 }
 
+/// For formats that are recognised only to name them in messages.
+std::optional<Provenance> read_no_provenance(const InputFile&) {
+    return std::nullopt;
+}
+
 struct Format {
     std::string_view name;
     bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 11> formats = {{
+constexpr std::array<Format, 13> formats = {{
     {"PNG", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
     {"TIFF", begins_as_tiff, read_tiff_provenance},
     {"JPEG", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
@@ -55,6 +68,8 @@ constexpr std::array<Format, 11> formats = {{
     {"HP-GL", begins_with<'I', 'N', ';'>, read_comment_provenance},
     {"G-code", begins_as_gcode, read_comment_provenance},
     {"OBJ", begins_as_obj, read_comment_provenance},
+    {"HTML", begins_as_html, read_no_provenance},
+    {"MusicXML", begins_as_musicxml, read_no_provenance},
     {"SVG", begins_as_xml, read_svg_provenance},
 }};
 

@@ -1,4 +1,4 @@
-// art/provenance/provenance.h: reads back what a print was made from.
+// art/provenance/provenance.h: reads the pattern and the recipe of a print back from its file.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,12 @@ struct Provenance {
     std::string made;
 };
 
-/// The name of the file format that a file begins as, `SVG`, or empty: none of those below, or it cannot be opened.
+/// The format of a file by its first bytes, such as `SVG`; empty if it is none of those below or cannot be opened.
 std::string_view known_format(const std::filesystem::path& file);
 
 /// Reads the pattern that the writers of this folder put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF, GIF,
-/// HP-GL, G-code, OBJ, glTF. Recognises the
-/// format by the first bytes, not by the name; never decodes pixels. Returns nullopt if the format is unknown or the
-/// file is not a regular file that can be opened.
+/// HP-GL, G-code, OBJ, glTF. Recognises the format by the first bytes, not by the name; never decodes pixels. Returns
+/// nullopt if the format is unknown or the file is not a regular file that can be opened.
 ///
 /// Safe for untrusted files: reading any file takes at most about a second and 200 MB.
 /// @throws std::runtime_error, naming the file, if it has one of the formats but contains no pattern, is damaged, or

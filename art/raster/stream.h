@@ -1,4 +1,4 @@
-// art/raster/stream.h: a drawing as a stream of words for each band and colour, before it is painted.
+// art/raster/stream.h: stores a drawing as a stream of words for each band and colour, before it is painted.
 #pragma once
 
 #include "art/raster/fill.h"

@@ -51,14 +51,14 @@ Span next_word(const Span& value, std::size_t& at, bool commas) {
 
 std::string colour_complaint(std::string_view text, std::string_view expected) {
     if (text.starts_with('#')) {
-        return fmt::format("{} is no colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
+        return fmt::format("{} is not a colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
     }
     if (text.find('(') != std::string_view::npos) {
-        return fmt::format("{} is no colour here: write #rrggbb or a CSS name", quoted(text));
+        return fmt::format("{} is not a colour here: write #rrggbb or a CSS name", quoted(text));
     }
     const std::string_view near = nearest(lower_case(text), colour_names());
-    if (!near.empty()) return fmt::format("{} is no colour; did you mean '{}'?", quoted(text), near);
-    return fmt::format("{} is no colour: expected {}", quoted(text), expected);
+    if (!near.empty()) return fmt::format("{} is not a colour; did you mean '{}'?", quoted(text), near);
+    return fmt::format("{} is not a colour: expected {}", quoted(text), expected);
 }
 
 std::optional<Colour> read_colour(const Span& word, std::string_view expected, Diagnostics& diagnostics) {
@@ -104,9 +104,10 @@ void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
         style.line = Line::spline;
     } else {
         const std::string_view near = nearest(text, {"straight", "spline"});
-        diagnostics.error(*word, near.empty()
-                                     ? fmt::format("{} is no line: expected {}", quoted(word->view()), expected)
-                                     : fmt::format("{} is no line; did you mean '{}'?", quoted(word->view()), near));
+        diagnostics.error(
+            *word, near.empty()
+                       ? fmt::format("{} is not a line style: expected {}", quoted(word->view()), expected)
+                       : fmt::format("{} is not a line style; did you mean '{}'?", quoted(word->view()), near));
     }
 }
 

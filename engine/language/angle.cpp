@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::int64_t largest_term = most_angle_parts;  // of an exact angle
+constexpr std::int64_t largest_term = most_angle_parts;  // of the fraction of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
     if (denominator <= 0 || denominator > largest_term) return std::nullopt;

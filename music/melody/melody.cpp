@@ -124,9 +124,8 @@ private:
                 std::string near;
                 for (const std::string& one : similar_scales(name)) near += (near.empty() ? "" : ", ") + one;
                 diagnostics_.error(name.empty() ? key->name_at : key->value,
-                                   near.empty()
-                                       ? fmt::format("there is no scale '{}'; `sikku scales` lists them", name)
-                                       : fmt::format("there is no scale '{}'; near it are {}", name, near));
+                                   near.empty() ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
+                                                : fmt::format("unknown scale '{}'; near it are {}", name, near));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {

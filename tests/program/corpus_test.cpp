@@ -1,4 +1,4 @@
-// tests/program/corpus_test.cpp: what the fuzzers do, done with every file of the corpus and every pattern.
+// tests/program/corpus_test.cpp: runs the checks of the fuzzers on every file of the corpus and every pattern.
 #include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/scale_targets.h"
