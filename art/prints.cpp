@@ -302,7 +302,7 @@ public:
     Prints() {
         for (const FormatInfo& row : print_formats()) {
             const bool is_several = row.kind == FormatKind::animation || row.kind == FormatKind::model;
-            formats_.push_back({row.extension, row.label, row.alias, is_several});
+            formats_.push_back({row.extension, row.label, row.alias, is_several, row.is_text});
         }
         for (const Option<DrawSettings>& row : draw_options()) options_.push_back(&row.info);
     }
@@ -340,8 +340,9 @@ const Interpreter& prints() {
     return interpreter;
 }
 
-std::string draw(const Document& document, std::string_view format, const OptionValues& values) {
-    return make_in_memory(prints(), document, format, values);
+std::string draw(const Document& document, std::string_view format, const OptionValues& values,
+                 const Monitor& monitor) {
+    return make_in_memory(prints(), document, format, values, monitor);
 }
 
 }  // namespace sikku

@@ -15,6 +15,7 @@ const Interpreter& prints();
 /// `draw(koch, "svg", {{"size", "A3"}, {"stroke", "0.3mm navy"}})`.
 /// @param format  a name from prints().formats() whose print is a single file
 /// @throws SettingError, PatternError, BudgetError, WordError; std::runtime_error if nothing is drawn
-std::string draw(const Document& document, std::string_view format, const OptionValues& values = {});
+std::string draw(const Document& document, std::string_view format, const OptionValues& values = {},
+                 const Monitor& monitor = {});
 
 }  // namespace sikku

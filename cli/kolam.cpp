@@ -1,7 +1,6 @@
 // cli/kolam.cpp: `sikku kolam`: what there is to know of a drawing as a kolam.
-#include "art/kolam/kolam.h"
+#include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
-#include "art/style/style.h"
 #include "cli/command.h"
 #include "cli/kolam_grid.h"
 #include "engine/base/text.h"
@@ -61,17 +60,8 @@ void add_kolam(CLI::App& app, bool& quiet) {
         }
         if (options->pattern.empty()) throw UsageError("expected PATTERN, or --grid");
         const Document loaded = load(*options, quiet);
-        Diagnostics diagnostics;
-        KolamOptions examination;
-        const Style style = read_style(loaded.pattern(), 300, diagnostics);
-        examination.spline = style.line == Line::spline;
-        examination.moves_lift = style.moves_lift;
-        examination.draws = [&style](const Pen& pen) { return style.draws(pen); };
-        examination.budget = *budget;
         Progress progress(quiet);
-        examination.watch = progress.watch();
-        examination.monitor = stop_monitor();
-        const KolamExamination examined = examine_kolam(loaded.grammar(), examination);
+        const KolamExamination examined = examine_kolam(loaded, *budget, progress.monitor());
         const std::string title = loaded.pattern().text("title");
         const std::int64_t n = loaded.grammar().steps();
         fmt::print("{}", *as_json ? kolam_json(title, n, examined) : kolam_text(title, n, examined));

@@ -59,8 +59,7 @@ void require_known(const Interpreter& interpreter, const Document& document, con
 
 }  // namespace
 
-std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
-                           const OptionValues& values) {
+Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values) {
     OptionValues own;
     std::vector<Setting> settings;
     for (const OptionValue& value : values) {
@@ -73,10 +72,15 @@ std::string make_in_memory(const Interpreter& interpreter, const Document& docum
             settings.push_back({value.name, value.name, value.text});
         }
     }
-    const Document set = settings.empty() ? document : document.with(settings);
+    return {settings.empty() ? document : document.with(settings), std::move(own)};
+}
+
+std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
+                           const OptionValues& values, const Monitor& monitor) {
+    const Assignment assigned = assign(interpreter, document, values);
     MemoryDestination memory;
     const std::string name = "memory." + std::string(format);
-    interpreter.plan(set, format, own)->make(memory, name, {});
+    interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
     if (!memory.outputs().contains(name)) {
         throw std::runtime_error(std::to_string(memory.outputs().size()) +
                                  " files instead of one: plan the work and make it into a destination");

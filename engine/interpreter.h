@@ -58,6 +58,7 @@ struct FormatName {
     std::string_view label;      ///< name in messages: `HP-GL`
     std::string_view alias{};    ///< another extension, or empty
     bool is_several = false;     ///< needs several derivation lengths, or has several files
+    bool is_text = false;        ///< files are UTF-8 text
 };
 
 /// The row of that extension or alias (any case), or null.
@@ -93,9 +94,19 @@ Document compile(std::string name, std::string text, const Overrides& overrides,
 std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
                    const std::string& after = {});
 
+/// Values sorted by what they set.
+struct Assignment {
+    Document document;     ///< with the keys and defines applied
+    OptionValues options;  ///< values of the interpreter's options
+};
+
+/// Sorts values by name: those of options of the interpreter, and those of keys and defines of the pattern, which are
+/// applied to the document. A seed is both. @throws SettingError for other names; PatternError
+Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values);
+
 /// Plans and makes a work with a single output. Names in `values` are options of the interpreter, or keys and defines
-/// of the pattern. @throws as plan() and make(); SettingError for other names
+/// of the pattern. @throws as assign(), plan() and make()
 std::string make_in_memory(const Interpreter& interpreter, const Document& document, std::string_view format,
-                           const OptionValues& values);
+                           const OptionValues& values, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #include "engine/base/chance.h"
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
+#include "engine/base/memory.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
@@ -26,6 +27,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <tuple>
 
 namespace sikku {
 namespace {
@@ -40,13 +42,14 @@ struct ScoreFormatInfo {
 };
 
 /// The formats of scores. A drawn score is named `notes.svg`, because `svg` is a print.
-constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
-                                                          {{"musicxml", "MusicXML", "xml"}, ScoreFormat::musicxml},
-                                                          {{"ly", "LilyPond"}, ScoreFormat::lilypond},
-                                                          {{"wav", "sound"}, ScoreFormat::wav},
-                                                          {{"flac", "sound"}, ScoreFormat::flac},
-                                                          {{"notes.svg", "the notes", "svg"}, ScoreFormat::svg},
-                                                          {{"html", "play"}, ScoreFormat::html}}};
+constexpr std::array<ScoreFormatInfo, 7> format_table = {
+    {{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
+     {{.extension = "musicxml", .label = "MusicXML", .alias = "xml", .is_text = true}, ScoreFormat::musicxml},
+     {{.extension = "ly", .label = "LilyPond", .is_text = true}, ScoreFormat::lilypond},
+     {{"wav", "sound"}, ScoreFormat::wav},
+     {{"flac", "sound"}, ScoreFormat::flac},
+     {{.extension = "notes.svg", .label = "the notes", .alias = "svg", .is_text = true}, ScoreFormat::svg},
+     {{.extension = "html", .label = "play", .is_text = true}, ScoreFormat::html}}};
 
 /// A pattern that is a part of the score.
 struct Player {
@@ -417,6 +420,17 @@ public:
     std::vector<std::pair<std::string, std::string>> read_files() const override { return files_; }
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
+    NoteList list(const Monitor& monitor) {
+        const PlayOptions playing = piece_of(settings_, players_.front().melody, monitor);
+        const ScoreHead head = head_of(settings_, players_, playing);  // numbers the voices of the parts
+        NoteCollector collector(static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)));
+        play_into(collector, playing);
+        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter};
+        std::stable_sort(result.notes.begin(), result.notes.end(), [](const Note& a, const Note& b) {
+            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
+        });
+        return result;
+    }
     std::string describe(const Monitor& monitor) const {
         return description(players_, piece_of(settings_, players_.front().melody, monitor),
                            settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
@@ -615,12 +629,17 @@ std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::strin
     return std::make_unique<ScoreWork>(documents, known(format), read_play_settings(values), folder);
 }
 
+NoteList list_notes(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor) {
+    return ScoreWork(documents, ScoreFormat::midi, read_play_settings(values), {}).list(monitor);
+}
+
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor) {
     return ScoreWork(documents, ScoreFormat::midi, read_play_settings(values), {}).describe(monitor);
 }
 
-std::string play(const Document& document, std::string_view format, const OptionValues& values) {
-    return make_in_memory(scores(), document, format, values);
+std::string play(const Document& document, std::string_view format, const OptionValues& values,
+                 const Monitor& monitor) {
+    return make_in_memory(scores(), document, format, values, monitor);
 }
 
 }  // namespace sikku

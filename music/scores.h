@@ -2,12 +2,15 @@
 #pragma once
 
 #include "engine/interpreter.h"
+#include "music/score/score.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -18,12 +21,25 @@ const Interpreter& scores();
 /// `play(koch, "mid", {{"scale", "dorian"}, {"bars", "16"}})`.
 /// @param format  a name from scores().formats()
 /// @throws SettingError, PatternError, BudgetError, WordError, ScoreError
-std::string play(const Document& document, std::string_view format, const OptionValues& values = {});
+std::string play(const Document& document, std::string_view format, const OptionValues& values = {},
+                 const Monitor& monitor = {});
 
 /// Plans a score with a part for each document; the first one sets tempo and meter.
 /// @param folder  folder of files that `values` name
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,
                                  const OptionValues& values, const std::filesystem::path& folder = {});
+
+/// The notes of a score and the times that they are counted in.
+struct NoteList {
+    std::vector<Note> notes;  ///< by onset, then by voice
+    std::int64_t end = 0;     ///< end of the score in ticks, rests included
+    double tempo = 120.0;     ///< quarters a minute
+    Meter meter;
+};
+
+/// Lists the notes of a score with a part for each document. @throws as Work::make(); ScoreError for more notes than
+/// a quarter of the memory holds
+NoteList list_notes(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
 
 /// Describes the music without writing a score: notes, bars, time and range, in a block of lines for each document.
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);

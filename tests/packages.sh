@@ -2,10 +2,11 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
-# For tests: the framework, independent readers of the program's outputs, and the linters.
+# For tests: the framework, independent readers of the program's outputs, the linters, and the module of Python.
 test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
-    midicsv python3-mido clang-format clang-tidy)
+    midicsv python3-mido clang-format clang-tidy
+    pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)
 # For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev libfast-float-dev inkscape lilypond musescore3 fluidsynth
     timgm6mb-soundfont flac chromium slurm-wlm munge)

@@ -1,6 +1,7 @@
 #include "art/image/image_file.h"
 
 #include "art/image/image_module.h"
+#include "engine/base/installation.h"
 #include "engine/base/threads.h"
 
 #include <dlfcn.h>
@@ -57,10 +58,9 @@ const ImageModule& image_module(int threads = 0) {
             reasons += "\n  " + name + ": made for another version of sikku";
             return nullptr;
         };
-        std::error_code error;
-        const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-        if (!error) {
-            const auto file = (program.parent_path() / SIKKU_MODULE_RELATIVE).lexically_normal();
+        const std::filesystem::path beside = binary_folder();
+        if (!beside.empty()) {
+            const auto file = (beside / SIKKU_MODULE_RELATIVE).lexically_normal();
             if (const ImageModule* found = load(file)) return *found;
         }
 #ifdef SIKKU_MODULE_INSTALLED

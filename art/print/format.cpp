@@ -12,16 +12,16 @@ using enum PrintFormat;
 using enum FormatKind;
 
 constexpr std::array<FormatInfo, 11> table = {{
-    {.format = svg, .kind = vectors, .label = "SVG", .extension = "svg", .is_animated = true},
+    {.format = svg, .kind = vectors, .label = "SVG", .extension = "svg", .is_animated = true, .is_text = true},
     {.format = pdf, .kind = vectors, .label = "PDF", .extension = "pdf", .has_plates = true},
     {.format = png, .kind = pixels, .label = "PNG", .extension = "png"},
     {.format = tiff, .kind = pixels, .label = "TIFF", .extension = "tif", .alias = "tiff", .has_inks = true},
     {.format = jpeg, .kind = pixels, .label = "JPEG", .extension = "jpg", .alias = "jpeg"},
     {.format = exr, .kind = pixels, .label = "EXR", .extension = "exr"},
     {.format = gif, .kind = animation, .label = "GIF", .extension = "gif"},
-    {.format = hpgl, .kind = plot, .label = "HP-GL", .extension = "hpgl", .alias = "plt"},
-    {.format = gcode, .kind = plot, .label = "G-code", .extension = "gcode", .alias = "nc"},
-    {.format = obj, .kind = model, .label = "OBJ", .extension = "obj"},
+    {.format = hpgl, .kind = plot, .label = "HP-GL", .extension = "hpgl", .alias = "plt", .is_text = true},
+    {.format = gcode, .kind = plot, .label = "G-code", .extension = "gcode", .alias = "nc", .is_text = true},
+    {.format = obj, .kind = model, .label = "OBJ", .extension = "obj", .is_text = true},
     {.format = glb, .kind = model, .label = "glTF", .extension = "glb"},
 }};
 

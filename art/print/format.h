@@ -25,6 +25,7 @@ struct FormatInfo {
     bool is_animated = false;      ///< can draw itself, stroke by stroke
     bool has_plates = false;       ///< spot colours and crop marks
     bool has_inks = false;         ///< CMYK and one bit per pixel
+    bool is_text = false;          ///< UTF-8 text
 };
 
 /// All formats of prints, in the order in which texts list them.

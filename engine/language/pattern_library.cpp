@@ -1,6 +1,7 @@
 #include "engine/language/pattern_library.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/installation.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,12 +11,12 @@
 namespace sikku {
 namespace {
 
-/// Beside the program, in a build folder as after installation.
+/// Beside the program or module, in a build folder as after installation.
 std::filesystem::path bundled_folder() {
     std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (!error) {
-        const auto folder = (program.parent_path() / SIKKU_PATTERNS_RELATIVE).lexically_normal();
+    const std::filesystem::path beside = binary_folder();
+    if (!beside.empty()) {
+        const auto folder = (beside / SIKKU_PATTERNS_RELATIVE).lexically_normal();
         if (std::filesystem::is_directory(folder, error)) return folder;
     }
     return SIKKU_PATTERNS_INSTALLED;

@@ -79,6 +79,7 @@ const std::vector<Room>& rooms() {
         {"music/melody", "engine/* music/scale music/score", ""},
         {"music", "engine engine/* music/*", ""},
         {"cli", "engine engine/* art art/* music music/*", "cli11 tbb json toml posix"},
+        {"python", "engine engine/* art art/kolam music music/score", "pybind11 posix"},
     };
     return table;
 }
@@ -96,12 +97,12 @@ std::string library_of(const std::string& name) {
     static const std::map<std::string, std::string> folders = {
         {"boost", "boost"},   {"fmt", "fmt"},          {"glm", "glm"},   {"oneapi", "tbb"},
         {"tbb", "tbb"},       {"OpenImageIO", "oiio"}, {"CLI", "cli11"}, {"toml++", "toml"},
-        {"nlohmann", "json"}, {"sys", "posix"},        {"embedded", ""}};
+        {"nlohmann", "json"}, {"sys", "posix"},        {"embedded", ""}, {"pybind11", "pybind11"}};
     static const std::map<std::string, std::string> files = {
-        {"zlib.h", "zlib"},     {"lcms2.h", "lcms"},   {"fcntl.h", "posix"}, {"unistd.h", "posix"},
-        {"dlfcn.h", "posix"},   {"signal.h", "posix"}, {"spawn.h", "posix"}, {"poll.h", "posix"},
-        {"termios.h", "posix"}, {"immintrin.h", ""},   {"emmintrin.h", ""},  {"lcms2_plugin.h", "lcms"},
-        {"dirent.h", "posix"}};
+        {"zlib.h", "zlib"},         {"lcms2.h", "lcms"},    {"fcntl.h", "posix"},  {"unistd.h", "posix"},
+        {"dlfcn.h", "posix"},       {"link.h", "posix"},    {"signal.h", "posix"}, {"spawn.h", "posix"},
+        {"poll.h", "posix"},        {"termios.h", "posix"}, {"immintrin.h", ""},   {"emmintrin.h", ""},
+        {"lcms2_plugin.h", "lcms"}, {"dirent.h", "posix"}};
     if (const auto file = files.find(name); file != files.end()) return file->second;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return name.find('.') == std::string::npos ? "" : name;
@@ -122,7 +123,7 @@ TEST(Arrows, EachRoomSeesOnlyRoomsBelowIt) {
             EXPECT_TRUE(allows(room.rooms, room_of(name))) << file << " includes " << name;
         }
     }
-    for (const char* folder : {"engine", "art", "music", "cli"}) {
+    for (const char* folder : {"engine", "art", "music", "cli", "python"}) {
         for (const auto& [file, name, quoted] : includes_of(folder)) {
             EXPECT_TRUE(known.contains(room_of(file))) << file << " is in a room without a row in the table";
         }
@@ -151,7 +152,7 @@ TEST(Arrows, HeadersOfTheEngineDoWithoutFmt) {
 
 TEST(Arrows, OpenImageIoStaysInsideOneFileOfArt) {
     std::set<std::string> users;
-    for (const char* folder : {"engine", "art", "music", "cli"}) {
+    for (const char* folder : {"engine", "art", "music", "cli", "python"}) {
         for (const auto& [file, name, quoted] : includes_of(folder)) {
             if (name.starts_with("OpenImageIO/")) users.insert(file);
         }
@@ -160,7 +161,7 @@ TEST(Arrows, OpenImageIoStaysInsideOneFileOfArt) {
 }
 
 TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
-    for (const char* folder : {"engine", "art", "music", "cli", "tests"}) {
+    for (const char* folder : {"engine", "art", "music", "cli", "python", "tests"}) {
         for (const auto& [file, name, quoted] : includes_of(folder)) {
             if (!quoted) continue;
             EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(SIKKU_SOURCE_DIR) / name))

@@ -1,0 +1,42 @@
+#include "art/analysis.h"
+
+#include "art/style/style.h"
+
+namespace sikku {
+namespace {
+
+constexpr double any_resolution = 300;  // widths do not matter here
+
+Style style_of(const Document& document) {
+    Diagnostics diagnostics;
+    Style style = read_style(document.pattern(), any_resolution, diagnostics);
+    diagnostics.throw_if_errors();
+    return style;
+}
+
+}  // namespace
+
+DrawnLines drawn_lines(const Document& document, double budget, const Monitor& monitor) {
+    const Style style = style_of(document);
+    TraceOptions options;
+    options.moves_draw = style.moves_draw();
+    options.draws = [&style](const Pen& pen) { return style.draws(pen); };
+    options.budget = budget;
+    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    if (document.grammar().is_spatial()) return trace_in_space(document.grammar(), options);
+    return trace(document.grammar(), options);
+}
+
+KolamExamination examine_kolam(const Document& document, double budget, const Monitor& monitor) {
+    const Style style = style_of(document);
+    KolamOptions options;
+    options.spline = style.line == Line::spline;
+    options.moves_lift = style.moves_lift;
+    options.draws = [&style](const Pen& pen) { return style.draws(pen); };
+    options.budget = budget;
+    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    options.monitor = monitor;
+    return examine_kolam(document.grammar(), options);
+}
+
+}  // namespace sikku

@@ -1,0 +1,63 @@
+"""Builds the package with CMake: `pip install ./python`, or, into an environment with other tools,
+`pip install --no-build-isolation --no-index ./python`. No network is needed.
+
+There is no pyproject.toml, because pip would download setuptools for it.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+SOURCE = Path(__file__).resolve().parent.parent
+# SIKKU_BUILD names a folder in which CMake has built already, to be used instead.
+BUILD = SOURCE / "build" / f"pip-{sys.implementation.cache_tag}"
+
+
+class CMakeBuild(build_ext):
+    """Builds the module, the image module beside it and the patterns, into the layout of an installation."""
+
+    def build_extension(self, ext: Extension) -> None:
+        build = Path(os.environ.get("SIKKU_BUILD", BUILD))
+        package = Path(self.get_ext_fullpath(ext.name)).resolve().parent.parent
+        jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+        configure = [
+            "cmake", "-S", str(SOURCE), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_INSTALL_BINDIR=bin", "-DCMAKE_INSTALL_LIBDIR=lib", "-DCMAKE_INSTALL_DATADIR=share",
+            "-DSIKKU_PYTHON=ON", "-DSIKKU_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+        ]
+        if not (build / "CMakeCache.txt").exists():
+            subprocess.run(configure, check=True)
+        subprocess.run(
+            ["cmake", "--build", str(build), "--target", "sikku_python", "--parallel", jobs], check=True
+        )
+        subprocess.run(
+            ["cmake", "--install", str(build), "--component", "python", "--strip", "--prefix", str(package)],
+            check=True,
+        )
+
+
+def version() -> str:
+    found = re.search(r"project\(sikku VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())
+    assert found
+    return found[1]
+
+
+setup(
+    name="sikku",
+    version=version(),
+    description="L-systems: kolams, tilings, plants and music",
+    license="MIT",
+    python_requires=">=3.9",
+    install_requires=["numpy"],
+    packages=["sikku", "sikku.lib"],
+    package_data={"sikku": ["py.typed"], "sikku.lib": ["_core.pyi"]},
+    ext_modules=[Extension("sikku.lib._core", sources=[])],
+    cmdclass={"build_ext": CMakeBuild},
+    zip_safe=False,
+    options={"build": {"build_base": str(BUILD / "setuptools")}},
+)

@@ -1,0 +1,1 @@
+"""The compiled part of sikku, and what it loads."""

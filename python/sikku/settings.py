@@ -1,0 +1,86 @@
+"""Keyword arguments as settings of patterns and options of outputs."""
+
+from __future__ import annotations
+
+import functools
+import numbers
+from collections.abc import Iterable
+from typing import Union
+
+from sikku.errors import SettingError
+from sikku.lib import _core
+
+__all__ = ["Value", "to_options", "to_settings"]
+
+Value = Union[str, bool, float, None, Iterable[object]]
+"""Text as on the command line, a flag, a number, or several: numbers of one value (`window=(0, 0, 8, 8)`), or the
+values of an option that may be repeated. None leaves the setting out."""
+
+Texts = list[tuple[str, str]]
+
+
+def number_text(number: float) -> str:
+    """The shortest decimal digits that read back as the same number."""
+    if isinstance(number, numbers.Integral):
+        return str(int(number))
+    text = repr(float(number))
+    return text[:-2] if text.endswith(".0") else text
+
+
+def to_text(name: str, value: object) -> str:
+    """The text of one value. Raises TypeError for values of other types than str, bool, numbers and sequences."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Real):
+        return number_text(float(value) if not isinstance(value, numbers.Integral) else int(value))
+    if isinstance(value, Iterable) and not isinstance(value, (bytes, bytearray)):
+        return ",".join(to_text(name, one) for one in value)
+    raise TypeError(f"{name}: expected text, a number, True or False, not {type(value).__name__}")
+
+
+@functools.lru_cache(maxsize=None)
+def _keys() -> frozenset[str]:
+    return frozenset(_core.keys())
+
+
+@functools.lru_cache(maxsize=None)
+def _options(interpreter: str) -> dict[str, bool]:
+    """For the name of each option, whether it may be repeated."""
+    return {name: is_list for name, is_list, *_ in _core.options(interpreter)}
+
+
+def _key_name(name: str) -> str:
+    """The key of that name (`derivation_length`), or the name itself, which may be a define."""
+    key = name.replace("_", " ").strip()
+    return key if key in _keys() else name
+
+
+def to_settings(values: dict[str, Value]) -> Texts:
+    """Keys and defines of a pattern with the texts of their values."""
+    return [(_key_name(name), to_text(name, value)) for name, value in values.items() if value is not None]
+
+
+def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
+    """Options of an interpreter, keys and defines with the texts of their values."""
+    known = _options(interpreter)
+    texts: Texts = []
+    for name, value in values.items():
+        if value is None:
+            continue
+        option = name.replace("_", "-")
+        if option not in known:
+            texts.append((_key_name(name), to_text(name, value)))
+        elif known[option] and isinstance(value, Iterable) and not isinstance(value, str):
+            texts.extend((option, to_text(name, one)) for one in value)
+        else:
+            texts.append((option, to_text(name, value)))
+    return texts
+
+
+def whole(option: str, value: object) -> str:
+    """The text of a whole number of any kind, such as numpy's. Raises SettingError for other values."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        raise SettingError(option, str(value), "expected a whole number")
+    return str(int(value))

@@ -1,0 +1,202 @@
+"""draw(), play(), save() and notebooks."""
+
+from __future__ import annotations
+
+import html
+import io
+import xml.etree.ElementTree
+from pathlib import Path
+
+import mido
+import numpy
+import pytest
+import sikku
+from conftest import Run
+
+NAMES = [pattern.name for pattern in sikku.patterns()]
+
+
+def test_patterns_are_those_of_the_program(run: Run) -> None:
+    assert NAMES == run("patterns", "--names").stdout.decode().split()
+    hilbert = next(pattern for pattern in sikku.patterns() if pattern.name == "hilbert")
+    assert hilbert.kind == "curves"
+    assert hilbert.title == "Hilbert curve"
+    assert hilbert.source.startswith("Prusinkiewicz & Hanan 1989")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_drawings_have_the_bytes_of_the_program(name: str, run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "x.svg"
+    result = run("-q", "draw", name, "-o", str(file))
+    pattern = sikku.load(name)
+    if result.returncode != 0:
+        with pytest.raises(sikku.Error) as caught:
+            pattern.draw("svg")
+        assert str(caught.value) in result.stderr.decode()
+        return
+    drawn = pattern.draw("svg")
+    assert isinstance(drawn, str)
+    assert drawn.encode() == file.read_bytes()
+
+
+@pytest.mark.filterwarnings("ignore::sikku.SikkuWarning")
+@pytest.mark.parametrize("name", NAMES)
+def test_scores_have_the_bytes_of_the_program(name: str, run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "x.mid"
+    result = run("-q", "play", name, "-o", str(file))
+    pattern = sikku.load(name)
+    if result.returncode != 0:
+        with pytest.raises(sikku.Error) as caught:
+            pattern.play("mid")
+        assert str(caught.value) in result.stderr.decode()
+        return
+    assert pattern.play("mid") == file.read_bytes()
+
+
+def test_options_are_those_of_the_program(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "x.svg"
+    arguments = ["--size", "A3", "--landscape", "--dot-spacing", "7.5mm", "--set", "stroke=0.4mm navy"]
+    assert run("draw", "snake-kolam", "-n", "3", "-o", str(file), *arguments).returncode == 0
+    pattern = sikku.load("snake-kolam", n=3, stroke="0.4mm navy")
+    drawn = pattern.draw(size="A3", landscape=True, dot_spacing="7.5mm", border=None)
+    assert drawn == file.read_text()
+    # Keys of the pattern may be options, too.
+    assert sikku.load("snake-kolam").draw(derivation_length=3, stroke="0.4mm navy") == sikku.load(
+        "snake-kolam", n=3, stroke="0.4mm navy"
+    ).draw()
+    window = sikku.load("hilbert", n=60).draw(window=(-40, 0, numpy.float64(0), numpy.int64(58)))
+    assert run("draw", "hilbert", "-n", "60", "--window", "-40,0,0,58", "-o", str(file)).returncode == 0
+    assert window == file.read_text()
+
+
+@pytest.mark.parametrize("format", ["svg", "hpgl", "gcode"])
+def test_texts(format: str) -> None:
+    assert isinstance(sikku.load("hilbert", n=3).draw(format), str)
+
+
+@pytest.mark.parametrize(
+    ("format", "start"),
+    [("pdf", b"%PDF"), ("png", b"\x89PNG"), ("jpg", b"\xff\xd8"), ("glb", b"glTF"), ("exr", b"v/1\x01")],
+)
+def test_bytes(format: str, start: bytes) -> None:
+    drawn = sikku.load("hilbert", n=3).draw(format, **({} if format == "glb" else {"size": "50x50mm"}))
+    assert isinstance(drawn, bytes)
+    assert drawn.startswith(start)
+
+
+def test_score_texts() -> None:
+    pattern = sikku.load("hilbert-in-c", n=3)
+    for format, start in [("musicxml", "<?xml"), ("ly", "\\version"), ("svg", "<?xml"), ("html", "<!DOCTYPE html")]:
+        score = pattern.play(format)
+        assert isinstance(score, str)
+        assert start.lower() in score[:300].lower()
+
+
+def test_save(tmp_path: Path) -> None:
+    pattern = sikku.load("snake-kolam", n=2)
+    assert pattern.save(tmp_path / "x.svg") == []
+    assert (tmp_path / "x.svg").read_text() == pattern.draw()
+    pattern.save(str(tmp_path / "x.pdf"), size="A5")
+    assert (tmp_path / "x.pdf").read_bytes().startswith(b"%PDF")
+    facts = pattern.save(tmp_path / "x.gcode")
+    assert any("pen-up travel" in fact for fact in facts)
+    pattern.save(tmp_path / "x.mid")
+    assert (tmp_path / "x.mid").read_bytes() == pattern.play()
+    pattern.save(tmp_path / "x.notes.svg")
+    assert (tmp_path / "x.notes.svg").read_text() == pattern.play("svg")
+    sikku.load("bush-3d", n=2).save(tmp_path / "bush.obj")
+    assert (tmp_path / "bush.mtl").exists()
+
+
+def test_files_appear_whole_or_not_at_all(tmp_path: Path) -> None:
+    pattern = sikku.load("snake-kolam")
+    with pytest.raises(sikku.Error, match="absent"):
+        pattern.save(tmp_path / "absent" / "x.svg")
+    with pytest.raises(sikku.BudgetError):
+        sikku.load("hilbert", n=30).save(tmp_path / "x.svg")
+    with pytest.raises(sikku.SettingError) as caught:
+        pattern.save(tmp_path / "x.xyz")
+    assert caught.value.option == "format"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_outputs_of_several_files_are_saved() -> None:
+    with pytest.raises(sikku.Error, match="save"):
+        sikku.load("bush-3d", n=2).draw("obj")
+
+
+def test_warnings() -> None:
+    with pytest.warns(sikku.SikkuWarning, match="cut off"):
+        sikku.load("hilbert").draw(step="20mm", size="A6")
+
+
+def test_notebooks_show_drawings() -> None:
+    pattern = sikku.load("snake-kolam")
+    drawn = pattern._repr_svg_()
+    assert drawn is not None
+    assert xml.etree.ElementTree.fromstring(drawn).tag.endswith("svg")
+    assert pattern._repr_html_() is None
+    assert sikku.load("hilbert", n=40)._repr_svg_() is None
+
+
+def test_notebooks_play_melodies() -> None:
+    pattern = sikku.load("hilbert-in-c")
+    page = pattern._repr_html_()
+    assert page is not None
+    assert pattern._repr_svg_() is None
+    frame = xml.etree.ElementTree.fromstring(page)
+    assert frame.tag == "iframe"
+    assert frame.get("srcdoc") == pattern.play("html") == html.unescape(page.split('"')[1])
+
+
+def test_a_hostile_title_stays_inside_the_frame() -> None:
+    text = 'title: "></iframe><script>alert(1)</script>\naxiom: F+F-F\ntempo: 90\n'
+    page = sikku.load(text=text)._repr_html_()
+    assert page is not None
+    assert "<script" not in page
+    xml.etree.ElementTree.fromstring(page)
+
+
+def midi_notes(data: bytes) -> list[tuple[int, int, int, int]]:
+    """Onset, duration, key and velocity of each note, as mido reads them."""
+    found = []
+    for track in mido.MidiFile(file=io.BytesIO(data)).tracks:
+        time = 0
+        open_notes: dict[tuple[int, int], tuple[int, int]] = {}
+        for message in track:
+            time += message.time
+            if message.type not in ("note_on", "note_off"):
+                continue
+            place = (message.channel, message.note)
+            if message.type == "note_on" and message.velocity > 0:
+                open_notes[place] = (time, message.velocity)
+            else:
+                onset, velocity = open_notes.pop(place)
+                found.append((onset, time - onset, message.note, velocity))
+        assert not open_notes
+    return sorted(found)
+
+
+@pytest.mark.parametrize("name", ["hilbert-in-c", "dragon-blues", "tree-in-voices"])
+def test_notes_are_those_of_the_score(name: str) -> None:
+    pattern = sikku.load(name)
+    notes = pattern.notes(bars=16)
+    score = pattern.play("mid", bars=16)
+    assert isinstance(score, bytes)
+    assert mido.MidiFile(file=io.BytesIO(score)).ticks_per_beat == 480
+    listed = zip(notes.onset.tolist(), notes.duration.tolist(), notes.key.tolist(), notes.velocity.tolist())
+    assert sorted(listed) == midi_notes(score)
+    assert notes.end >= int((notes.onset + notes.duration).max())
+    assert (notes.onset[1:] >= notes.onset[:-1]).all()
+    assert notes.curve.shape == (len(notes), 2, 2)
+    assert notes.onset.dtype == notes.duration.dtype == numpy.int64
+    assert notes.velocity.dtype == numpy.uint8
+    assert notes.voice.dtype == numpy.int16
+
+
+def test_times_of_notes() -> None:
+    notes = sikku.load("hilbert-in-c").notes(tempo=60, meter="3/4")
+    assert notes.tempo == 60
+    assert notes.meter == (3, 4)
+    assert notes.seconds(480) == 1.0
+    assert notes.seconds(notes.onset)[0] == notes.onset[0] / 480

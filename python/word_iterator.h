@@ -1,0 +1,47 @@
+// python/word_iterator.h: the modules of a word, one after another.
+#pragma once
+
+#include "engine/derivation/word_stream.h"
+#include "engine/language/document.h"
+
+#include <pybind11/pybind11.h>
+#include <sys/types.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace sikku {
+
+/// An iterator over the word of a document, which is derived while it is read. Modules that have no parameters of
+/// their own are made once. Not to be used after a fork().
+class WordIterator {
+public:
+    /// @param interpreted  apply the productions under `interpret:`
+    WordIterator(const Document& document, bool interpreted);
+    ~WordIterator();
+    WordIterator(const WordIterator&) = delete;
+    WordIterator& operator=(const WordIterator&) = delete;
+
+    /// A sikku.Module. @throws pybind11::stop_iteration, and what derive() throws
+    pybind11::object next();
+    /// Ends the derivation; no further modules follow.
+    void close();
+    /// Closes all iterators, before Python ends.
+    static void close_all();
+
+private:
+    void read_piece();
+    pybind11::object made(Symbol symbol, const double* arguments) const;
+
+    std::shared_ptr<const Grammar> grammar_;
+    std::unique_ptr<WordStream> stream_;
+    pid_t process_;
+    pybind11::object type_;
+    std::vector<pybind11::object> constants_;  ///< by symbol; none for symbols with arity
+    WordPiece piece_;
+    std::size_t symbol_ = 0;    ///< next in piece_
+    std::size_t argument_ = 0;  ///< next in piece_
+};
+
+}  // namespace sikku
