@@ -46,9 +46,11 @@ def _keys() -> frozenset[str]:
 
 
 @functools.lru_cache(maxsize=None)
-def _options(interpreter: str) -> dict[str, bool]:
-    """For the name of each option, whether it may be repeated."""
-    return {name: is_list for name, is_list, *_ in _core.options(interpreter)}
+def _options(interpreter: str) -> dict[str, tuple[bool, bool]]:
+    """For the name of each option: it may be repeated, its value may be left out."""
+    return {
+        name: (is_list, value.startswith("[")) for name, is_list, _, value, _ in _core.options(interpreter)
+    }
 
 
 def _key_name(name: str) -> str:
@@ -72,8 +74,12 @@ def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
         option = name.replace("_", "-")
         if option not in known:
             texts.append((_key_name(name), to_text(name, value)))
-        elif known[option] and isinstance(value, Iterable) and not isinstance(value, str):
+            continue
+        is_list, is_optional = known[option]
+        if is_list and isinstance(value, Iterable) and not isinstance(value, str):
             texts.extend((option, to_text(name, one)) for one in value)
+        elif is_optional and isinstance(value, bool):
+            texts += [(option, "")] if value else []
         else:
             texts.append((option, to_text(name, value)))
     return texts

@@ -90,8 +90,8 @@ def test_other_errors() -> None:
 
 
 def test_warnings_of_patterns() -> None:
-    with pytest.warns(sikku.SikkuWarning, match=r"<text>:2:\d+: warning"):
-        sikku.load(text="axiom: F\nderivation length: 2\n")
+    with pytest.warns(sikku.SikkuWarning, match=r"<text>:2:1: warning: no word has 'A' with 2 parameters"):
+        sikku.load(text="axiom: A(1)F\nA(x, y) --> F\n")
 
 
 def damaged() -> list[bytes]:
@@ -126,12 +126,16 @@ def test_surrogates_are_invalid_utf8() -> None:
         sikku.load(text="axiom: F\ud800\n")
 
 
+# Long words of which nothing is kept.
+TURNS = "sikku.load(text='axiom: X\\nX --> X+X\\n')"
+CHANCE = "sikku.load(text='axiom: F\\nF --> FF : 1\\nF --> F+F : 1\\nderivation length: 60\\n')"
+
 LONG_CALLS = [
     "sikku.load('hilbert', n=13).draw(budget=1e12)",
     "sikku.load('hilbert', n=13).save('x.svg', budget=1e12)",
-    "sikku.load('dragon', n=40).path(26, budget=1e12)",
-    "sikku.load('capsella-by-chance', n=1000).measure(budget=1e12)",
-    "sikku.load('snake-kolam', n=9).kolam(budget=1e12)",
+    f"{TURNS}.path(38, budget=1e14)",
+    f"{CHANCE}.measure(budget=1e12)",
+    "sikku.load('hilbert', n=10).kolam(budget=1e12)",
     "sikku.load('hilbert-in-c', n=14).play(budget=1e12)",
     "sum(1 for _ in sikku.load('hilbert').word(60))",
     "list(sikku.load(text='axiom: A\\nderivation length: 40\\nA < A --> AA\\nA --> AA\\n').word())",
@@ -164,7 +168,7 @@ def test_exceptions_of_other_signals_arrive() -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(Alarm):
-            sikku.load("hilbert").path(13, budget=1e12)
+            sikku.load(text="axiom: X\nX --> X+X\n").path(38, budget=1e14)
     finally:
         signal.signal(signal.SIGALRM, before)
 
@@ -180,10 +184,10 @@ def test_other_threads_run_during_long_calls() -> None:
             time.sleep(0.001)
 
     thread = threading.Thread(target=count)
-    pattern = sikku.load("hilbert")
+    pattern = sikku.load(text="axiom: X\nX --> X+X\n")
     thread.start()
     before = ticks
-    pattern.path(11)
+    pattern.path(26)
     during = ticks - before
     is_over.set()
     thread.join()

@@ -24,6 +24,7 @@ def test_patterns_are_those_of_the_program(run: Run) -> None:
     assert hilbert.source.startswith("Prusinkiewicz & Hanan 1989")
 
 
+@pytest.mark.filterwarnings("ignore::sikku.SikkuWarning")
 @pytest.mark.parametrize("name", NAMES)
 def test_drawings_have_the_bytes_of_the_program(name: str, run: Run, tmp_path: Path) -> None:
     file = tmp_path / "x.svg"
@@ -58,8 +59,10 @@ def test_options_are_those_of_the_program(run: Run, tmp_path: Path) -> None:
     arguments = ["--size", "A3", "--landscape", "--dot-spacing", "7.5mm", "--set", "stroke=0.4mm navy"]
     assert run("draw", "snake-kolam", "-n", "3", "-o", str(file), *arguments).returncode == 0
     pattern = sikku.load("snake-kolam", n=3, stroke="0.4mm navy")
-    drawn = pattern.draw(size="A3", landscape=True, dot_spacing="7.5mm", border=None)
+    drawn = pattern.draw(size="A3", landscape=True, dot_spacing="7.5mm", border=None, animate=False)
     assert drawn == file.read_text()
+    assert run("draw", "snake-kolam", "--dots", "--animate", "-o", str(file)).returncode == 0
+    assert sikku.load("snake-kolam").draw(dots=True, animate=True) == file.read_text()
     # Keys of the pattern may be options, too.
     assert sikku.load("snake-kolam").draw(derivation_length=3, stroke="0.4mm navy") == sikku.load(
         "snake-kolam", n=3, stroke="0.4mm navy"

@@ -1,4 +1,5 @@
 // tests/program/floor_test.cpp: uses documents, interpreters and their tables like a caller of the libraries.
+#include "art/analysis.h"
 #include "art/draw_settings.h"
 #include "art/gallery/gallery.h"
 #include "art/gallery/jobs.h"
@@ -12,7 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <span>
+#include <variant>
 
 namespace sikku {
 namespace {
@@ -74,6 +78,57 @@ TEST(Floor, AStopRequestEndsAWork) {
     const Monitor stops([](void*) { return true; });
     EXPECT_THROW(prints().plan(document, "svg", {})->make(memory, "a.svg", stops), Stopped);
     EXPECT_TRUE(memory.outputs().empty() || memory.outputs().at("a.svg").empty());
+}
+
+TEST(Floor, OutputsInMemoryStopOnRequest) {
+    const Document document = load("hilbert", {"", {{"test", "derivation length", "11"}}});
+    const Monitor stops([](void*) { return true; });
+    EXPECT_THROW(draw(document, "svg", {}, stops), Stopped);
+    EXPECT_THROW(play(document, "mid", {}, stops), Stopped);
+    EXPECT_THROW(drawn_lines(document, 1e9, stops), Stopped);
+    EXPECT_THROW(list_notes(std::span(&document, 1), {}, stops), Stopped);
+}
+
+TEST(Floor, ValuesAreSortedByWhatTheySet) {
+    const Document document = parse("koch", koch);
+    const Assignment assigned = assign(prints(), document, {{"size", "A3"}, {"derivation length", "2"}});
+    ASSERT_EQ(assigned.options.size(), 1U);
+    EXPECT_EQ(assigned.options.front().name, "size");
+    EXPECT_EQ(assigned.document.grammar().steps(), 2);
+    EXPECT_THROW(assign(prints(), document, {{"sizes", "A3"}}), SettingError);
+    EXPECT_THROW(assign(prints(), document, {{"derivation length", "x"}}), PatternError);
+}
+
+TEST(Floor, FormatsOfTextAreText) {
+    const Document document = load("hilbert", {"", {{"test", "derivation length", "2"}}});
+    const OptionValues small = {{"size", "20x20mm"}, {"dpi", "50"}};
+    for (const Interpreter* interpreter : {&prints(), &scores()}) {
+        for (const FormatName& format : interpreter->formats()) {
+            if (format.is_several || format.label == "sound") continue;
+            const bool is_print = interpreter == &prints();
+            const std::string bytes =
+                make_in_memory(*interpreter, document, format.extension, is_print ? small : OptionValues());
+            const bool has_controls = std::any_of(bytes.begin(), bytes.end(), [](char byte) {
+                return byte >= 0 && byte < 32 && byte != '\n' && byte != '\r' && byte != '\t' && byte != 27 &&
+                       byte != 3;
+            });
+            EXPECT_EQ(format.is_text, !has_controls) << format.extension;
+        }
+    }
+}
+
+TEST(Floor, LinesAndNotesAreData) {
+    const Document document = load("hilbert");
+    const DrawnLines lines = drawn_lines(document, 1e6, {});
+    EXPECT_EQ(std::get<0>(lines).points.size(), 1024U);
+    EXPECT_EQ(std::get<0>(lines).begins, (std::vector<std::int64_t>{0, 1024}));
+    EXPECT_EQ(std::get<1>(drawn_lines(load("bush-3d"), 1e6, {})).begins.front(), 0);
+    const NoteList list = list_notes(std::span(&document, 1), {{"bars", "4"}, {"tempo", "90"}}, {});
+    EXPECT_EQ(list.tempo, 90);
+    EXPECT_EQ(list.end, 4 * list.meter.bar());
+    EXPECT_TRUE(std::is_sorted(list.notes.begin(), list.notes.end(),
+                               [](const Note& a, const Note& b) { return a.onset < b.onset; }));
+    EXPECT_GT(list.notes.size(), 8U);
 }
 
 TEST(Floor, NoMessageOfALibraryNamesTheCommandLine) {
