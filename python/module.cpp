@@ -1,4 +1,4 @@
-// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/sikku, has the names,
+// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/src/sikku, has the names,
 // defaults and documentation that users see.
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"

@@ -54,6 +54,7 @@ setup(
     license="MIT",
     python_requires=">=3.9",
     install_requires=["numpy"],
+    package_dir={"": "src"},
     packages=["sikku", "sikku.lib"],
     package_data={"sikku": ["py.typed"], "sikku.lib": ["_core.pyi"]},
     ext_modules=[Extension("sikku.lib._core", sources=[])],

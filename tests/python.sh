@@ -8,7 +8,8 @@ shift
 python=$(sed -n 's/^_\{0,1\}Python_EXECUTABLE:[A-Z]*=//p' "$build/CMakeCache.txt" | head -n 1)
 export PYTHONPATH=$build/python SIKKU_PROGRAM=$build/bin/sikku PYTHONDONTWRITEBYTECODE=1
 
-(cd python && "$python" -m mypy --strict --cache-dir "$build/python/mypy" sikku/*.py sikku/lib/*.pyi tutorial.py)
+MYPYPATH=python/src "$python" -m mypy --strict --cache-dir "$build/python/mypy" python/src/sikku/*.py \
+    python/src/sikku/lib/*.pyi python/tutorial.py
 "$python" -m pytest -q -p no:cacheprovider -W error python/tests "$@"
 
 # A new environment, without a network.

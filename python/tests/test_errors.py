@@ -183,11 +183,11 @@ def test_other_threads_run_during_long_calls() -> None:
             ticks += 1
             time.sleep(0.001)
 
-    thread = threading.Thread(target=count)
+    thread = threading.Thread(target=count, daemon=True)
     pattern = sikku.load(text="axiom: X\nX --> X+X\n")
     thread.start()
     before = ticks
-    pattern.path(26)
+    pattern.path(26, budget=1e9)
     during = ticks - before
     is_over.set()
     thread.join()
