@@ -1,5 +1,5 @@
-// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/src/sikku, has the names,
-// defaults and documentation that users see.
+// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/src/sikku, has the
+// names, defaults and documentation that users see.
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
@@ -151,7 +151,7 @@ void add_documents(py::module_& module) {
 }
 
 void add_words(py::module_& module) {
-    py::class_<WordIterator>(module, "WordIterator", "The modules of a word, derived while they are read.")
+    py::class_<WordIterator>(module, "WordIterator", "The modules of a word in lists, derived while they are read.")
         .def(py::init<const Document&, bool>())
         .def("__iter__", [](const py::object& self) { return self; })
         .def("__next__", &WordIterator::next)

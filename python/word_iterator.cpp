@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <span>
@@ -15,6 +16,8 @@ namespace sikku {
 namespace {
 
 constexpr std::chrono::milliseconds interval{50};  // between two looks for signals
+
+constexpr std::size_t most_modules = 4096;  // of a list
 
 /// All iterators, guarded by the global lock of Python.
 std::set<WordIterator*>& living() {
@@ -76,12 +79,9 @@ void WordIterator::read_piece() {
     piece_.symbols.clear();
     for (;;) {
         WordStream::Next next{};
-        try {
+        {
             const py::gil_scoped_release release;
             next = stream_->next(piece_, interval);
-        } catch (...) {
-            piece_ = {};
-            throw;
         }
         if (next == WordStream::Next::piece) return;
         if (next == WordStream::Next::end) {
@@ -92,19 +92,23 @@ void WordIterator::read_piece() {
     }
 }
 
-py::object WordIterator::made(Symbol symbol, const double* arguments) const {
+py::object WordIterator::next_module() {
+    const Symbol symbol = piece_.symbols[symbol_++];
     const SymbolInfo& info = grammar_->symbols()[symbol];
-    return type_(info.letter, to_tuple({arguments, info.arity}));
+    if (info.arity == 0) return constants_[symbol];
+    const std::span<const double> arguments = std::span(piece_.arguments).subspan(argument_, info.arity);
+    argument_ += info.arity;
+    return type_(info.letter, to_tuple(arguments));
 }
 
-py::object WordIterator::next() {
+py::list WordIterator::next() {
+    // Readers in C, such as list(), do not look for signals.
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (symbol_ >= piece_.symbols.size()) read_piece();
-    const Symbol symbol = piece_.symbols[symbol_++];
-    const std::uint32_t arity = grammar_->symbols()[symbol].arity;
-    if (arity == 0) return constants_[symbol];
-    const double* const arguments = piece_.arguments.data() + argument_;
-    argument_ += arity;
-    return made(symbol, arguments);
+    const std::size_t count = std::min(most_modules, piece_.symbols.size() - symbol_);
+    py::list modules(count);
+    for (std::size_t i = 0; i < count; ++i) modules[i] = next_module();
+    return modules;
 }
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// python/word_iterator.h: the modules of a word, one after another.
+// python/word_iterator.h: the modules of a word, list after list.
 #pragma once
 
 #include "engine/derivation/word_stream.h"
@@ -23,8 +23,9 @@ public:
     WordIterator(const WordIterator&) = delete;
     WordIterator& operator=(const WordIterator&) = delete;
 
-    /// A sikku.Module. @throws pybind11::stop_iteration, and what derive() throws
-    pybind11::object next();
+    /// The next modules, up to 4096, as a list of sikku.Module: calls from Python cost more than modules.
+    /// @throws pybind11::stop_iteration, and what derive() throws
+    pybind11::list next();
     /// Ends the derivation; no further modules follow.
     void close();
     /// Closes all iterators, before Python ends.
@@ -32,7 +33,7 @@ public:
 
 private:
     void read_piece();
-    pybind11::object made(Symbol symbol, const double* arguments) const;
+    pybind11::object next_module();
 
     std::shared_ptr<const Grammar> grammar_;
     std::unique_ptr<WordStream> stream_;
