@@ -20,13 +20,15 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sikku {
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 struct DrawSettings {
-    double dpi = 300.0;  ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
-    Page page;           ///< A4 with margins of 10 mm
+    std::vector<Setting> keys;  ///< of the language, as options: `stroke`, `fill`, …
+    double dpi = 300.0;         ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
+    Page page;                  ///< A4 with margins of 10 mm
     bool landscape = false;
     bool fit = false;                  ///< asked for, which excludes `step` and `window`
     std::optional<double> step;        ///< of one turtle step on paper, instead of fitting
@@ -47,7 +49,7 @@ struct DrawSettings {
     bool fit_frames = false;                                           ///< each generation fills the page
     std::optional<double> animation;                                   ///< duration of an SVG that draws itself
     std::optional<Page> tile;                                          ///< sheets that the print is cut into
-    double overlap = 10.0;                                             ///< of those sheets
+    std::optional<double> overlap;                                     ///< of those sheets; 10 mm
     bool plotter = false;
     double split = 0.0;              ///< longest stroke; 0: any
     std::optional<Hatch> hatch;      ///< of filled shapes
@@ -74,6 +76,9 @@ Style read_print_style(const Document& document, const DrawSettings& settings);
 
 /// How the drawing looks, on its own page as in the cell of a sheet.
 DrawingOptions drawing_options(const DrawSettings& settings);
+
+/// The sheets that the print is cut into; `tile` must be set.
+TileOptions tile_options(const DrawSettings& settings);
 
 /// Checks the combination of settings with each other and with a format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

@@ -59,12 +59,14 @@ struct DrawOptions : DrawingOptions {
 
 /// What became of it.
 struct DrawReport {
-    double step = 0.0;                ///< millimetres of one turtle step
-    glm::dvec2 size{0.0};             ///< of the drawing with its pen, in millimetres
-    glm::dvec2 room{0.0};             ///< for it on the page, within margins and border
-    std::size_t dots = 0;             ///< of a kolam that were drawn
-    bool overflows = false;           ///< it is larger than the page within its margins (a step was given)
-    int sheets = 0;                   ///< of a print that is cut into tiles
+    double step = 0.0;       ///< millimetres of one turtle step
+    glm::dvec2 size{0.0};    ///< of the drawing with its pen, in millimetres
+    glm::dvec2 room{0.0};    ///< for it on the page, within margins and border
+    std::size_t dots = 0;    ///< of a kolam that were drawn
+    bool overflows = false;  ///< it is larger than the page within its margins (a step was given)
+    int sheets = 0;          ///< of a print that is cut into tiles
+    int sheet_rows = 0;
+    glm::dvec2 left_out{0.0};         ///< millimetres of the page's margin, on each side, that the sheets do not show
     std::optional<PlotReport> plot;   ///< of an arranged drawing
     std::uint64_t replaced = 0;       ///< parts too small to be told apart that were drawn as what they look like
     bool is_empty = false;            ///< the window contains no part of the drawing

@@ -169,7 +169,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     if (options.dot_spacing) set_step(grammar, print.style, options, growth);
     std::optional<SpaceBounds> bounds;
     const DrawnExtent frame = frame_of(grammar, print.style, options, growth, bounds);
-    if (frame.box.empty()) throw std::runtime_error("there is nothing to draw in any of these generations");
+    if (frame.box.empty()) throw std::runtime_error("nothing to draw in any of these generations");
     // A window is itself what all show.
     if (!options.window) options.frame = frame;
     if (print.style.camera.distance && bounds && !growth.fits_each) {

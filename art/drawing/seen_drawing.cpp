@@ -377,7 +377,8 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
             extent_.box.add(turned * glm::dvec3(corner, 1.0));
         }
     }
-    if (extent_.box.empty()) throw std::runtime_error("there is nothing to draw: the word holds no step that draws");
+    if (extent_.box.empty())
+        throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
     if (!view_) throw std::runtime_error("the drawing is too large to be looked at");

@@ -71,7 +71,7 @@ nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_
         if (key_places) *key_places = std::move(places);
         return json;
     } catch (const Json::parse_error& error) {
-        throw JsonError("this is no JSON", std::max<std::size_t>(error.byte, 1));
+        throw JsonError("invalid JSON", std::max<std::size_t>(error.byte, 1));
     } catch (const Json::exception&) {
         throw JsonError("this holds a number that is too large", 1);
     }

@@ -45,9 +45,9 @@ void add_spot(std::vector<Spot>& spots, Spot spot);
 /// Several. @throws std::runtime_error as parse_spot(), and if a name or a colour comes twice
 std::vector<Spot> parse_spots(std::span<const std::string> texts);
 
-/// @throws std::runtime_error if the values are out of range, exclude each other, or are nothing for that format
+/// @throws SettingError if the values are out of range, exclude each other, or are nothing for that format
 void check_press(const Press& press, PrintFormat format);
-/// @throws std::runtime_error if a spot's colour is none of the ground, the lines and the fills that `style` has
+/// @throws SettingError if a spot's colour is none of the ground, the lines and the fills that `style` has
 void check_spots(const Press& press, const Style& style);
 
 /// Millimetres from the edge of the medium to the trimmed sheet: the bleed, or the room that the marks need.

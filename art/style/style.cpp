@@ -51,14 +51,14 @@ Span next_word(const Span& value, std::size_t& at, bool commas) {
 
 std::string colour_complaint(std::string_view text, std::string_view expected) {
     if (text.starts_with('#')) {
-        return fmt::format("{} is no colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
+        return fmt::format("{} is not a colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
     }
     if (text.find('(') != std::string_view::npos) {
-        return fmt::format("{} is no colour here: write #rrggbb or a CSS name", quoted(text));
+        return fmt::format("{} is not a colour here: write #rrggbb or a CSS name", quoted(text));
     }
     const std::string_view near = nearest(lower_case(text), colour_names());
-    if (!near.empty()) return fmt::format("{} is no colour; did you mean '{}'?", quoted(text), near);
-    return fmt::format("{} is no colour: expected {}", quoted(text), expected);
+    if (!near.empty()) return fmt::format("{} is not a colour; did you mean '{}'?", quoted(text), near);
+    return fmt::format("{} is not a colour: expected {}", quoted(text), expected);
 }
 
 std::optional<Colour> read_colour(const Span& word, std::string_view expected, Diagnostics& diagnostics) {
@@ -77,7 +77,7 @@ std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnos
     }
     if (const Span second = next_word(key.value, at, false); !second.empty()) {
         diagnostics.error(second,
-                          fmt::format("{} is too much: '{}:' is {}", quoted(second.view()), key.name, expected));
+                          fmt::format("unexpected {}: '{}:' is {}", quoted(second.view()), key.name, expected));
         return std::nullopt;
     }
     return word;
@@ -104,9 +104,10 @@ void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
         style.line = Line::spline;
     } else {
         const std::string_view near = nearest(text, {"straight", "spline"});
-        diagnostics.error(*word, near.empty()
-                                     ? fmt::format("{} is no line: expected {}", quoted(word->view()), expected)
-                                     : fmt::format("{} is no line; did you mean '{}'?", quoted(word->view()), near));
+        diagnostics.error(
+            *word, near.empty()
+                       ? fmt::format("{} is not a kind of line: expected {}", quoted(word->view()), expected)
+                       : fmt::format("{} is not a kind of line; did you mean '{}'?", quoted(word->view()), near));
     }
 }
 
@@ -148,7 +149,7 @@ public:
                 diagnostics_.error(word, fmt::format("'none' stands alone in '{}:'", key_.name));
             } else if (has_colour_) {
                 diagnostics_.error(word,
-                                   fmt::format("{} is too much: '{}:' is {}", quoted(text), key_.name, expected));
+                                   fmt::format("unexpected {}: '{}:' is {}", quoted(text), key_.name, expected));
                 return;
             } else {
                 has_colour_ = true;
@@ -358,9 +359,8 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
             style.camera = *camera;
         } else {
             diagnostics.error(key->value,
-                              "expected 'view: AZIMUTH ELEVATION', degrees to the right and up to 90 upwards, or "
-                              "front, side or top; and after it, if you like, 'perspective' and from how many radii "
-                              "of the drawing, 1.01 to 1000000");
+                              "expected AZIMUTH,ELEVATION in degrees (elevation -90 to 90), or front, side or top; "
+                              "then optionally ,perspective and ,DISTANCE in radii of the drawing, 1.01 to 1000000");
         }
     }
     if (const Key* key = pattern.find("palette")) {
