@@ -145,7 +145,9 @@ std::string drawing_of(const std::string& name, std::string bytes, const Scratch
         return bytes;
     }
     if (format == "png" || format == "tif" || format == "jpg" || format == "exr") {
-        const std::string file = (folder.path() / ("picture." + format)).string();
+        // OpenImageIO remembers what it knows of a name.
+        static int number = 0;
+        const std::string file = (folder.path() / (std::to_string(++number) + "." + format)).string();
         std::ofstream(file, std::ios::binary) << bytes;
         // Compares size, channels, bits and pixels, but not the texts.
         OIIO::ImageBuf picture(file);

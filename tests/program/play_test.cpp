@@ -165,7 +165,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--instrument", "129"}, 2, "1 to 128");
     refused(hilbert, {"--anchor", "lowest"}, 2, "'anchor:' is one of");
     refused(hilbert, {"--range", "refuse", "-n", "8"}, 2, "beyond the keys 0 to 127");
-    refused(hilbert, {"--scale", "no.scl"}, 2, "cannot be read");
+    refused(hilbert, {"--scale", "no.scl"}, 2, "No such file or directory");
     refused(hilbert, {"-n", "40"}, 1, "4 GiB");
     refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
     refused(hilbert, {"-n", "11"}, 2, "limit the bars", "x.musicxml");
