@@ -94,9 +94,9 @@ bool allows(const std::string& rooms, const std::string& room) {
 /// The library that a header in angle brackets belongs to; empty for the standard library.
 std::string library_of(const std::string& name) {
     static const std::map<std::string, std::string> folders = {
-        {"boost", "boost"},   {"fmt", "fmt"},          {"glm", "glm"},   {"oneapi", "tbb"},
-        {"tbb", "tbb"},       {"OpenImageIO", "oiio"}, {"CLI", "cli11"}, {"toml++", "toml"},
-        {"nlohmann", "json"}, {"sys", "posix"},        {"embedded", ""}};
+        {"boost", "boost"},           {"fmt", "fmt"},   {"glm", "glm"},     {"oneapi", "tbb"},    {"tbb", "tbb"},
+        {"OpenImageIO", "oiio"},      {"CLI", "cli11"}, {"toml++", "toml"}, {"nlohmann", "json"}, {"sys", "posix"},
+        {"fast_float", "fast_float"}, {"embedded", ""}};
     static const std::map<std::string, std::string> files = {
         {"zlib.h", "zlib"},     {"lcms2.h", "lcms"},   {"fcntl.h", "posix"}, {"unistd.h", "posix"},
         {"dlfcn.h", "posix"},   {"signal.h", "posix"}, {"spawn.h", "posix"}, {"poll.h", "posix"},
