@@ -449,7 +449,7 @@ TEST(BadInput, ParametersOfEverySize) {
                              "[[[F]]]",
                              "f"}) {
         for (const char* more :
-             {"", "\nline: spline", "\nangle factor: 7", "\nangle increment: 12.345", "\nstroke: 0.2 step"}) {
+             {"", "\nline: spline\nangle factor: 7", "\nangle increment: 12.345\nstroke: 0.2 step"}) {
             const std::string text = "axiom: " + (word + std::string(more));
             SCOPED_TRACE(text);
             const Outcome told = piped(text, {"--json"});
