@@ -63,7 +63,7 @@ void set_window(DrawSettings& settings, const std::string& text) {
     }
 }
 
-/// `only`, `only` and how the dots look, or how they look.
+/// Parses `only`, `SIZE COLOUR`, or `only SIZE COLOUR`.
 void set_dots(DrawSettings& settings, const std::string& text) {
     settings.only_dots = text == "only" || text.starts_with("only ");
     settings.dots = settings.only_dots ? text.substr(std::min<std::size_t>(text.size(), 5)) : text;
@@ -76,7 +76,7 @@ void set_dot_spacing(DrawSettings& settings, const std::string& text) {
     }
 }
 
-/// `A:B`, or `A` alone.
+/// Parses `A:B` or `A`.
 void set_generations(DrawSettings& settings, const std::string& text) {
     const std::size_t colon = text.find(':');
     const auto whole = [&](std::string_view part) -> std::int64_t {
@@ -103,7 +103,7 @@ void set_animation(DrawSettings& settings, const std::string& text) {
     settings.animation = seconds;
 }
 
-/// `SPACING`, then, in any order, `ANGLE` and `cross`.
+/// Parses `SPACING`, followed by `ANGLE` and `cross` in either order.
 void set_hatch(DrawSettings& settings, const std::string& text) {
     Hatch& hatch = settings.hatch.emplace();
     for (std::size_t begin = 0; begin < text.size();) {
@@ -139,7 +139,7 @@ void set_paper(DrawSettings& settings, const std::string& text) {
     }
 }
 
-/// A size, and what the printer leaves blank on all four sides.
+/// Parses a sheet size and the margin that the printer cannot reach.
 void set_tile(DrawSettings& settings, const std::string& text) {
     const std::size_t comma = text.find(',');
     settings.tile = sheet("tile", text.substr(0, comma), settings.dpi);
@@ -155,7 +155,7 @@ void set_profile(DrawSettings& settings, const std::string& text) {
     settings.gcode = *profile;
 }
 
-/// Passes on what a parser of a printer's term says.
+/// Runs a parser and reports its errors as errors of the option.
 template <typename Parse>
 void parse_press(const char* option, const std::string& text, const Parse& parse) {
     try {
@@ -287,7 +287,7 @@ const std::array own_rows = {
               set_animation},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
-                       "overview, or files; MARGIN is what the printer leaves blank (5mm)",
+                       "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
                .value = "SIZE[,MARGIN]",
                .group = kolams,
                .is_alone = true},
@@ -304,7 +304,7 @@ const std::array own_rows = {
                .kind = flag},
               [](S& s, Text t) { s.plotter = is_true(t); }},
     Option<S>{{.name = "split",
-               .help = "length of the longest stroke, for controllers that stutter",
+               .help = "maximum length of a stroke, for controllers that stutter",
                .value = "LENGTH",
                .group = plotters},
               [](S& s, Text t) {
@@ -312,7 +312,7 @@ const std::array own_rows = {
                   if (!(s.split > 0)) refuse_option("split", t, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
-               .help = "width of the real pen: wider strokes are drawn in several passes (each stroke's own width)",
+               .help = "width of the plotter's pen; wider strokes take several passes (each stroke's own width)",
                .value = "WIDTH",
                .group = plotters},
               set_pen_width},
@@ -337,7 +337,7 @@ const std::array own_rows = {
                .value = "SIZE[,centre]",
                .group = plotters},
               set_paper},
-    Option<S>{{.name = "travel", .help = "show pen-up travel in a layer of its own", .group = plotters, .kind = flag},
+    Option<S>{{.name = "travel", .help = "show pen-up travel in a separate layer", .group = plotters, .kind = flag},
               [](S& s, Text t) { s.travel = is_true(t); }},
     Option<S>{{.name = "pen-speed",
                .help = "drawing speed in mm/s, for the time estimate and G-code (40)",
@@ -492,7 +492,7 @@ std::span<const Option<DrawSettings>> draw_options() {
 
 DrawSettings read_draw_settings(const OptionValues& values) {
     DrawSettings settings;
-    // Lengths in px and halftone screens depend on it.
+    // The resolution comes first: lengths in px and halftone screens depend on it.
     for (const OptionValue& value : values) {
         if (value.name == "dpi") apply_options(draw_options(), {value}, settings);
     }
@@ -536,7 +536,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
             throw SettingError(key, value, error.diagnostics().front().message);
         }
     };
-    // Dots in their default size and colour have no words in the language.
+    // Dots of the default size and colour cannot be written as a value of the key.
     if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
     if (!settings.view.empty()) set("view", settings.view);
     Diagnostics diagnostics;
@@ -548,7 +548,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
 
 namespace {
 
-/// Why an option cannot be combined with what else was asked for.
+/// Reason why an option cannot be combined with others.
 struct Conflict {
     bool is_given;
     const char* option;
@@ -588,12 +588,12 @@ void check_model(const DrawSettings& settings) {
                   {settings.press.bits != 8, "bits", reason},
                   {settings.press.screen != Screen{}, "screen", reason},
                   {settings.step.has_value(), "step", "a model has one unit for each turtle step"},
-                  {settings.rotate != 0, "rotate", "a model is turned where it is used"},
-                  {settings.mirror, "mirror", "a model is mirrored where it is used"}});
+                  {settings.rotate != 0, "rotate", "a model can be rotated in the program that uses it"},
+                  {settings.mirror, "mirror", "a model can be mirrored in the program that uses it"}});
 }
 
 void check_placement(const DrawSettings& settings) {
-    constexpr const char* both = "cannot be combined with 'fit', which sets the step length, too";
+    constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
     refuse_first({{settings.fit && settings.step, "step", both},
                   {settings.fit && settings.window, "window", both},
                   {settings.fit && settings.dot_spacing, "dot-spacing", both},
@@ -604,17 +604,16 @@ void check_placement(const DrawSettings& settings) {
 void check_plot(const DrawSettings& settings, PrintFormat format) {
     const bool is_plot = settings.plotter || is_for_plotters(format);
     const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
-    refuse_first(
-        {{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
-         {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
-         {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
-         {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
-         {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
-         {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
-         {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
-         {settings.tile && is_plot, "tile", "a plot draws each line whole, and sheets cut lines off"},
-         {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
-         {settings.window && is_plot, "window", "a plot draws each line whole, and a window cuts lines off"}});
+    refuse_first({{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
+                  {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
+                  {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
+                  {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
+                  {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
+                  {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
+                  {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
+                  {settings.tile && is_plot, "tile", "tiles would cut the strokes of a plot"},
+                  {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
+                  {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
 }
 
 void check_growth(const DrawSettings& settings, PrintFormat format) {
@@ -636,18 +635,18 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
                       fmt::format("expected up to {} derivation lengths, the lowest first", most));
     }
     if (is_sheet) {
-        constexpr const char* filled = "the drawings of a sheet fill their cells, each at its own scale";
+        constexpr const char* filled = "each drawing of a sheet of generations is scaled to fill its cell";
         refuse_first(
             {{settings.plotter || is_for_plotters(format), "generations",
-              "a sheet of generations has grounds and captions, which a plot does not have; 'frames' makes a plot "
+              "a plot cannot contain the grounds and captions of a sheet of generations; 'frames' makes a plot "
               "of each"},
              {settings.tile.has_value(), "tile",
-              "a sheet of generations is not cut; 'frames' cuts each generation into sheets"},
+              "a sheet of generations cannot be cut into tiles; 'frames' cuts each generation"},
              {settings.step.has_value(), "step", filled},
              {settings.dot_spacing.has_value(), "dot-spacing", filled}});
     }
     if (!is_gif) return;
-    constexpr const char* screen = "a .gif is for screens";
+    constexpr const char* screen = "does not apply to a .gif, which is shown on screens";
     refuse_first({{press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
     const PixelSize size = pixel_size(settings.page, settings.dpi);
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
@@ -673,12 +672,12 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     }
     check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
     check_plot(settings, format);
-    constexpr const char* trimmed = "only for a print that is trimmed, not for plots and tiles";
+    constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
     const bool is_untrimmed = settings.plotter || settings.tile;
     refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
                   {is_untrimmed && settings.press.marks, "marks", trimmed},
                   {settings.window && settings.border, "border",
-                   "a border goes around a whole drawing, and a window shows a part that goes on beyond it"},
+                   "a border frames the whole drawing; a window shows only part of it"},
                   {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
     check_growth(settings, format);
 }

@@ -1,4 +1,4 @@
-// art/draw_settings.h: the options of a print, typed, and the one table that reads them.
+// art/draw_settings.h: typed settings of a print, and the table of options that sets them.
 #pragma once
 
 #include "art/drawing/draw_options.h"
@@ -30,57 +30,58 @@ struct DrawSettings {
     double dpi = 300.0;         ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
     Page page;                  ///< A4 with margins of 10 mm
     bool landscape = false;
-    bool fit = false;                  ///< asked for, which excludes `step` and `window`
-    std::optional<double> step;        ///< of one turtle step on paper, instead of fitting
+    bool fit = false;                  ///< requested explicitly; excludes `step` and `window`
+    std::optional<double> step;        ///< length of one turtle step on paper; absent: fit the page
     std::optional<ViewWindow> window;  ///< part of the drawing that fills the page
-    std::string window_text;           ///< as given: it may have more digits than a double
+    std::string window_text;           ///< the window as given, which may have more digits than a double
     double rotate = 0.0;               ///< anticlockwise
     bool mirror = false;               ///< before the rotation
-    std::string view;                  ///< of drawings in space, as `view:`; empty: the pattern's
-    std::optional<std::string> dots;   ///< as `dots:`; empty: in default size and colour
+    std::string view;                  ///< value for `view:`; empty: the pattern's
+    std::optional<std::string> dots;   ///< value for `dots:`; empty: default size and colour
     bool only_dots = false;
-    std::optional<double> dot_spacing;                                 ///< between the nearest dots
-    bool border = false;                                               ///< of red earth
-    bool colours_strokes = false;                                      ///< by strand
+    std::optional<double> dot_spacing;                                 ///< distance between the nearest dots
+    bool border = false;                                               ///< frame of red earth
+    bool colours_strokes = false;                                      ///< one colour for each strand
     std::optional<std::pair<std::int64_t, std::int64_t>> generations;  ///< derivation lengths, first and last
-    bool frames = false;                                               ///< each generation is a file
-    std::optional<double> frame_time;                                  ///< of each generation in an animation
-    std::optional<double> hold;                                        ///< minimum for the last generation
-    bool fit_frames = false;                                           ///< each generation fills the page
-    std::optional<double> animation;                                   ///< duration of an SVG that draws itself
-    std::optional<Page> tile;                                          ///< sheets that the print is cut into
-    std::optional<double> overlap;                                     ///< of those sheets; 10 mm
+    bool frames = false;                                               ///< write each generation to its own file
+    std::optional<double> frame_time;  ///< display time of each generation in an animation
+    std::optional<double> hold;        ///< minimum display time of the last generation
+    bool fit_frames = false;           ///< fit each generation to the page
+    std::optional<double> animation;   ///< duration of an SVG that draws itself
+    std::optional<Page> tile;          ///< sheet of a tiled print
+    std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
     bool plotter = false;
-    double split = 0.0;              ///< longest stroke; 0: any
-    std::optional<Hatch> hatch;      ///< of filled shapes
-    double pen_width = 0.0;          ///< of the real pen; 0: of each stroke
-    int pens = 0;                    ///< maximum number; 0: any
-    std::optional<HpglPaper> paper;  ///< of an HP-GL plotter
+    double split = 0.0;              ///< maximum length of a stroke; 0: no limit
+    std::optional<Hatch> hatch;      ///< hatching of filled shapes
+    double pen_width = 0.0;          ///< width of the plotter's pen; 0: the width of each stroke
+    int pens = 0;                    ///< maximum number of pens; 0: no limit
+    std::optional<HpglPaper> paper;  ///< sheet or limits of an HP-GL plotter
     bool travel = false;             ///< show pen-up travel
     PlotSpeeds speeds;
     GcodeOptions gcode;
     Press press;
-    int compression = 6;    ///< of PNG, 1 to 9
+    int compression = 6;    ///< PNG compression, 1 to 9
     double budget = 200e6;  ///< maximum number of derivation nodes visited in one pass
     int threads = 0;        ///< for pictures; 0: one for each core
 };
 
-/// The table: every option of a print, in the order of help.
+/// Every option of a print, in the order of help.
 std::span<const Option<DrawSettings>> draw_options();
 
 /// Reads options. @throws SettingError for unknown names and values that cannot be read
 DrawSettings read_draw_settings(const OptionValues& values);
 
-/// The style of a document, with what the settings change: `dots` and `view`. @throws SettingError, PatternError
+/// Reads the style of a document, with `dots` and `view` as the settings override them. @throws SettingError,
+/// PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
 
-/// How the drawing looks, on its own page as in the cell of a sheet.
+/// The options of the drawing, on its own page or in the cell of a sheet.
 DrawingOptions drawing_options(const DrawSettings& settings);
 
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
 
-/// Checks the combination of settings with each other and with a format. @throws SettingError
+/// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);
 
 }  // namespace sikku

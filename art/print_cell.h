@@ -1,4 +1,4 @@
-// art/print_cell.h: a print as a cell of a sheet.
+// art/print_cell.h: converts the settings of a print into a cell of a sheet.
 #pragma once
 
 #include "art/draw_settings.h"
@@ -7,9 +7,9 @@
 
 namespace sikku {
 
-/// The cell in which a document is drawn as its own print would be, without a caption. What belongs to the file of
-/// the print (bleed, marks, inks, resolution, the order of a plot) has no effect, nor has a distance of dots: a
-/// drawing fills its cell. @throws SettingError, PatternError
+/// Returns a cell that draws a document like its own print, without a caption. Settings of the print's file (bleed,
+/// marks, inks, resolution, the order of a plot) have no effect, and neither has the dot spacing: a drawing fills its
+/// cell. @throws SettingError, PatternError
 SheetCell print_cell(const Document& document, const DrawSettings& settings);
 
 }  // namespace sikku

@@ -14,11 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <mutex>
-#include <optional>
-#include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -57,7 +54,13 @@ void report_sheets(const DrawReport& report, Made& made) {
     left_out(report.left_out.y, "top and bottom");
 }
 
-/// A print or model, planned.
+void report_text(const DrawReport& report, const std::filesystem::path& name, Made& made) {
+    if (!report.leaves_pattern_out) return;
+    made.warn(
+        fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
+}
+
+/// A planned print or model.
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
@@ -82,6 +85,7 @@ public:
               int threads) override;
 
 private:
+    Cost forecast(const Grammar& grammar) const;
     bool is_model() const { return info(format_).kind == FormatKind::model; }
     bool is_growth() const { return format_ == PrintFormat::gif || settings_.frames; }
 
@@ -110,7 +114,7 @@ private:
         drawing_.gcode = settings_.gcode;
     }
 
-    /// Refuses what this drawing cannot have. @throws SettingError, PatternError
+    /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
     void check_drawing() const {
         const bool is_spatial = document_.grammar().is_spatial();
         if (is_model()) require_straight("models have straight lines, not splines; set line to straight");
@@ -119,7 +123,7 @@ private:
         }
         if (!is_spatial) return;
         require_straight("drawings that pitch, roll or bend have straight lines, not splines; set line to straight");
-        constexpr const char* plane = "only for drawings in the plane; this one pitches, rolls or bends";
+        constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
@@ -127,9 +131,9 @@ private:
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
         if (settings_.tile && !is_vector(format_))
-            refuse("tile", "drawings in space are cut into sheets as SVG or PDF");
+            refuse("tile", "drawings in space can be cut into sheets only as SVG or PDF");
         if (!settings_.press.spots.empty() && !drawing_.plot) {
-            refuse("spot", "drawings in space are lit, in more shades than there are inks");
+            refuse("spot", "drawings in space have more shades of light than there are inks");
         }
     }
 
@@ -160,7 +164,7 @@ void PrintWork::make_model(Destination& destination, const std::filesystem::path
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
-/// Derivation lengths one after the other, as an animation or as files of their own.
+/// Makes an animation of several generations, or a file for each.
 void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
                             Made& made) {
     GrowthOptions growth;
@@ -171,12 +175,13 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     growth.is_animation = format_ == PrintFormat::gif;
     growth.made = [this](const Grammar& generation) { return made_with(generation); };
     const DrawReport report = draw_growth(document_.grammar(), print_, options, growth, name, destination);
+    report_text(report, name, made);
     if (report.overflows) {
         made.warn("the largest generation is larger than the page within its margins and is cut off");
     }
 }
 
-/// Derivation lengths side by side, as books show them.
+/// Makes a sheet of several generations side by side.
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const auto [first, last] = *settings_.generations;
@@ -189,13 +194,14 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.title = print_.title;
     sheet.animation = print_.animation;
     sheet.press = print_.press;
-    // Captions are short, and are read from as far as the drawings.
+    // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
     sheet.inset = 0.055;
     sheet.pattern = print_.pattern;
     sheet.made = print_.made;
     sheet.threads = options.threads;
     sheet.compression = options.compression;
+    sheet.monitor = options.monitor;
     sheet.watch = options.watch;
     draw_sheet(generations(cell, first, last), sheet, name, destination);
 }
@@ -205,15 +211,9 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     // Before the drawing, which may take long.
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
-    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
-        made.warn("'view' has no effect: this drawing lies in the plane");
-    }
-    if (report.leaves_pattern_out) {
-        made.warn(fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes",
-                              name.string()));
-    }
+    report_text(report, name, made);
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
-        made.warn("there are no dots: the lines enclose none");
+        made.warn("no dots were drawn: the lines enclose none");
     }
     if (report.is_empty) {
         made.warn("the window contains no part of the drawing");
@@ -234,7 +234,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         const std::size_t pens = report.plot->colours - report.plot->merged.size();
         if (pens > most) {
             made.warn(
-                fmt::format("the plot needs {} pens, HP-GL plotters hold up to {}: the option 'pens' merges "
+                fmt::format("the plot needs {} pens, but HP-GL plotters hold up to {}: the option 'pens' merges "
                             "colours",
                             pens, most));
         }
@@ -242,7 +242,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.sheets > 0) report_sheets(report, made);
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(
-            "the drawing is {:.1f} x {:.1f} mm, the page has room for {:.1f} x {:.1f}: the rest is cut off",
+            "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
             report.size.x, report.size.y, report.room.x, report.room.y));
     }
 }
@@ -269,20 +269,27 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     } else {
         make_print(destination, name, options, made);
     }
+    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
+        made.warn("'view' has no effect: this drawing lies in the plane");
+    }
     return made;
 }
 
 Cost PrintWork::forecast() const {
+    if (!settings_.generations) return forecast(document_.grammar());
+    // The last generation is the most expensive.
+    const auto [first, last] = *settings_.generations;
+    const auto largest = document_.grammar().with_steps(last);
+    Cost result = forecast(largest ? *largest : document_.grammar());
+    result.seconds *= static_cast<double>(last - first + 1);
+    result.bytes *= static_cast<double>(last - first + 1);
+    return result;
+}
+
+Cost PrintWork::forecast(const Grammar& given) const {
     Cost result;
-    const Grammar grammar = shorten(document_.grammar());
-    DrawingCost cost;
-    {
-        // The parts of large words are large, too: not several at a time.
-        static std::mutex mutex;
-        std::unique_lock lock(mutex, std::defer_lock);
-        if (!is_vector(drawing_.format)) lock.lock();
-        cost = drawing_cost(grammar, print_, drawing_);
-    }
+    const Grammar grammar = shorten(given);
+    const DrawingCost cost = drawing_cost(grammar, print_, drawing_);
     const auto text = static_cast<double>(print_.pattern.size());
     const bool spline = print_.style.line == Line::spline;
     result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
@@ -300,7 +307,6 @@ Cost PrintWork::forecast() const {
         case PrintFormat::gcode:
             result.seconds += cost.lines * 3e-6;
             result.bytes = 500 + cost.lines * (spline ? 60 : 12);
-            result.memory += cost.lines * 250;
             return result;
         default:
             break;

@@ -1,4 +1,4 @@
-// cli/check_midi.cpp: validates MIDI files and reads back what they were made from.
+// cli/check_midi.cpp: validates MIDI files and reads the patterns in them.
 #include "cli/command.h"
 #include "engine/base/input_file.h"
 #include "engine/language/pattern.h"
@@ -52,7 +52,7 @@ bool check_midi_file(const std::string& file) {
     const auto faults = check_midi(span_of(bytes));
     for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);
     if (faults.size() == most_midi_faults) {
-        fmt::print("{}: no more than {} faults are told\n", printable(file), most_midi_faults);
+        fmt::print("{}: only the first {} faults are listed\n", printable(file), most_midi_faults);
     }
     return faults.empty();
 }

@@ -40,18 +40,18 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noe
     }
 }
 
-/// The same unless `quiet`.
+/// Calls tell() unless `quiet`.
 template <typename... Arguments>
 void tell_unless(bool quiet, fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {
     if (!quiet) tell(format, std::forward<Arguments>(arguments)...);
 }
 
-/// A text and what messages call it.
+/// A text and its name in messages.
 struct NamedText {
     std::string name;
     std::string text;
 };
-/// Reads what PATTERN means: a path, the name of a bundled pattern, or `-` for standard input.
+/// Reads the text of the argument PATTERN: a path, the name of a bundled pattern, or `-` for standard input.
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);
 
@@ -72,7 +72,7 @@ void add_override_options(CLI::App& command, PatternOptions& options);
 /// `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
-/// Prints, then scores.
+/// The interpreters: prints, then scores.
 std::span<const Interpreter* const> interpreters();
 
 /// Reads, compiles and checks a pattern; warnings are printed unless `quiet`.
@@ -89,10 +89,10 @@ public:
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    /// Begins another piece of work. @param symbols  in all, or 0 if unknown
+    /// Begins another stage. @param symbols  total number of symbols, or 0 if unknown
     void expect(double symbols);
     void add(std::uint64_t symbols);
-    /// Refers to this object.
+    /// A monitor that refers to this object.
     Monitor monitor();
     /// For DerivationOptions::watch; refers to this object.
     std::function<void(std::uint64_t)> watch() {
@@ -110,7 +110,7 @@ private:
     double last_;
 };
 
-/// Reads what a MIDI file (a regular file) was made from. @throws std::runtime_error, naming the file, if it contains
+/// Reads the pattern in a MIDI file (a regular file). @throws std::runtime_error, naming the file, if it contains
 /// no pattern or is damaged
 Provenance read_score_provenance(const std::string& file);
 

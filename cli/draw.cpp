@@ -21,7 +21,7 @@ struct DrawCommand {
     TableOptions options;
 };
 
-/// The name of the format that the file's extension asks for. @throws UsageError
+/// The name of the format with the file's extension. @throws UsageError
 std::string format_of(const std::string& output) {
     if (const auto format = print_format(output)) return std::string(info(*format).extension);
     std::error_code error;

@@ -31,7 +31,7 @@ struct Options {
     std::map<std::string, std::string> texts;  ///< of the keys of gallery files, as options
     std::map<std::string, bool> flags;
     std::string output = "gallery";
-    bool names_folder = false;  ///< -o was given
+    bool names_folder = false;  ///< true if -o was given
     bool list = false;
     bool json = false;
     bool dry_run = false;
@@ -53,7 +53,7 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Half of the available memory if nothing is said.
+/// Reads `--memory`; the default is half of the available memory.
 double read_memory(const std::string& text) {
     if (text.empty()) return static_cast<double>(available_memory()) / 2;
     if (const auto bytes = parse_bytes(text)) return *bytes;
@@ -77,7 +77,7 @@ void list_jobs(const std::vector<GalleryJob>& jobs, const std::vector<std::size_
     }
 }
 
-/// Prints a problem's first line. @returns true, to be counted
+/// Prints the first line of a problem. @returns true, for counting
 bool print_problem(const std::string& file, const std::string& problem) {
     fmt::print("{:<40} {}\n", printable(file, 2000), printable(problem.substr(0, problem.find('\n')), 200));
     return true;
@@ -166,8 +166,8 @@ void submit(const Options& options, std::size_t jobs) {
     const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
                                          quoted(folder.string() + ".%j.log"));
     if (!is_in_path("sbatch")) {
-        tell("sikku: there is no sbatch here; {} is to be handed in where there is one:\n  id=$({})\n  {}$id {}\n",
-             script, array, last, quoted(script));
+        tell("sikku: sbatch is not available here; submit {} where it is:\n  id=$({})\n  {}$id {}\n", script, array,
+             last, quoted(script));
         return;
     }
     // Another cluster's name may follow behind a semicolon.
@@ -178,7 +178,7 @@ void submit(const Options& options, std::size_t jobs) {
                counted(tasks, "task"), end, script);
 }
 
-/// Reports on standard error: if that is a terminal, a bar with jobs per second and the time left.
+/// Reports progress on standard error; on a terminal, as a bar with jobs per second and the time left.
 class Reporter : public GalleryListener {
 public:
     explicit Reporter(bool quiet)
@@ -258,8 +258,7 @@ void print_result(const Gallery& gallery, const GalleryResult& result, const Opt
     std::size_t told = 0;
     for (const std::size_t job : result.made) {
         const FinishedJob& made = result.finished.at(job);
-        for (const std::string& text : made.told) {
-            if (text.find("warning:") == std::string::npos) continue;
+        for (const std::string& text : made.warnings) {
             if (++told <= 20) tell("{}: {}\n", printable(made.file, 2000), printable(text, 2000));
         }
     }
@@ -312,7 +311,7 @@ void run(Options& options, bool quiet) {
     const GalleryResult result = gallery.make(reporter);
     if (!quiet) print_result(gallery, result, options, shard, now() - started);
     if (interrupted()) {
-        throw Interrupted(fmt::format("interrupted; {} of {} are done; the same command resumes",
+        throw Interrupted(fmt::format("interrupted; {} of {} jobs are finished, the same command resumes",
                                       result.finished.size(), gallery.chosen().size()));
     }
     for (const Failure& failure : result.failures) {
@@ -326,18 +325,18 @@ void run(Options& options, bool quiet) {
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
-/// What a flag does; the table describes flags that hold by default by what they do while on.
+/// Help of a flag; for flags that are on by default, the table describes what they do while on.
 std::string flag_help(const GalleryKey& key) {
     if (!key.name.starts_with("no-")) return key.help;
     return "do not " + key.help.substr(0, key.help.rfind(" (default)"));
 }
 
-/// The placeholder of a key's value, as the interpreter's table has it.
+/// The placeholder of a key's value, from the interpreter's table.
 std::string value_name(const GalleryKey& key) {
     if (!key.use) return "VALUE";
     for (const OptionInfo* option : key.use->options()) {
         if (option->name != key.name || option->value.empty()) continue;
-        // Brackets: the value may be left out, but not in galleries.
+        // Brackets mark an optional value, which galleries require.
         const std::string_view value = option->value;
         return std::string(value.starts_with('[') ? value.substr(1, value.size() - 2) : value);
     }
@@ -368,12 +367,12 @@ void add_gallery(CLI::App& app, bool& quiet) {
     command->add_option("--contact", options->request.contact, "make a contact sheet, with names: contact.svg, …")
         ->type_name("SIZE");
     auto* list = command->add_flag("--list", options->list, "list the jobs and make nothing");
-    command->add_flag("--json", options->json, "print the list as a manifest")->needs(list);
+    command->add_flag("--json", options->json, "print the list as a manifest (JSON lines)")->needs(list);
     command->add_flag("--dry-run", options->dry_run, "forecast symbols, time, bytes and memory of each job");
-    command->add_option("--only", options->only, "make this job again, and no other; may be repeated")
+    command->add_option("--only", options->only, "make only this job, even if it is finished; may be repeated")
         ->type_name("JOB")
         ->allow_extra_args(false);
-    command->add_flag("--force", options->force, "make everything again, and replace other files in the way");
+    command->add_flag("--force", options->force, "make everything again, and replace files not made by the gallery");
     command->add_flag("--keep-going", options->keep_going, "continue with other jobs after one failed");
     command
         ->add_option("--memory", options->memory,
@@ -384,7 +383,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         ->type_name("N");
     command
         ->add_option("--shard", options->shard,
-                     "make part I of N, balanced by forecast (read from Slurm, Open MPI or Kubernetes)")
+                     "make only part I of N, balanced by forecast (set by Slurm, Open MPI or Kubernetes)")
         ->type_name("I/N");
     command->add_option("--slurm", options->slurm, "write a script for an array of N tasks, and submit it")
         ->check(whole_number(1, 100'000))
@@ -396,8 +395,9 @@ void add_gallery(CLI::App& app, bool& quiet) {
         ->add_option("--name", options->texts["name"], "names of the files: {pattern}-n{n}, with any key in braces")
         ->type_name("TEXT");
     command
-        ->add_option("--set", options->request.overrides,
-                     "value of a key or define of the patterns; 60:90:5 makes several; may be repeated")
+        ->add_option(
+            "--set", options->request.overrides,
+            "value of a key or define of the patterns; a range such as 60:90:5 makes several jobs; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     for (const GalleryKey& key : gallery_keys().list()) {

@@ -10,14 +10,14 @@ namespace {
 std::string value_name(const CLI::Option& option) {
     if (option.get_expected_max() == 0) return {};
     std::string type = option.get_type_name();
-    // CLI11 appends what its checks say: `:INT in [0 - 1024]`, `:{bash,zsh}`.
+    // CLI11 appends descriptions of its checks: `:INT in [0 - 1024]`, `:{bash,zsh}`.
     for (std::size_t at = type.find(':'); at != std::string::npos; at = type.find(':', at + 1)) {
         if (type.compare(at, 2, ":{") == 0 || type.find(" in [", at) != std::string::npos) type.erase(at);
     }
     return type;
 }
 
-/// `-n, --steps N`, `--dots[=SIZE COLOUR|only]`; of an argument `PATTERN...`.
+/// Formats the names of an option, `-n, --steps N`, `--dots[=SIZE COLOUR|only]`, or of an argument, `PATTERN...`.
 std::string names_of(const CLI::Option& option) {
     if (option.get_positional()) {
         const std::string name = option.get_name(true, false);
@@ -36,7 +36,7 @@ bool is_between(char letter, char first, char last) {
     return letter >= first && letter <= last;
 }
 
-/// The description without a capital, unless it begins with an abbreviation, and with the default if it lacks it.
+/// The description in lower case, except for abbreviations, with the default value added if it is missing.
 std::string text_of(const CLI::Option& option) {
     std::string text = option.get_description();
     if (text.size() > 1 && is_between(text[0], 'A', 'Z') && is_between(text[1], 'a', 'z')) {
@@ -114,7 +114,7 @@ HelpPage help_page(const CLI::App& command) {
             if (option->get_positional() || option->get_group() != heading || heading.empty()) continue;
             if (option != command.get_help_ptr()) group.rows.push_back({names_of(*option), text_of(*option)});
         }
-        // The help option comes last of the first group.
+        // Put the help option last in the first group.
         const CLI::Option* help = command.get_help_ptr();
         if (help && help->get_group() == heading) group.rows.push_back({names_of(*help), text_of(*help)});
         if (!group.rows.empty()) page.groups.push_back(std::move(group));

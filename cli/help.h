@@ -1,4 +1,4 @@
-// cli/help.h: the commands and their options as pages: what --help prints, docs/commands.md and the man pages show.
+// cli/help.h: help pages of the commands, for --help, docs/commands.md and the man pages.
 #pragma once
 
 #include "engine/base/help_page.h"
@@ -12,7 +12,7 @@ namespace sikku {
 /// Collects the page of a command from its options.
 HelpPage help_page(const CLI::App& command);
 
-/// The commands that help lists, in its order.
+/// The listed commands, in the order of help.
 std::vector<const CLI::App*> listed_commands(const CLI::App& app);
 
 /// Formats --help: options aligned and grouped, at most 100 columns wide, examples last.

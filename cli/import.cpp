@@ -57,8 +57,8 @@ std::vector<std::size_t> chosen(const std::vector<ImportedSystem>& systems, cons
         if (found.contains(lower_case(name))) continue;
         const std::string_view near = nearest(name, known);
         throw UsageError(
-            fmt::format("{} holds no system '{}'{}", options.file, name,
-                        near.empty() ? "; --list tells those it holds" : fmt::format("; did you mean '{}'?", near)));
+            fmt::format("{} contains no system '{}'{}", options.file, name,
+                        near.empty() ? "; --list lists its systems" : fmt::format("; did you mean '{}'?", near)));
     }
     return indices;
 }
@@ -67,10 +67,10 @@ void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<
     for (const std::size_t i : indices) {
         const ImportedSystem& system = systems[i];
         fmt::print("{:<24} line {:<6} {}\n", printable(system.name), system.line,
-                   system.pattern.empty() ? "has mistakes"
+                   system.pattern.empty() ? "has errors"
                    : system.losses.empty()
-                       ? "exact"
-                       : fmt::format("{} not carried over", counted(system.losses.size(), "thing")));
+                       ? "complete"
+                       : fmt::format("{} not supported", counted(system.losses.size(), "feature")));
     }
 }
 
@@ -80,7 +80,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
     file.commit();
 }
 
-/// Each into a file of its own name; a name that is taken gets a number.
+/// Writes each system to a file of its name; a number is added to names in use.
 void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices,
                   const std::string& folder, bool quiet) {
     std::filesystem::create_directories(folder);
@@ -95,7 +95,7 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
         std::string name = plain;
         for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}-{}", plain, number);
         if (name != plain) {
-            tell_unless(quiet, "sikku: there is a {}.lsys already: '{}' of line {} is {}.lsys\n", plain, system.name,
+            tell_unless(quiet, "sikku: {}.lsys exists already: '{}' of line {} becomes {}.lsys\n", plain, system.name,
                         system.line, name);
         }
         write_file(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
@@ -103,10 +103,10 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
         if (!system.losses.empty()) ++lossy;
     }
     tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), folder,
-                lossy > 0 ? fmt::format(", {} of them without all that they had", lossy) : "");
+                lossy > 0 ? fmt::format(", {} of them incomplete", lossy) : "");
 }
 
-/// Is that message about one of the systems chosen? What stands before the first belongs to all.
+/// True if the message concerns one of the selected systems. Messages before the first system concern all.
 bool concerns(const Diagnostic& diagnostic, const SourcePointer& file, const std::vector<ImportedSystem>& systems,
               const std::vector<std::size_t>& indices) {
     if (indices.size() == systems.size() || diagnostic.file != printable(file->name())) return true;
@@ -137,7 +137,7 @@ void import_file(const ImportOptions& options, bool quiet) {
     if (options.list) return list_systems(systems, indices);
     const bool to_folder = !options.output.empty() && !options.output.ends_with(".lsys");
     if (!to_folder && indices.size() != 1) {
-        throw UsageError(fmt::format("{} holds {}: name one of them, or give a folder with -o; --list tells them",
+        throw UsageError(fmt::format("{} contains {}: name one of them, or give a folder with -o; --list lists them",
                                      options.file, counted(systems.size(), "system")));
     }
     for (const Diagnostic& diagnostic : diagnostics.sorted()) {
@@ -177,7 +177,7 @@ void add_import(CLI::App& app, bool& quiet) {
         ->type_name("FILE");
     command->add_flag("--list", options->list, "list the entries of the file");
     command->footer(
-        "Features without a counterpart are reported with their place, and in the description of the pattern.\n\n"
+        "Unsupported features are reported with their place, and in the description of the pattern.\n\n"
         "Examples:\n"
         "  sikku import fractint.l -o imported\n"
         "  sikku import fractint.l Dragon | sikku draw - -n 10 -o dragon.svg\n"

@@ -31,13 +31,14 @@ void add_kolam(CLI::App& app, bool& quiet) {
     command->add_flag("--json", *as_json, "print one line of JSON");
     add_budget_option(*command, *budget);
     command->footer(
-        "In a kolam every dot is encircled, every line is closed, and nothing is drawn twice. Violations are "
-        "reported, "
-        "and unusual features are remarked on. Dots are where the tradition sets them: one in each loop, none in the "
-        "gaps between. Places are in steps of the turtle, which starts at 0 0; the examination is exact where the "
-        "angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
-        "With --grid a kolam is made instead, as a pattern file.\n\n"
-        "The exit status is 0 whether it is a kolam or not. Keys of --json: title, n, kolam, faults, remarks, exact, "
+        "In a kolam every dot is encircled, every line is closed, and nothing is drawn twice. Violations of these "
+        "rules and unusual features are reported. Dots are placed as tradition does: one in each loop, none in the "
+        "gaps between loops. Positions are in turtle steps; the turtle starts at 0 0; the examination is exact where "
+        "the angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
+        "With --grid, the command makes a kolam instead, as a pattern file.\n\n"
+        "The exit status is 0 whether or not the drawing is a kolam. Keys of --json: title, n, kolam, faults, "
+        "remarks, "
+        "exact, "
         "tolerance, spline, segments, strokes, lines, open_lines, straight_lines (going straight on at every "
         "meeting), "
         "vertices, edges, components, faces (bounded), reused_edges, meetings (points visited more than once: "
@@ -53,7 +54,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         if (!grid->grid.empty()) {
             if (!options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
                 !options->variant.empty()) {
-                throw UsageError("--grid makes a kolam; it goes without PATTERN, -n, --set and --variant");
+                throw UsageError("--grid makes a kolam; it excludes PATTERN, -n, --set and --variant");
             }
             grid->as_json = *as_json;
             grid->seed = seed_of(*options);

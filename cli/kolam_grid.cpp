@@ -62,7 +62,7 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid, const
     if (!found) {
         throw std::runtime_error(fmt::format(
             "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
-            "--attempts; on a small grid --enumerate tells whether there is one",
+            "--attempts; on a small grid --enumerate shows whether there is one",
             grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
     }
     return {std::move(found->crossings), found->changed, found->attempt};
@@ -147,7 +147,9 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
 
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* grid =
-        command.add_option("--grid", options.grid, "make a kolam on dots: 7x7, or the dots of each row: 1-3-5-3-1")
+        command
+            .add_option("--grid", options.grid,
+                        "make a kolam on this grid of dots: 7x7, or the number of dots in each row: 1-3-5-3-1")
             ->type_name("ROWS")
             ->group(grid_heading);
     auto* symmetry = command
@@ -163,15 +165,17 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
             ->check(number_between(0, 1))
             ->group(grid_heading)
             ->needs(grid);
-    auto* crossings = command
-                          .add_option("--crossings", options.crossings,
-                                      "all, none, or 0 or 1 for each gap: for each row from the top those within it, "
-                                      "then those to the next row; @FILE reads them from a file")
-                          ->type_name("GAPS")
-                          ->group(grid_heading)
-                          ->needs(grid)
-                          ->excludes(symmetry)
-                          ->excludes(density);
+    auto* crossings =
+        command
+            .add_option(
+                "--crossings", options.crossings,
+                "all, none, or a 0 or 1 for each gap: row by row from the top, first the gaps within the row, "
+                "then the gaps to the next row; @FILE reads them from a file")
+            ->type_name("GAPS")
+            ->group(grid_heading)
+            ->needs(grid)
+            ->excludes(symmetry)
+            ->excludes(density);
     auto* single =
         command
             .add_flag(
@@ -194,7 +198,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         command.add_flag("--dots", options.dots, "draw the dots in the pattern")->needs(grid)->group(grid_heading);
     auto* enumerate = command
                           .add_flag("--enumerate", options.enumerate,
-                                    "count and list all kolams of a single line, with --symmetry those that have it")
+                                    "count and list all single-line kolams, with --symmetry only symmetric ones")
                           ->group(grid_heading)
                           ->needs(grid)
                           ->excludes(crossings)
@@ -202,7 +206,8 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
                           ->excludes(single)
                           ->excludes(colours)
                           ->excludes(dots);
-    command.add_option("--limit", options.limit, "how many kolams --enumerate lists, up to 10000000 (100)")
+    command
+        .add_option("--limit", options.limit, "maximum number of kolams that --enumerate lists, up to 10000000 (100)")
         ->type_name("N")
         ->group(grid_heading)
         ->needs(enumerate)

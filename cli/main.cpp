@@ -24,7 +24,7 @@ int fail(int status, std::string_view message) {
     return status;
 }
 
-/// Does what the command line asks for, tells what went wrong with it, and returns the exit status.
+/// Executes the command line, reports errors, and returns the exit status.
 int run(int argc, char** argv) {
     using namespace sikku;
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
@@ -103,7 +103,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     sikku::catch_signals();
     const int status = run(argc, argv);
-    // Output that is lost is a failure, also where it would have told mistakes; other failures were told already.
+    // Lost output is a failure, even if it was an error report; other failures were reported already.
     const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
     return lost && (status == 0 || status == 2) ? fail(1, "standard output cannot be written") : status;
 }

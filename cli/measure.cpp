@@ -22,8 +22,8 @@ void add_measure(CLI::App& app, bool& quiet) {
     command->add_flag("--json", *as_json, "print one line of JSON");
     add_budget_option(*command, *budget);
     command->footer(
-        "Lengths are in steps of the turtle, which starts at 0 0; in space, places have x, y and z. Systems without "
-        "contexts are not derived: order 60 costs as little as order 6.\n\n"
+        "Lengths are in turtle steps; the turtle starts at 0 0. In space, positions have x, y and z. Systems without "
+        "contexts are measured without deriving them: n = 60 costs as little as n = 6.\n\n"
         "Examples:\n"
         "  sikku measure snake-kolam\n"
         "  sikku measure hilbert -n 60 --json");

@@ -79,7 +79,7 @@ void check_arguments(const CLI::App& app, const std::vector<std::string>& argume
     if (!command) {
         const std::string_view near = nearest(arguments[0], names);
         throw UsageError(
-            fmt::format("there is no command '{}'{}", printable(arguments[0], 80),
+            fmt::format("unknown command '{}'{}", printable(arguments[0], 80),
                         near.empty() ? "; `sikku --help` lists them" : fmt::format("; did you mean '{}'?", near)));
     }
     const auto option_of = [&](const std::string& name) {

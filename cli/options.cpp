@@ -21,7 +21,7 @@ void TableOptions::add(CLI::App& command, std::span<const OptionInfo* const> tab
             one->option = command.add_flag(names, one->flag, std::string(info->help));
         } else {
             one->option = command.add_option(names, one->texts, std::string(info->help));
-            // Brackets around the value: it may be left out.
+            // Brackets mark an optional value.
             one->option->expected(info->value.starts_with('[') ? 0 : 1, info->is_list ? 1'000 : 1);
             one->option->allow_extra_args(false);
             one->option->multi_option_policy(info->is_list ? CLI::MultiOptionPolicy::TakeAll

@@ -1,4 +1,4 @@
-// cli/options.h: the option tables of the interpreters as options of the command line.
+// cli/options.h: adds the options of interpreters to commands.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -13,13 +13,13 @@
 
 namespace sikku {
 
-/// Options of a command that come from a table.
+/// The options of a command that come from a table.
 class TableOptions {
 public:
     TableOptions() : given_(std::make_shared<Given>()) {}
-    /// Adds `--name` for each row that the command does not have by itself.
+    /// Adds `--name` for each row, unless the command has an option of that name.
     void add(CLI::App& command, std::span<const OptionInfo* const> table);
-    /// What was given, after parsing, in the order of the table.
+    /// The given values in the order of the table. Call after parsing.
     OptionValues values() const;
 
 private:
@@ -33,8 +33,8 @@ private:
     std::shared_ptr<Given> given_;
 };
 
-/// How users of the command line write what a SettingError says: `--size 3x: expected …`; quoted names of options in
-/// the message, 'plotter', become `--plotter`.
+/// Formats a SettingError for the command line: `--size 3x: expected …`. Quoted names of options in the message,
+/// 'plotter', become `--plotter`.
 std::string option_message(const SettingError& error);
 /// The same of any text of a library: quoted names of options become options.
 std::string with_dashes(const std::string& text);

@@ -42,7 +42,7 @@ void list_patterns(const std::string& kind, bool names_only) {
     for (const LibraryPattern& known : patterns) kinds.insert(known.kind);
     if (kinds.empty()) throw UsageError("no patterns were found");
     const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
-    throw UsageError(fmt::format("there are no patterns '{}'; {}", kind,
+    throw UsageError(fmt::format("unknown kind of patterns '{}'; {}", kind,
                                  near.empty() ? fmt::format("there are: {}", fmt::join(kinds, ", "))
                                               : fmt::format("did you mean '{}'?", near)));
 }

@@ -19,7 +19,7 @@ struct PlayCommand {
     TableOptions options;
 };
 
-/// The name of the format that the file's extension asks for. @throws UsageError
+/// The name of the format with the file's extension. @throws UsageError
 std::string format_of(const std::string& output) {
     const std::string extension = std::filesystem::path(output).extension().string();
     const FormatName* format = find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1));
@@ -65,14 +65,15 @@ void add_play(CLI::App& app, bool& quiet) {
         ->required();
     add_override_options(*command, options->pattern);
     command
-        ->add_option("-o,--output", options->output,
-                     "output file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, the notes, time and "
-                     "range are reported")
+        ->add_option(
+            "-o,--output", options->output,
+            "output file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, notes, bars, time and "
+            "range are reported")
         ->type_name("FILE");
     options->options.add(*command, scores().options());
     command->footer(
-        "A horizontal run of the curve is a note: its pitch from y through the scale, its duration from its "
-        "length.\n\n"
+        "Each horizontal run of the curve is a note: its height determines the pitch in the scale, its length the "
+        "duration.\n\n"
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"

@@ -53,7 +53,7 @@ void show_scales(const ScalesOptions& options) {
         const std::vector<std::string> similar = similar_scales(wanted);
         const std::vector<std::string_view> near(similar.begin(), similar.end());
         throw UsageError(
-            fmt::format("there is no scale '{}'{}", printable(wanted, 80),
+            fmt::format("unknown scale '{}'{}", printable(wanted, 80),
                         near.empty() ? "; `sikku scales` lists the bundled scales" : did_you_mean(near)));
     }
     if (!options.as_json) {
@@ -71,12 +71,12 @@ void add_scales(CLI::App& app) {
     auto* command = app.add_subcommand("scales", "List the bundled scales, or show one");
     auto options = std::make_shared<ScalesOptions>();
     command->add_option("WORDS", options->words, "scale, words to search for, or Scala file (.scl)");
-    command->add_option("--tonic", options->tonic, "first note of the scale, for names of notes")
+    command->add_option("--tonic", options->tonic, "first note of the scale, which determines the names of notes")
         ->type_name("NOTE")
         ->capture_default_str();
     command->add_flag("--json", options->as_json, "print an array of JSON");
     command->footer(
-        "Notes that a piano lacks are named with their distance in cents: E-14.\n\n"
+        "Notes between the keys of a piano are named with their distance in cents: E-14.\n\n"
         "Examples:\n"
         "  sikku scales\n"
         "  sikku scales harmonic minor --tonic D\n"

@@ -31,14 +31,14 @@ extern "C" void stop_signal(int signal) {
     int none = 0;
     if (!signal_seen.compare_exchange_strong(none, signal)) end_at_once();
     if (!has_patience) return;
-    const int error = errno;  // of the interrupted code
+    const int error = errno;  // errno of the interrupted code
     itimerspec time{};
     time.it_value.tv_nsec = patience_milliseconds * 1'000'000;
     timer_settime(patience, 0, &time, nullptr);
     errno = error;
 }
 
-/// The work did not check for the request in time, or the program is slow to exit.
+/// Ends the program if the work did not check for the request in time, or the exit takes too long.
 extern "C" void patience_signal(int) {
     constexpr std::string_view message = "sikku: interrupted\n";
     // A lost terminal must not delay the exit.
@@ -47,7 +47,7 @@ extern "C" void patience_signal(int) {
     end_at_once();
 }
 
-/// The reader of the output is gone: the program ends as usual, but removes its temporary files.
+/// Removes temporary files after the reader of the output is gone, then ends the program by the signal.
 extern "C" void pipe_signal(int) {
     remove_unfinished_files();
     std::signal(SIGPIPE, SIG_DFL);

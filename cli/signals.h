@@ -1,4 +1,4 @@
-// cli/signals.h: handling of ctrl-C, a terminated session and a closed pipe.
+// cli/signals.h: handles ctrl-C, terminated sessions and closed pipes.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -15,11 +15,11 @@ class Interrupted : public Stopped {
 /// start (nohup, background jobs of a script) stay ignored.
 void catch_signals();
 
-/// Whether work should stop.
+/// True if work should stop.
 bool interrupted();
 
-/// Exit status after an interruption: 128 plus the signal number. Call before reporting it: a program that is slow to
-/// exit afterwards is still ended in time, but without a second message.
+/// Exit status after an interruption: 128 plus the signal number. Call before reporting it: a slow exit afterwards is
+/// still cut short, but without a second message.
 int interruption_status();
 
 /// Monitor for library work: stops when interrupted() does.

@@ -29,7 +29,9 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
     std::string text = "sikku " SIKKU_VERSION ", -n " + std::to_string(grammar.steps()) + before;
     const Overrides& overrides = document.overrides();
     if (!overrides.variant.empty()) text += " --variant " + overrides.variant;
-    const auto is_seed = [](const Setting& setting) { return setting.origin == "--seed"; };
+    const auto is_seed = [](const Setting& setting) {
+        return setting.origin == "--seed" || setting.origin == "seed";
+    };
     for (const Setting& setting : overrides.settings) {
         if (is_seed(setting)) text += " --seed " + setting.value;
     }
@@ -42,7 +44,7 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
 
 namespace {
 
-/// @throws SettingError for a name that is no option, no key and no define
+/// @throws SettingError for a name that is neither an option nor a key nor a define
 void require_known(const Interpreter& interpreter, const Document& document, const std::string& name) {
     std::vector<std::string_view> known;
     for (const OptionInfo* option : interpreter.options()) known.push_back(option->name);
@@ -66,7 +68,7 @@ std::string make_in_memory(const Interpreter& interpreter, const Document& docum
         const KeyInfo* key = find_language_key(value.name);
         const bool is_option = find_option(interpreter.options(), value.name) != nullptr;
         if (is_option) own.push_back(value);
-        // The random seed concerns both.
+        // A seed applies to both the pattern and the option.
         if (!is_option || (key && key->owner == KeyOwner::engine)) {
             settings.push_back({value.name, value.name, value.text});
         }

@@ -19,7 +19,7 @@ void set_key(S& settings, std::string_view name, const std::string& text) {
 
 std::vector<Option<S>> make_table() {
     std::vector<Option<S>> table;
-    static std::vector<std::string> help;  // string_views point into it
+    static std::vector<std::string> help;  // owns the texts of string_views
     const auto keys = keys_of(KeyOwner::music);
     help.reserve(keys.size());
     for (const std::string_view name : keys) {

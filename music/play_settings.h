@@ -1,4 +1,4 @@
-// music/play_settings.h: the options of a score, typed, and the one table that reads them.
+// music/play_settings.h: typed settings of a score, and the table of options that sets them.
 #pragma once
 
 #include "engine/base/option.h"
@@ -12,19 +12,19 @@
 namespace sikku {
 
 struct PlaySettings {
-    std::vector<Setting> keys;  ///< of the language, in the order of its table: `scale`, `tempo`, …
-    std::int64_t from_bar = 1;  ///< counted from 1
+    std::vector<Setting> keys;  ///< keys of the language in the order of their table: `scale`, `tempo`, …
+    std::int64_t from_bar = 1;  ///< first bar, counted from 1
     std::int64_t bars = 0;      ///< 0: all
     double seconds = 0;         ///< 0: all
     double transpose = 0;       ///< semitones, -127 to 127
     double humanise = 0;        ///< 0 to 1
-    std::uint64_t seed = 0;     ///< of humanise
-    int format = 1;             ///< of MIDI, 0 or 1
+    std::uint64_t seed = 0;     ///< random seed of humanise
+    int format = 1;             ///< MIDI format, 0 or 1
     Tuning tuning = Tuning::bend;
     double budget = 200e6;  ///< maximum number of derivation nodes visited
 };
 
-/// The table: every option of a score, in the order of help; first the keys of the language that music reads.
+/// Every option of a score, in the order of help, beginning with the keys that music owns.
 std::span<const Option<PlaySettings>> play_options();
 
 /// Reads options. @throws SettingError

@@ -1,5 +1,6 @@
 #include "music/scores.h"
 
+#include "engine/base/chance.h"
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 #include "engine/base/output_file.h"
@@ -22,10 +23,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 namespace sikku {
@@ -40,7 +39,7 @@ struct ScoreFormatInfo {
     ScoreFormat format;
 };
 
-/// A drawn score is `notes.svg` where prints are `svg`.
+/// The formats of scores. A drawn score is named `notes.svg`, because `svg` is a print.
 constexpr std::array<ScoreFormatInfo, 7> format_table = {{{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
                                                           {{"musicxml", "MusicXML", "xml"}, ScoreFormat::musicxml},
                                                           {{"ly", "LilyPond"}, ScoreFormat::lilypond},
@@ -54,7 +53,7 @@ struct Player {
     Document document;
     Melody melody;
     int first_voice = 0;
-    std::vector<std::string> warnings;  ///< about values of options
+    std::vector<std::string> warnings;  ///< warnings about values of options
 };
 
 /// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
@@ -86,9 +85,8 @@ public:
     void notes(std::span<const Note> notes) override {
         changed_.assign(notes.begin(), notes.end());
         for (Note& note : changed_) {
-            const std::uint64_t chance =
-                scrambled(seed_ ^ scrambled(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
-                                            static_cast<std::uint64_t>(note.voice)));
+            const std::uint64_t chance = next(seed_ ^ next(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
+                                                           static_cast<std::uint64_t>(note.voice)));
             const double late = static_cast<double>(chance >> 40) / 0x1p24;
             const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
             const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
@@ -103,12 +101,7 @@ public:
 
 private:
     /// Steele, Lea and Flood 2014: SplitMix64.
-    static std::uint64_t scrambled(std::uint64_t value) {
-        value += 0x9E3779B97F4A7C15;
-        value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9;
-        value = (value ^ (value >> 27)) * 0x94D049BB133111EB;
-        return value ^ (value >> 31);
-    }
+    static std::uint64_t next(std::uint64_t value) { return scrambled(value + 0x9E3779B97F4A7C15); }
     NoteSink& sink_;
     double amount_;
     std::uint64_t seed_;
@@ -130,13 +123,8 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     std::error_code error;
     const bool is_there = std::filesystem::exists(first / name, error);
     const std::filesystem::path path = (is_there ? first : then) / name;
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(most_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (!stream.eof() && text.size() <= most_bytes) {
-        throw std::runtime_error(fmt::format("{}: this file cannot be read", name));
-    }
+    if (std::filesystem::is_fifo(path, error)) throw std::runtime_error(fmt::format("{}: this is a pipe", name));
+    std::string text = read_file(path, name, most_bytes);
     if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
     if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
     return text;
@@ -161,7 +149,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
     player.melody = read_melody(
         player.document.pattern(),
         [&](const std::string& file) {
-            // Files named by the pattern lie beside it, those named by options in the folder of the options.
+            // Files that the pattern names are beside it; files that options name are in the folder of the options.
             const bool is_option = std::any_of(settings.keys.begin(), settings.keys.end(),
                                                [&](const Setting& setting) { return setting.value == file; });
             std::string text =
@@ -171,7 +159,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
         },
         diagnostics);
     diagnostics.throw_if_errors();
-    // Those about the pattern itself are the document's.
+    // Warnings about the pattern itself belong to the document.
     for (const Diagnostic& warning : diagnostics.list()) {
         if (warning.where.line == 0) player.warnings.push_back(warning.message);
     }
@@ -202,7 +190,8 @@ PlayOptions piece_of(const PlaySettings& options, const Melody& melody, const Mo
     playing.watch = [monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     const std::int64_t bar = melody.meter.bar();
     if (options.from_bar - 1 > (INT64_MAX / 4) / bar) {
-        throw SettingError("from-bar", std::to_string(options.from_bar), "more than 2^60 ticks from the beginning");
+        throw SettingError("from-bar", std::to_string(options.from_bar),
+                           "this bar is more than 2^60 ticks from the beginning");
     }
     playing.from = (options.from_bar - 1) * bar;
     if (options.bars > 0) playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
@@ -285,7 +274,6 @@ std::string range_of(const PlayReport& report, const Melody& melody) {
     return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
 }
 
-/// Reports without writing a score: by playing, or, where that is too long, by the fold.
 /// Why a melody has no notes, and what may help; empty if unknown.
 std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
     if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
@@ -295,6 +283,7 @@ std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
                                                : "");
 }
 
+/// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
 std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
     PlayOptions playing = piece;
     playing.budget = std::min(piece.budget, 20e6);
@@ -404,17 +393,7 @@ void report_notation(const Notation& notation, Made& made) {
     }
 }
 
-/// Symbols of the word that draw, disc or polygon corner alike.
-double drawn_symbols(const Grammar& grammar, const Forecast& known) {
-    double drawn = 0;
-    for (std::size_t symbol = 0; symbol < grammar.symbols().size() && symbol < known.rough_counts.size(); ++symbol) {
-        const Action action = grammar.symbols()[symbol].command.action;
-        if (action == Action::draw || action == Action::disc) drawn += known.rough_counts[symbol];
-    }
-    return drawn;
-}
-
-/// A score, planned.
+/// A planned score.
 class ScoreWork : public Work {
 public:
     /// @throws SettingError, PatternError; std::runtime_error if a file that a pattern names cannot be read
@@ -427,7 +406,7 @@ public:
         for (const Document& document : documents) {
             players_.push_back(read_player(settings_, document, folder, witness));
             Melody& melody = players_.back().melody;
-            // The lowest octave of MIDI is below what MusicXML can write.
+            // MusicXML cannot represent the lowest octave of MIDI.
             if (format == ScoreFormat::musicxml) melody.lowest = std::max(melody.lowest, lowest_in_musicxml);
             midi_.microtonal = midi_.microtonal || melody.is_microtonal();
         }
@@ -462,7 +441,7 @@ private:
     Monitor monitor_;
 };
 
-/// @throws BudgetError for more notes than a MIDI file holds
+/// @throws BudgetError for more notes than a MIDI file can contain
 void ScoreWork::check_size(const PlayOptions& playing) const {
     const bool as_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
     if (!as_midi || playing.to < INT64_MAX) return;
@@ -470,7 +449,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
         const auto known = census(player.document.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(
-                fmt::format("{} notes would make a file of over 4 GiB, which MIDI cannot hold; limit the "
+                fmt::format("{} notes would exceed the limit of MIDI files, 4 GiB; limit the "
                             "bars or seconds",
                             known->notes.str()));
         }
@@ -484,7 +463,7 @@ double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing,
     const double seconds = static_cast<double>(report.end) / static_cast<double>(ticks_per_quarter) * 60 / head.tempo;
     if (seconds > most_audio_seconds) {
         throw ScoreError(
-            fmt::format("{} of sound are too long: a WAV file holds 6 hours 45 minutes; limit the bars or "
+            fmt::format("{} of sound are too long: a WAV file can contain 6 hours 45 minutes; limit the bars or "
                         "seconds",
                         time_text(seconds)));
     }
@@ -554,7 +533,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
         if (format_ == ScoreFormat::wav || format_ == ScoreFormat::flac) {
             throw std::runtime_error(fmt::format("cannot write '{}': sound needs a regular file", name.string()));
         }
-        // Writers go back to the beginning, pipes cannot.
+        // Writers of sound seek to the beginning, which pipes do not support.
         MemoryOutput whole;
         write(head, playing, whole, made);
         output->write(whole.bytes());
@@ -564,14 +543,17 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
 }
 
 Cost ScoreWork::forecast() const {
-    constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving shows
+    constexpr double unknown_symbols = 1e6;  // assumed for words of unknown length
     Cost result;
     for (const Player& player : players_) {
         const Grammar& grammar = player.document.grammar();
         const auto known = estimate(grammar, true);
         double nodes = std::min(known ? known->nodes : unknown_symbols, settings_.budget);
         double notes = std::min(known ? drawn_symbols(grammar, *known) : nodes / 2, nodes);
-        if (settings_.bars > 0 || settings_.seconds > 0) nodes = notes = std::min(notes, 10'000.0);
+        if (settings_.bars > 0 || settings_.seconds > 0) {
+            nodes = notes = std::min(
+                notes, std::max(10'000.0, 64.0 * static_cast<double>(settings_.bars) + 32 * settings_.seconds));
+        }
         result.seconds += 0.0015 + nodes * 15e-9 + notes * 80e-9 + matching_seconds(grammar, settings_.budget);
         result.bytes += 600 + notes * 9;
         result.memory += 8e6;

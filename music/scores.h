@@ -20,12 +20,12 @@ const Interpreter& scores();
 /// @throws SettingError, PatternError, BudgetError, WordError, ScoreError
 std::string play(const Document& document, std::string_view format, const OptionValues& values = {});
 
-/// Plans a score of several documents, each a part; the first one sets tempo and meter.
-/// @param folder  of files that `values` name
+/// Plans a score with a part for each document; the first one sets tempo and meter.
+/// @param folder  folder of files that `values` name
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,
                                  const OptionValues& values, const std::filesystem::path& folder = {});
 
-/// Describes the music without writing a score: notes, bars, time and range, a block of lines for each document.
+/// Describes the music without writing a score: notes, bars, time and range, in a block of lines for each document.
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// tests/import_tools.h: systems imported from texts, and the words that their patterns derive.
+// tests/import_tools.h: imports systems from texts, and derives the words of their patterns.
 #pragma once
 
 #include "engine/import/import.h"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Checks the format of all sources, and with clang-tidy those that were changed: usage: lint.sh BUILD_FOLDER [--all]
-# BUILD_FOLDER has compile_commands.json. A source that was found clean is not looked at again until it, a header or
-# the settings change. Without --all, only what differs from the commit before the last is looked at, without the
-# static analyser, which takes minutes; outside of a git repository that is nothing.
+# Checks the format of all sources, and runs clang-tidy on changed ones. Usage: lint.sh BUILD_FOLDER [--all]
+# BUILD_FOLDER has compile_commands.json. A clean source is checked again only after it, a header or the settings
+# change. Without --all, only files that differ from the commit before the last are checked (none outside of a git
+# repository), without the static analyser, which takes minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
@@ -13,29 +13,26 @@ echo "clang-format: ${#sources[@]} files"
 
 mapfile -t wanted < <(find engine art music cli -name '*.cpp' | sort)
 total=${#wanted[@]}
-checks=()
 if [ "$all" != --all ]; then
-    checks=("--checks=-clang-analyzer-*,-bugprone-unchecked-optional-access")
     mapfile -t wanted < <(git diff --name-only --diff-filter=d HEAD~1 -- engine art music cli 2> /dev/null |
         grep '\.cpp$' || true)
 fi
 mkdir -p "$build/tidy"
-# Precompiled headers are for the compiler that made them: clang-tidy cannot read those of g++.
+# clang-tidy cannot read the precompiled headers of g++.
 sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
     > "$build/tidy/compile_commands.json"
-# The headers and settings that any source may see.
+# All headers and settings.
 seen=$(cat .clang-tidy $(find engine art music cli -name '*.h' | sort) | sha256sum | cut -c1-24)
 export build seen
 tidy() {
     local source=$1 stamp
-    shift
-    stamp=$build/tidy/$(cat "$source" <(echo "$seen" "$@") | sha256sum | cut -c1-32)
+    stamp=$build/tidy/$(cat "$source" <(echo "$seen") | sha256sum | cut -c1-32)
     [ ! -e "$stamp" ] || return 0
-    clang-tidy -p "$build/tidy" --quiet --warnings-as-errors='*' "$@" "$source" 2> /dev/null && touch "$stamp"
+    clang-tidy -p "$build/tidy" --quiet --warnings-as-errors='*' "$source" 2> /dev/null && touch "$stamp"
 }
 export -f tidy
 if [ "${#wanted[@]}" -gt 0 ]; then
     printf '%s\n' "${wanted[@]}" |
-        xargs -P "$(nproc)" -I{} bash -c 'source=$1; shift; tidy "$source" "$@"' _ {} "${checks[@]}"
+        xargs -P "$(nproc)" -I{} bash -c 'tidy {}'
 fi
 echo "clang-tidy: ${#wanted[@]} of $total sources"

@@ -2,13 +2,13 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
-# For tests: the framework, independent readers of what the program writes, and the linters.
+# For tests: the framework, independent readers of the program's outputs, and the linters.
 test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
     midicsv python3-mido clang-format clang-tidy)
 # For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.
-full_packages=(clang libclang-rt-14-dev inkscape lilypond musescore3 fluidsynth timgm6mb-soundfont flac chromium
-    slurm-wlm munge)
+full_packages=(clang libclang-rt-14-dev libc++-13-dev libfast-float-dev inkscape lilypond musescore3 fluidsynth
+    timgm6mb-soundfont flac chromium slurm-wlm munge)
 command -v npm > /dev/null || full_packages+=(npm)
 
 # Those of its arguments that are not installed, a line each.

@@ -84,7 +84,7 @@ public:
             dup2(standard_output, STDOUT_FILENO);
             dup2(standard_error, STDERR_FILENO);
             for (const auto& [name, value] : surroundings_.environment) setenv(name.c_str(), value.c_str(), 1);
-            // The tests may run in the background of a script, which ignores some of them.
+            // A script that runs the tests in the background may ignore some signals.
             for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
             if (surroundings_.file_size) {
                 const rlimit limit{*surroundings_.file_size, *surroundings_.file_size};

@@ -12,7 +12,7 @@ inline bool has_program(const std::string& name) {
     return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// Skips the rest of a test on machines without the program.
+/// Skips the rest of a test if the program is not installed.
 #define NEEDS(program) \
     if (!has_program(program)) GTEST_SKIP() << program " is not installed"
 

@@ -18,7 +18,7 @@ bool has_ornaments(const Style& style, const DrawOptions& options) {
 Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
     : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
     if (grammar.is_spatial()) {
-        throw std::runtime_error("dots, colours by strand and borders are for drawings in the plane");
+        throw std::runtime_error("dots, colours by strand and borders apply only to drawings in the plane");
     }
     if (style_.dots || options.colours_strokes) examine(grammar);
     if (style_.dots) set_spacing();
@@ -71,8 +71,8 @@ void Composition::add_colours() {
     }
 }
 
-/// Colours of the pattern's own palette if they distinguish lines; otherwise, on dark ground, those of kolams.
-/// None is close to the ground.
+/// Uses the pattern's palette if its colours distinguish lines, otherwise the kolam colours on dark ground. Omits
+/// colours close to the ground.
 void Composition::add_stroke_colours() {
     constexpr double least = 0.12;  // in OKLab
     const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : Colour{255, 255, 255, 255};

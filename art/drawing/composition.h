@@ -10,15 +10,15 @@
 
 namespace sikku {
 
-/// True if style and options ask for anything that a Composition adds.
+/// True if the style or the options request dots, a border or strand colours.
 bool has_ornaments(const Style& style, const DrawOptions& options);
 
-/// Another drawing with all that is drawn beside it, in the colours of one palette.
+/// Adds dots, a border and strand colours to another drawing, in one palette.
 class Composition : public Drawing {
 public:
-    /// Examines the drawing for its dots and strands, if they count, and sets the step that a distance of dots asks
-    /// for. `grammar` is that of `lines`.
-    /// @throws BudgetError, WordError; std::runtime_error if dots are asked for and cannot be had
+    /// Finds dots and strands if they are needed, and computes the step for a requested dot spacing. `grammar` is the
+    /// grammar of `lines`.
+    /// @throws BudgetError, WordError; std::runtime_error if requested dots cannot be drawn
     Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options);
 
     const DrawnExtent& seen() override { return lines_->seen(); }
@@ -38,13 +38,13 @@ private:
     void read_dots(const Print& print, const std::vector<glm::dvec2>& drawn, PathSink& sink) const;
 
     std::unique_ptr<WordDrawing> lines_;
-    Style drawn_;  ///< with the palette of the drawing alone
-    Style style_;  ///< with the colours of what is added
+    Style drawn_;  ///< the style of the drawing, with its own palette
+    Style style_;  ///< with the colours of dots, border and strands added
     std::vector<glm::dvec2> dots_;
-    double distance_ = 0;  ///< between the nearest of them, in steps
+    double distance_ = 0;  ///< between the nearest dots, in steps
     Pen dot_pen_;
     int border_colour_ = 0;
-    std::vector<std::uint32_t> orbit_of_stroke_;  ///< of its line
+    std::vector<std::uint32_t> orbit_of_stroke_;  ///< orbit of the stroke's line
     std::vector<int> stroke_colours_;
 };
 

@@ -21,17 +21,8 @@
 namespace sikku {
 namespace {
 
-/// Keeping a part of a model, whose tubes have sides, takes the memory and time of about so many nodes.
+/// Memory and time of one part of a model, in nodes: its tubes have many sides.
 constexpr double nodes_of_modelled_part = 200;
-
-/// Calls `watch` from one thread at a time.
-std::function<void(std::uint64_t)> one_at_a_time(std::function<void(std::uint64_t)> watch) {
-    if (!watch) return watch;
-    return [watch = std::move(watch), mutex = std::make_shared<std::mutex>()](std::uint64_t symbols) {
-        const std::scoped_lock lock(*mutex);
-        watch(symbols);
-    };
-}
 
 void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     const double width = 0.1 / (print.style.stroke.in_steps ? print.placement.step : 1.0) / print.style.stroke.unit;
@@ -98,11 +89,10 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
 
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file, Destination& destination) {
-    DrawOptions options = given_options;
-    options.watch = one_at_a_time(options.watch);
+    const DrawOptions options = with_locked_watch(given_options);
     if (!is_vector(options.format)) prepare_images(options.threads);
     if (grammar.is_spatial() && print.animation) {
-        throw std::runtime_error("animations are for drawings in the plane");
+        throw std::runtime_error("animations apply only to drawings in the plane");
     }
     const auto drawing = make_drawing(grammar, print.style, options);
     if (options.tiles) return draw_tiles(*drawing, std::move(print), options, file, destination);

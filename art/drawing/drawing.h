@@ -1,4 +1,4 @@
-// art/drawing/drawing.h: a drawing before it has a place: whatever draws takes one of these.
+// art/drawing/drawing.h: the interface of all drawings, which are placed on a page and then read.
 #pragma once
 
 #include "art/drawing/draw_options.h"
@@ -12,7 +12,7 @@
 
 namespace sikku {
 
-/// Calculates the placement of `print` on its page, with the pen around what is seen; `stroke` gives its measure.
+/// Calculates the placement of `print` on its page, including the width of the pen, whose unit `stroke` gives.
 /// @throws std::runtime_error if the margins leave no room
 DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
                        const PlacementOptions& placement);
@@ -20,12 +20,12 @@ DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth&
 /// The whole page of a print, with its margin.
 Window whole_page(const Page& page);
 
-/// What lies in a window of the page, and up to `around` millimetres outside of it, as the drawing sees it.
+/// Converts a window of the page, widened by `around` millimetres, into the coordinates of the drawing.
 Box seen_box(const Print& print, const Window& window, double around);
 
-/// A drawing that is placed and then read, any number of times, always into the same strokes. Its implementations
-/// read the word (WordDrawing), look at it through a view (SeenDrawing), or add dots, a border and colours to another
-/// drawing (Composition); make_drawing() chooses.
+/// A drawing that is placed once and then read any number of times, with the same strokes each time. Implementations
+/// read the word (WordDrawing), draw only the visible parts (SeenDrawing), or add dots, a border and colours to
+/// another drawing (Composition); make_drawing() chooses one.
 class Drawing {
 public:
     explicit Drawing(const DrawOptions& options) : options_(options) {}
@@ -33,66 +33,68 @@ public:
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
 
-    /// What the page has to hold: all that is drawn, or the window. Calculated when it is first requested. The box is
-    /// empty if nothing is drawn.
+    /// The extent to be placed on the page: the whole drawing, or the window. Calculated on the first call. The box
+    /// is empty if nothing is drawn.
     virtual const DrawnExtent& seen() = 0;
-    /// The same. @throws std::runtime_error if nothing is drawn
+    /// extent(). @throws std::runtime_error if nothing is drawn
     const DrawnExtent& extent();
     /// The style in which read() draws.
     virtual const Style& style() const = 0;
     /// Fraction of the page that a fitted drawing fills.
     virtual double scale() const = 0;
-    /// Millimetres on each side, within the margins, that are kept free for a border on a page of that size.
+    /// Width of the border on a page of that size, in millimetres on each side within the margins; 0 without a
+    /// border.
     virtual double border_space(const Page&) const { return 0; }
-    /// Bounds of all points of a drawing in space, without the width of pens, once it was read.
+    /// Bounds of all points of a drawing in space, without the width of pens; available after reading.
     virtual std::optional<SpaceBounds> bounds() const { return std::nullopt; }
-    /// Millimetres of a step, if the options or the dots set it.
+    /// Step length in millimetres, if the options or the dot spacing fix it.
     std::optional<double> fixed_step() const { return options_.placement.step; }
 
-    /// Calculates the placement of `print` on its page. @throws as extent(), unless the options have a frame, and if
-    /// the margins leave no room
+    /// Calculates the placement of `print` on its page. @throws std::runtime_error if nothing is drawn, unless the
+    /// options have a frame, or if the margins leave no room
     DrawReport place(Print& print);
 
-    /// Draws all strokes into `sink`. To be called after extent() or place().
+    /// Draws all strokes into `sink`. Call after extent() or place().
     /// @param print   placed, in style()
-    /// @param window  where on the page the drawing lies: a view looks no further, and a border lies within its
-    /// margin
+    /// @param window  part of the page that is drawn on: a view visits nothing outside it, and a border lies within
+    /// its margin
     virtual void read(const Print& print, const Window& window, PathSink& sink) const = 0;
     void read(const Print& print, PathSink& sink) const { read(print, whole_page(print.page), sink); }
-    /// The same without the strokes that lie outside, if the options have a window. To be called after place().
+    /// Like read(), but omits strokes outside the window of the options, if there is one. Call after place().
     void read_visible(const Print& print, const Window& window, PathSink& sink) const;
 
-    /// The same as pixels of the page. `print` and the drawing must outlive them.
+    /// Renders the page as pixels. `print` and the drawing must outlive the result.
     virtual std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const;
     std::unique_ptr<Rendering> rendering(const Print& print) const {
         return rendering(print, whole_page(print.page));
     }
 
-    /// Adds what read() and the renderings found so far.
+    /// Adds the findings of read() and the renderings so far to a report.
     virtual void report(DrawReport&) const {}
 
 protected:
     DrawOptions options_;
 
 private:
-    double around_ = 0;  ///< widest pen of what goes on around a window, in the measure of the style's stroke
+    double around_ = 0;  ///< widest pen of lines that continue outside a window, in the unit of the style's stroke
 };
 
-/// The drawing of a grammar with all that `style` and `options` ask for: read from the word, or seen through a view
-/// where it has one, with dots, border and strand colours around it.
+/// Makes the drawing of a grammar: read from the word, or through a view if there is one, with the dots, border and
+/// strand colours that `style` and `options` request.
 /// @throws BudgetError, WordError; std::runtime_error if it cannot be drawn
 std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
 
-/// What a drawing costs, roughly.
+/// Rough estimate of the cost of a drawing.
 struct DrawingCost {
-    double nodes = 0;          ///< of the derivation that are visited in a pass
-    double lines = 0;          ///< and what is drawn of them
+    double nodes = 0;          ///< derivation nodes visited in a pass
+    double lines = 0;          ///< lines, polygons and discs drawn in a pass
     double memory = 0;         ///< bytes, on one thread
-    double thread_memory = 0;  ///< more for each further thread
+    double thread_memory = 0;  ///< bytes for each further thread
+    double kept_memory = 0;    ///< bytes of `memory` that the drawing itself keeps
     double lines_memory = 0;   ///< bytes of `memory` kept by a Raster when it has read the whole drawing
 };
 
-/// Forecasts the cost of make_drawing() and one print. @param print  its page, style and resolution count
+/// Forecasts the cost of make_drawing() and one print. Uses the page, the style and the resolution of `print`.
 /// @throws BudgetError if the word is too long to be read
 DrawingCost drawing_cost(const Grammar& grammar, const Print& print, const DrawOptions& options);
 

@@ -31,7 +31,7 @@ Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
 DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions options, const GrowthOptions& growth,
                      std::optional<SpaceBounds>& bounds) {
     options.begin = nullptr;
-    // The frame is that of the lines: dots lie between them.
+    // The lines alone determine the frame: dots lie between them.
     options.border = options.colours_strokes = options.only_dots = false;
     Style lines = style;
     lines.dots.reset();
@@ -55,7 +55,7 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     return frame;
 }
 
-/// Turns a distance of dots into a step that all generations share: that of the last one with two dots.
+/// Turns a dot spacing into one step for all generations, computed from the last one with two dots.
 void set_step(const Grammar& grammar, const Style& style, DrawOptions& options, const GrowthOptions& growth) {
     for (std::int64_t n = growth.last; n >= growth.first && !options.placement.step; --n) {
         options.placement.step = make_drawing(generation_of(grammar, n), style, options)->fixed_step();
@@ -101,7 +101,7 @@ void add_recipe(const std::filesystem::path& file, const Print& print) {
 
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
-    // All are read as words: the largest decides, before the first is drawn.
+    // All generations are read as words, so the largest is checked before the first is drawn.
     require_affordable(generation_of(grammar, growth.last), true, options.budget);
     const PixelSize size = pixel_size(given.page, given.dpi);
     const auto opened = destination.open(file);
@@ -163,14 +163,14 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
                         most_frames, most_steps));
     }
     Print print = given;
-    DrawOptions options = given_options;
+    DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
     if (!is_vector(options.format)) prepare_images(options.threads);
     if (options.dot_spacing) set_step(grammar, print.style, options, growth);
     std::optional<SpaceBounds> bounds;
     const DrawnExtent frame = frame_of(grammar, print.style, options, growth, bounds);
-    if (frame.box.empty()) throw std::runtime_error("nothing to draw in any of these generations");
-    // A window is itself what all show.
+    if (frame.box.empty()) throw std::runtime_error("none of these generations draws anything");
+    // All generations show the same window.
     if (!options.window) options.frame = frame;
     if (print.style.camera.distance && bounds && !growth.fits_each) {
         // Only now it is known where a camera with perspective stands.
@@ -182,12 +182,15 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
         draw_gif(grammar, print, options, growth, file, destination, report);
         return report;
     }
+    bool leaves_pattern_out = false;
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
         if (growth.made) print.made = growth.made(generation);
         report = draw(generation, print, framed(grammar, print.style, options, growth, n),
                       frame_file(file, n, growth.last), destination);
+        leaves_pattern_out = leaves_pattern_out || report.leaves_pattern_out;
     }
+    report.leaves_pattern_out = leaves_pattern_out;
     return report;
 }
 

@@ -1,4 +1,4 @@
-// art/drawing/growth.h: one generation after the other, before a camera that stands still.
+// art/drawing/growth.h: animations and series of generations with a fixed camera.
 #pragma once
 
 #include "art/drawing/draw.h"
@@ -19,7 +19,7 @@ struct GrowthOptions {
     double hold = 2.0;                 ///< minimum display time of the last one
     bool fits_each = false;            ///< scale each to the page instead of sharing one scale and position
     bool is_animation = false;         ///< one animated GIF instead of a file for each generation
-    /// What Print::made says of a file of its own; null: as it stands.
+    /// Text for Print::made of a generation's own file; null: the print's text unchanged.
     std::function<std::string(const Grammar& generation)> made{};
 };
 
@@ -31,7 +31,7 @@ std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t
 /// (frame_file()). For GIF, `print` and `options` have the same meaning as for a PNG on white paper.
 /// Generations that draw nothing are empty pages. Separate files appear one after the other, each whole; an error in
 /// a later one leaves earlier ones in place.
-/// @return what became of the last
+/// @return report about the last generation
 /// @throws as draw(); std::runtime_error if all are empty or there are more than most_frames
 DrawReport draw_growth(const Grammar& grammar, const Print& print, const DrawOptions& options,
                        const GrowthOptions& growth, const std::filesystem::path& file,

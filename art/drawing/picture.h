@@ -1,4 +1,4 @@
-// art/drawing/picture.h: the pixels of a print on their way into a file.
+// art/drawing/picture.h: writes the pixels of a print into picture files.
 #pragma once
 
 #include "art/drawing/draw_options.h"
@@ -23,7 +23,7 @@ public:
     Picture(const Print& print, const DrawOptions& options, int channels, Output& output, std::filesystem::path file);
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
     void close();
-    /// After the last row: is every pixel indistinguishable from the ground?
+    /// True if no pixel can be distinguished from the ground. Call after the last row.
     bool is_blank() const { return !has_ink_; }
 
 private:

@@ -5,6 +5,7 @@
 #include "art/space/hidden_lines.h"
 #include "art/space/stage.h"
 #include "art/space/triangles.h"
+#include "engine/base/bits.h"
 #include "engine/geometry/bezier.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <unordered_set>
@@ -23,10 +23,10 @@ namespace sikku {
 namespace {
 
 constexpr double thin_stem = 0.5;    // millimetres
-constexpr double thinnest = 0.05;    // millimetres, of pens that fill
-constexpr double tolerance = 0.005;  // millimetres, of curves as lines
+constexpr double thinnest = 0.05;    // millimetres; least pen width for fills
+constexpr double tolerance = 0.005;  // millimetres; deviation of flattened curves
 
-/// Two points of a scene, in either order.
+/// An undirected edge between two points of a scene.
 struct Edge {
     std::array<glm::vec3, 2> ends;
     Edge(const glm::vec3& a, const glm::vec3& b) : ends{a, b} {
@@ -40,8 +40,8 @@ struct EdgeHash {
         std::uint64_t hash = 0;
         for (const glm::vec3& end : edge.ends) {
             for (const float value : {end.x, end.y, end.z}) {
-                // Both zeros are equal.
-                hash = (hash ^ std::bit_cast<std::uint32_t>(value + 0.0F)) * 0x9e3779b97f4a7c15U;
+                // Adding 0 maps -0 to 0, so that equal numbers have equal hashes.
+                hash = (hash ^ bit_cast<std::uint32_t>(value + 0.0F)) * 0x9e3779b97f4a7c15U;
                 hash ^= hash >> 29;
             }
         }
@@ -73,7 +73,7 @@ public:
 
 private:
     using Owner = HiddenLines::Owner;
-    // In the order of draw_solids(): of what is equally near, the later lies over the earlier.
+    // Owners are numbered in the order of draw_solids(): at equal depth, later ones cover earlier ones.
     Owner owner_of_polygon(std::size_t i) const { return static_cast<Owner>(scene_.segments().size() + i); }
     Owner owner_of_sphere(std::size_t i) const {
         return static_cast<Owner>(scene_.segments().size() + scene_.polygons().size() + i);
@@ -83,7 +83,7 @@ private:
     double after(const SceneSegment& segment) const { return stage_.radius(segment.after, segment.to); }
     double width(const SceneSegment& segment) const { return 2 * std::max(before(segment), after(segment)) * step_; }
 
-    /// The real pen, as wide as a line of the style if there is none given.
+    /// The pen to draw with: as wide as `pen_width`, or as the style's line if that is 0.
     Pen pen(int colour, const SceneWidth& width) const {
         if (!(options_.pen_width > 0)) return width.pen(colour);
         const StrokeWidth& stroke = print_.style.stroke;
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    /// @return is all of it visible?
+    /// True if the whole line is visible.
     bool is_visible(std::span<const glm::dvec3> points, Owner owner) const {
         const auto parts = hidden_.visible(points, owner, 0.0);
         return parts.size() == 1 && parts[0].size() == points.size();
@@ -138,10 +138,10 @@ private:
     }
 
     std::size_t passes(const SceneSegment& segment) const {
-        return options_.pen_width > 0 ? pass_offsets(width(segment), options_.pen_width).size() : 1;
+        return options_.pen_width > 0 ? pass_count(width(segment), options_.pen_width) : 1;
     }
 
-    /// Segments that go on in the same colour and as many passes are a stroke.
+    /// Draws consecutive segments of the same colour and number of passes as one stroke.
     void draw_stems() {
         const auto& segments = scene_.segments();
         for (std::size_t first = 0; first < segments.size();) {
@@ -159,7 +159,7 @@ private:
         }
     }
 
-    /// As near as the front of the stem, so that one that goes on does not hide itself.
+    /// Draws the middle line at the depth of the stem's front, so that a continuing stem does not hide itself.
     void draw_thin(std::span<const SceneSegment> stem, Owner owner) {
         const auto front = [&](const glm::vec3& at, double radius) {
             return stage_.place(at) + glm::dvec3(0, 0, radius);
@@ -172,8 +172,9 @@ private:
         draw_line(points, pen(stem[0].colour, stem[0].after), owner);
     }
 
-    /// To and fro over the width of the stem; ends are round.
+    /// Fills the width of the stem in passes back and forth, with round ends.
     void draw_wide(std::span<const SceneSegment> stem, std::size_t count, Owner owner) {
+        require_few_passes(stem.size(), count);
         const Pen real = pen(stem[0].colour, stem[0].after);
         const double half_pen = options_.pen_width / 2 / step_;
         std::vector<glm::dvec3> points;
@@ -189,7 +190,7 @@ private:
                 const glm::dvec3 side(-along.y, along.x, 0), front(0, 0, 1);
                 const double a = std::max(0.0, before(stem[i]) - half_pen);
                 const double b = std::max(0.0, after(stem[i]) - half_pen);
-                // Never as deep as the bands that stand for the stem.
+                // Stay in front of the bands that represent the stem in hidden_.
                 const double above = std::max(rest, 0.2);
                 const glm::dvec3 begin = from + share * a * side + above * before(stem[i]) * front;
                 const glm::dvec3 end = to + share * b * side + above * after(stem[i]) * front;
@@ -233,7 +234,7 @@ private:
         for (const auto& corners : triangulate(vertices).triangles) {
             facets.emplace_back(placed[corners[0]], placed[corners[1]], placed[corners[2]]);
         }
-        // One that is folded on the page is hatched in its mean plane.
+        // A polygon that appears folded is hatched in its mean plane.
         const auto is_front = [](const Facet& facet) { return facet.is_seen && !facet.is_back; };
         const auto is_back = [](const Facet& facet) { return facet.is_seen && facet.is_back; };
         if (std::any_of(facets.begin(), facets.end(), is_front) &&
@@ -251,15 +252,15 @@ private:
         }
     }
 
-    /// A triangle on the page: dot(side, (x, y, 1)) is the share of each corner, dot(plane, (x, y, 1)) the depth.
+    /// A triangle on the page. shares * (x, y, 1) are barycentric coordinates, dot(plane, (x, y, 1)) is the depth.
     struct Facet {
-        glm::dmat3 shares{0.0};  ///< rows
+        glm::dmat3 shares{0.0};  ///< barycentric coordinates, one row for each corner
         glm::dvec3 plane{0.0};
-        double low = 0, high = 0;  ///< depths
+        double low = 0, high = 0;  ///< range of depths
         bool is_seen = false;
         bool is_back = false;  ///< clockwise on the page
 
-        /// The whole page in the mean plane of a polygon.
+        /// Covers the whole page with the mean plane of a polygon.
         explicit Facet(std::span<const glm::dvec3> polygon) {
             const std::vector<glm::vec3> vertices(polygon.begin(), polygon.end());
             const glm::dvec3 normal = area_normal(vertices);
@@ -290,7 +291,7 @@ private:
         }
     };
 
-    /// A line of the page on a surface: with a point more wherever it passes from one triangle to the next.
+    /// Lifts a line of the page onto a surface; adds a point where the line enters another triangle.
     std::vector<glm::dvec3> on_facets(std::span<const glm::dvec2> line, std::span<const Facet> facets) {
         std::vector<glm::dvec3> points;
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -318,17 +319,17 @@ private:
             });
             const auto add = [&](double t, const Facet& facet) {
                 const glm::dvec3 at = a + t * (b - a);
-                // Steep triangles are not extrapolated.
+                // Clamped: steep triangles must not be extrapolated.
                 points.emplace_back(glm::dvec2(at), std::clamp(glm::dot(facet.plane, at), facet.low, facet.high));
             };
             if (stretches.empty()) {
-                // Along an edge: as deep as what came before.
+                // Along an edge, keep the depth of the previous point.
                 for (const glm::dvec3& at : {a, b}) points.emplace_back(glm::dvec2(at), depth_);
                 continue;
             }
             add(0, *stretches.front().facet);
             for (std::size_t k = 1; k < stretches.size(); ++k) {
-                // Flat ones take no point.
+                // Coplanar neighbours need no point between them.
                 const glm::dvec3 change = stretches[k].facet->plane - stretches[k - 1].facet->plane;
                 if (glm::length(change) > 1e-9) add(stretches[k].from, *stretches[k].facet);
             }
@@ -373,8 +374,8 @@ private:
     double step_;
     std::vector<int> fill_pens_;
     HiddenLines hidden_;
-    std::unordered_set<Edge, EdgeHash> edges_;  ///< that are drawn
-    double depth_ = 0.0;                        ///< of the last point of hatching
+    std::unordered_set<Edge, EdgeHash> edges_;  ///< edges that are drawn already
+    double depth_ = 0.0;                        ///< depth of the last point of hatching
 };
 
 }  // namespace

@@ -35,6 +35,9 @@ constexpr double line_bytes = 5;         // of a line in a raster
 constexpr double band_pixel_bytes = 10;  // of a band that is rendered
 constexpr double picture_bytes = 6e6;    // of the library, for a file
 constexpr double writer_bytes = 5e6;
+constexpr double scene_line_bytes = 60;      // memory of a line in space
+constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
+constexpr double plot_line_bytes = 400;
 constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
 
 /// Takes blots for nothing: for writers of lines, to whom none is sent.
@@ -246,6 +249,12 @@ DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const 
     return seen;
 }
 
+/// Number of passes of a pen that is narrower than the lines.
+double plot_passes(const Print& print, const PlotOptions& plot) {
+    if (!(plot.pen_width > 0) || print.style.stroke.in_steps) return 1;
+    return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
+}
+
 DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
     constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving tells
     DrawingCost cost;
@@ -253,16 +262,14 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     cost.lines = cost.nodes / 2;
     if (const auto known = estimate(grammar, true)) {
         cost.nodes = std::min(known->nodes, options.budget);
-        cost.lines = 0;
-        const std::size_t symbols = std::min(grammar.symbols().size(), known->rough_counts.size());
-        for (std::size_t symbol = 0; symbol < symbols; ++symbol) {
-            const Action action = grammar.symbols()[symbol].command.action;
-            if (action == Action::draw || action == Action::disc) cost.lines += known->rough_counts[symbol];
-        }
-        cost.lines = std::min(cost.lines, cost.nodes);
+        cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes);
     }
+    if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
+    double drawn = cost.kept_memory;
+    if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
+    if (options.plot) drawn += cost.lines * plot_passes(print, *options.plot) * plot_line_bytes;
     if (is_vector(options.format)) {
-        cost.memory = writer_bytes;
+        cost.memory = writer_bytes + drawn;
         return cost;
     }
     const PixelSize size = pixel_size(print.page, print.dpi);
@@ -274,19 +281,17 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     }
     cost.thread_memory = band_bytes(size);
     cost.lines_memory = pieces * line_bytes;
-    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory;
+    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory + drawn;
     return cost;
 }
 
-}  // namespace
-
-std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
-                                        std::string& why) {
-    const auto none = [&](const char* reason) -> std::optional<Parts<double>> {
+/// True if the drawing can be drawn from its parts; otherwise `why` receives the reason if there is a window.
+bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& options, std::string& why) {
+    const auto none = [&](const char* reason) {
         why = reason;
-        return std::nullopt;
+        return false;
     };
-    if (is_vector(options.format) && !options.window) return std::nullopt;
+    if (is_vector(options.format) && !options.window) return false;
     if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
     if (is_composed(style, options)) {
         return none("dots, borders, colours by strand, tiles and plots need the whole drawing");
@@ -295,17 +300,27 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
     if (!style.draws({})) return none("lines that leave no ink are not seen");
     if (!options.window) {
         const auto cost = estimate(grammar, true);
-        if (cost && cost->nodes <= most_read_symbols) return std::nullopt;
+        if (cost && cost->nodes <= most_read_symbols) return false;
     }
+    return true;
+}
+
+}  // namespace
+
+std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
+                                        std::string& why) {
+    if (!may_be_seen(grammar, style, options, why)) return std::nullopt;
     auto parts = Parts<double>::make(grammar, style.line == Line::spline);
-    if (parts) return parts;
-    return none(
-        "only drawings in one pen, without polygons and discs, turning by parts of 360 degrees, whose brackets close "
-        "in the word in which they open, are seen through a window");
+    if (!parts) {
+        why =
+            "only drawings in one pen, without polygons and discs, turning by parts of 360 degrees, whose brackets "
+            "close in the word in which they open, are seen through a window";
+    }
+    return parts;
 }
 
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why) {
-    if (grammar.is_spatial()) throw std::runtime_error("this drawing has no window: " + why);
+    if (grammar.is_spatial()) throw std::runtime_error("this drawing cannot be shown through a window: " + why);
     try {
         require_affordable(grammar, true, options.budget);
     } catch (const BudgetError&) {
@@ -316,6 +331,10 @@ void require_window(const Grammar& grammar, const DrawOptions& options, const st
 DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
     const Grammar grammar = shorten(given_grammar);
     std::string why;
+    // One at a time, because galleries forecast on many threads and parts take much memory.
+    static std::mutex mutex;
+    std::unique_lock lock(mutex, std::defer_lock);
+    if (may_be_seen(grammar, given.style, options, why)) lock.lock();
     const auto parts = seen_parts(grammar, given.style, options, why);
     if (!parts) {
         if (options.window) require_window(grammar, options, why);
@@ -345,7 +364,8 @@ DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const
     cost.lines = (walk.lines + walk.blots) * share;
     const double parts_count = static_cast<double>(parts->all().size());
     const double clumps = clump_share * walk.children;
-    cost.memory = parts_count * (options.window ? 320 : 224) + clumps * sizeof(Clump) + picture_bytes;
+    cost.kept_memory = parts_count * (options.window ? 320 : 224) + clumps * sizeof(Clump);
+    cost.memory = cost.kept_memory + picture_bytes;
     if (!has_pixels) return cost;
     const double rows = std::min(strip_rows(width, pixel, size), size.height);
     const double lines = walk.lines * share * (reads_steps ? curve_lines(longest_step(grammar) * step / pixel) : 1);
@@ -381,7 +401,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
         throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
-    if (!view_) throw std::runtime_error("the drawing is too large to be looked at");
+    if (!view_) throw std::runtime_error("the drawing is too large to be drawn");
 }
 
 void SeenDrawing::read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
@@ -395,7 +415,7 @@ void SeenDrawing::read(const Print& print, const Window& window, double pixel, B
     // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
     // wide.
     sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
-    // Curves are told from the lines through their control points only where steps are.
+    // Curves differ from the lines through their control points only where steps are visible.
     if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
         sight.ink = spline_ ? spline_share_ : 1;
         return add(view_->read(sight, sink, budget, watch));
@@ -443,7 +463,7 @@ struct Strip {
     std::unique_ptr<Raster> raster;
 };
 
-/// A picture made in strips. Memory: what the strips under way take; for render_rows(), all lines that are seen.
+/// A picture rendered in strips. Memory: the strips in progress; for render_rows(), all visible lines.
 class StripRendering : public Rendering {
 public:
     StripRendering(const SeenDrawing& drawing, const Print& print, const Window& window)
@@ -532,7 +552,7 @@ void StripRendering::render(int threads, const RowSink& sink) {
                [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & drawn & hand_on); });
 }
 
-/// All that is seen, from one walk.
+/// All visible lines, from a single walk.
 const Raster& StripRendering::whole() const {
     std::call_once(once_, [this] {
         auto raster = make_raster(print_);

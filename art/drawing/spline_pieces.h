@@ -1,4 +1,4 @@
-// art/drawing/spline_pieces.h: splines of which only pieces are seen.
+// art/drawing/spline_pieces.h: draws the visible pieces of splines.
 #pragma once
 
 #include "art/print/print.h"
@@ -8,10 +8,9 @@
 
 namespace sikku {
 
-/// Hands the strokes that a View sees of lines on as splines. Where a line leaves and enters what is seen, its curve
-/// is wrong for six steps; where it truly begins and ends it is as SplineSink would have it, and a line that ends
-/// where it began is smooth there, too, however many pieces are seen of it.
-/// Memory: the first piece of a line, which waits for the line's end.
+/// Turns the visible strokes of a View into splines. Where a line leaves or enters the visible area, its curve is
+/// wrong for six steps; at its real ends it equals that of SplineSink, and a closed line is smooth where it closes,
+/// however many pieces of it are visible. Memory: the first piece of a line, which waits for the line's end.
 class SplinePieces : public BlotSink {
 public:
     /// @param tolerance  points are the same within so many steps

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -18,10 +17,10 @@
 namespace sikku {
 namespace {
 
-/// A rendering on a sheet of paper, under marks.
+/// A rendering placed on a sheet of paper, with marks on top.
 class SheetOfPixels : public Rendering {
 public:
-    /// @param left, top  of the rendering on the sheet, in pixels
+    /// @param left, top  position of the rendering on the sheet, in pixels
     SheetOfPixels(std::unique_ptr<Rendering> base, PixelSize base_size, int left, int top, PixelSize size,
                   std::unique_ptr<Raster> marks)
         : base_(std::move(base)),
@@ -32,7 +31,7 @@ public:
           marks_(std::move(marks)),
           channels_(base_->channels() == 4 ? 4 : 3) {}
 
-    /// 4 if the ground of the print is transparent: then so is the paper.
+    /// 4 if the ground of the print, and therefore the paper, is transparent.
     int channels() const override { return channels_; }
     void watch(std::function<void()> watch) override { base_->watch(std::move(watch)); }
     void render(int threads, const RowSink& rows) override {
@@ -64,12 +63,12 @@ public:
     }
 
 private:
-    /// Paper from row `next` up to `end`, under its marks.
+    /// Delivers blank paper with its marks from row `next` up to `end`.
     void blank_rows(int& next, int end, const RowSink& rows) const {
         for (; next < end; next += std::min(128, end - next)) deliver(next, std::min(128, end - next), {}, 0, rows);
     }
 
-    /// @param pixels  of the base, that many channels; empty: none
+    /// @param pixels  rows of the base with `channels` channels; empty: blank paper
     void deliver(int first, int count, std::span<const std::uint8_t> pixels, int channels,
                  const RowSink& rows) const {
         const auto out = static_cast<std::size_t>(channels_);
@@ -120,7 +119,7 @@ private:
     int channels_;
 };
 
-/// A part of the print as it lies on a sheet, whose top left corner is at `corner` of the print.
+/// Moves the print onto a sheet whose top left corner is at `corner` of the print.
 Print moved(const Print& print, glm::dvec2 corner) {
     Print part = print;
     part.placement.to_page[2] -= corner;
@@ -136,10 +135,10 @@ Window moved(Window window, glm::dvec2 corner) {
 /// What all sheets share.
 struct TileWork {
     const Drawing& drawing;
-    const Print& print;  ///< the whole, placed
+    const Print& print;  ///< the whole print, placed
     const DrawOptions& options;
     const Tiling& tiling;
-    double pen;  ///< millimetres, of the widest
+    double pen;  ///< width of the widest pen in millimetres
 };
 
 /// The sheet without the drawing.
@@ -214,7 +213,8 @@ void write_pdf_tiles(const TileWork& work, Output& output) {
     writer->finish();
 }
 
-/// With a fixed step the page is as large as the drawing asks for, with its border, whose width follows the page.
+/// Places the whole drawing. With a fixed step the page grows to the size of the drawing and its border, whose width
+/// depends on the page.
 DrawReport place_whole(Drawing& drawing, Print& print) {
     DrawReport report = drawing.place(print);
     if (!drawing.fixed_step()) return report;
@@ -255,6 +255,8 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
     }
     for (const auto& output : outputs) output->commit();
     drawing.report(report);
+    report.leaves_pattern_out =
+        !is_vector(options.format) && !keeps_text(info(options.format).extension, print.pattern);
     report.overflows = false;
     report.sheets = static_cast<int>(tiling.tiles.size());
     report.sheet_rows = tiling.rows;

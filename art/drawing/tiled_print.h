@@ -1,4 +1,4 @@
-// art/drawing/tiled_print.h: prints over many sheets.
+// art/drawing/tiled_print.h: prints cut into sheets.
 #pragma once
 
 #include "art/drawing/drawing.h"
@@ -8,9 +8,9 @@
 
 namespace sikku {
 
-/// Cuts a print into the sheets of `options.tiles`: the page of `print` is that of the whole or, with a fixed step,
-/// as large as the drawing within its margins. A PDF has a page for each sheet after an overview, for which the
-/// drawing is read once; in other formats each sheet is a file (tile_file()), for which it is read again.
+/// Cuts a print into the sheets of `options.tiles`: the page of `print` is that of the whole print or, with a fixed
+/// step, as large as the drawing and its margins. A PDF has an overview and then a page for each sheet, and reads the
+/// drawing once; in other formats each sheet is a file (tile_file()) and reads the drawing again.
 /// @throws as draw()
 DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options, const std::filesystem::path& file,
                       Destination& destination);

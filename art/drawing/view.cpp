@@ -349,10 +349,10 @@ std::optional<Quad> parse_decimal(std::string_view text) {
 }  // namespace
 
 BudgetError too_much(double budget) {
-    return BudgetError(
-        fmt::format("more than {:.0f} parts of the drawing can be told apart: fewer pixels or a smaller window have "
-                    "fewer, and a larger budget allows more",
-                    budget));
+    return BudgetError(fmt::format(
+        "more than {:.0f} parts of the drawing can be distinguished: fewer pixels or a smaller window have "
+        "fewer, and a larger budget allows more",
+        budget));
 }
 
 std::optional<ViewWindow> parse_window(std::string_view text) {

@@ -1,5 +1,5 @@
-// art/drawing/view.h: a drawing whose cost is what is seen: parts off the page are passed over, parts too small to be
-// told apart are replaced by what they look like.
+// art/drawing/view.h: draws words of any length at the cost of the visible parts: skips parts off the page, and
+// replaces parts too small to be resolved by their appearance.
 #pragma once
 
 #include "art/print/print.h"
@@ -23,7 +23,7 @@ struct ViewWindow {
 /// and for rectangles without area.
 std::optional<ViewWindow> parse_window(std::string_view text);
 
-/// What can be told apart, in turtle steps; an extent is the longer side of a part's box.
+/// The resolution of a view, in turtle steps; an extent is the longer side of a part's box.
 struct Sight {
     Box box;            ///< what is seen, the pen's width around it included, as seen from the view's origin
     double chord = -1;  ///< parts up to this extent become their chords
@@ -39,10 +39,10 @@ struct ViewReport {
     std::uint64_t blots = 0;    ///< and blots
 };
 
-/// More than `budget` nodes were visited.
+/// Thrown after visiting more than `budget` nodes.
 BudgetError too_much(double budget);
 
-/// A drawing of lines in one pen, ready to be looked at.
+/// A drawing of lines in one pen, prepared for walks.
 class View {
 public:
     virtual ~View() = default;

@@ -137,13 +137,7 @@ DerivationOptions reading(const DrawOptions& options) {
 /// Stems and spheres that are kept, as far as they are known beforehand.
 double parts_of(const Grammar& grammar) {
     const auto known = estimate(grammar, true);
-    if (!known) return 0;
-    double parts = 0;
-    for (std::size_t i = 0; i < std::min(known->rough_counts.size(), grammar.symbols().size()); ++i) {
-        const Action action = grammar.symbols()[i].command.action;
-        if (action == Action::draw || action == Action::disc) parts += known->rough_counts[i];
-    }
-    return parts;
+    return known ? drawn_symbols(grammar, *known) : 0;
 }
 
 /// @throws BudgetError, if there are more parts of a scene than `most`, before they are read
@@ -256,8 +250,8 @@ DrawnExtent WordDrawing::measured() {
         const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
         return {found.box, found.widest};
     }
-    // Straight lines that are all visible are folded for their extent; a spline without brackets and lifts is one
-    // stroke, and is folded for whether it closes.
+    // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
+    // one stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();

@@ -1,4 +1,4 @@
-// art/drawing/word_drawing.h: a drawing in the plane or in space that is read from its word.
+// art/drawing/word_drawing.h: drawings in the plane and in space that are read from the word.
 #pragma once
 
 #include "art/drawing/drawing.h"
@@ -11,23 +11,22 @@ namespace sikku {
 
 class WordDrawing : public Drawing {
 public:
-    /// Resolves contexts and estimates what the drawing costs. `style` sets what is seen and how lines are drawn.
+    /// Resolves contexts and estimates what the drawing costs. `style` sets visibility and how lines are drawn.
     /// The options' format and threads have no effect in the plane. @throws BudgetError, WordError
     WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
 
-    /// Calculated from the fold where only straight lines are drawn and all are seen, else from one pass over the
-    /// word.
+    /// Calculated from the fold if only straight lines are drawn and all are visible, else in one pass over the word.
     const DrawnExtent& seen() override;
     const Style& style() const override { return drawn_style_; }
     double scale() const override { return options_.placement.scale * grammar_.scale_percent() / 100; }
     std::optional<SpaceBounds> bounds() const override;
-    /// One pass over the word; of drawings in space, which are kept, what is behind comes first.
+    /// Takes one pass over the word. Drawings in space are kept in memory and drawn from back to front.
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     using Drawing::rendering;
     std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
     void report(DrawReport& report) const override;
-    /// False if nothing is drawn, whatever the window.
+    /// True if anything is drawn, inside or outside the window.
     bool has_ink();
 
 private:
@@ -38,7 +37,7 @@ private:
 
     Grammar grammar_;
     Style style_;
-    Style drawn_style_;  ///< with shades for drawings in space
+    Style drawn_style_;  ///< the style, with shades for drawings in space
     bool spline_;
     bool has_brackets_ = false;
     bool has_areas_ = false;
@@ -51,14 +50,14 @@ private:
     std::optional<Scene> scene_;  ///< of a drawing in space, once it was read
 };
 
-/// Reads a drawing in space. A part of it that is kept takes the memory and time of about `nodes_of_part` nodes.
-/// @throws BudgetError if it does not fit the budget, before it is read
+/// Reads a drawing in space. Each part kept takes the memory and time of about `nodes_of_part` nodes.
+/// @throws BudgetError before reading if it does not fit the budget
 Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& options, double nodes_of_part);
 
 /// The grammar without contexts, ready to be read. @throws BudgetError, WordError
 Grammar resolved(const Grammar& given, const DrawOptions& options);
 
-/// The extent of a window: no pen is added, as what it shows goes on around it.
+/// The extent of a window: no pen is added, because lines continue outside it.
 DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation);
 
 /// @throws std::runtime_error if the box is empty

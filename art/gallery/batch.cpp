@@ -7,8 +7,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 
 namespace sikku {
@@ -22,7 +22,7 @@ constexpr int most_picture_threads = 3;
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
     if (forecast.memory <= memory) return "";
-    return fmt::format("it takes about {} of memory, more than is left for it ({})", bytes_text(forecast.memory),
+    return fmt::format("it needs about {} of memory, more than is available ({})", bytes_text(forecast.memory),
                        bytes_text(memory));
 }
 
@@ -34,16 +34,17 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
         throw std::runtime_error(fmt::format(
             "'{}' already exists and was not made by this gallery; 'force' replaces it", folder.shown(file.file)));
     }
-    // The target of a link is not in the way.
+    // Check the link itself, not its target.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();
     record.claim(file.file);
     try {
-        make(place.path(), file.told);
+        make(place.path(), file);
     } catch (const Stopped&) {
         throw;
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(place.readable(error.what()));
     }
+    for (std::string& line : file.warnings) line = place.readable(line, file.file);
     for (std::string& line : file.told) line = place.readable(line, file.file);
     const auto made = folder.status(file.file);
     if (!made) throw std::runtime_error("nothing to write");
@@ -56,7 +57,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
 void Batch::run(std::vector<Task> tasks, double memory) {
     const auto order = [&](const Task& task) {
         const bool is_begun = record_.is_begun(jobs_[task.job].file());
-        return std::pair(is_begun, is_begun ? task.forecast.cost() : -task.forecast.cost());
+        return std::pair(is_begun, is_begun ? task.forecast.seconds : -task.forecast.seconds);
     };
     std::vector<std::pair<std::pair<bool, double>, std::size_t>> places;
     for (std::size_t i = 0; i < tasks.size(); ++i) places.emplace_back(order(tasks[i]), i);
@@ -64,7 +65,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     double cost = 0;
     for (const auto& [place, task] : places) {
         waiting_.push_back(tasks[task]);
-        cost += tasks[task].forecast.cost();
+        cost += tasks[task].forecast.seconds;
     }
     listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
@@ -77,7 +78,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }
 
-/// Finds the first job that fits in memory and that no other run is making; nullopt when nothing is left to begin.
+/// Finds the first job that fits in memory and that no other run is making; nullopt if no job is left to begin.
 std::optional<Batch::Turn> Batch::next() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -114,11 +115,21 @@ void Batch::tell_waiting() {
 }
 
 void Batch::work() {
-    while (const auto turn = next()) {
-        make(*turn);
-        record_.release(jobs_[turn->task.job].file());
+    try {
+        while (const auto turn = next()) {
+            make(*turn);
+            record_.release(jobs_[turn->task.job].file());
+            changed_.notify_all();
+            listener_.finish(turn->task.forecast.seconds);
+        }
+    } catch (...) {
+        // After an error such as a failed lock, the other threads end, too.
+        {
+            const std::lock_guard guard(mutex_);
+            stopped_ = true;
+        }
         changed_.notify_all();
-        listener_.finish(turn->task.forecast.cost());
+        throw;
     }
 }
 
@@ -141,7 +152,7 @@ void Batch::make(const Turn& turn) {
     } catch (const std::bad_alloc&) {
         problem = "there is not enough memory for this";
     } catch (const std::exception& error) {
-        problem = error.what();
+        problem = *error.what() ? error.what() : "unknown error";
     }
     const std::lock_guard guard(mutex_);
     free_ += turn.memory;
@@ -162,18 +173,18 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.file = job.file();
     result.hash = hashes_[turn.task.job];
     result.job = job.text();
-    const auto make = [&](const std::filesystem::path& path, std::vector<std::string>& told) {
+    const auto make = [&](const std::filesystem::path& path, FinishedJob& file) {
         OptionValues values = job.values();
         if (find_option(job.interpreter().options(), "jobs"))
             values.push_back({"jobs", std::to_string(turn.threads)});
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);
-        for (const Diagnostic& warning : job.document().warnings()) told.push_back(warning.text());
+        for (const Diagnostic& warning : job.document().warnings()) file.warnings.push_back(warning.text());
         const auto work = job.work();
         job.works->forget(job.file());
-        for (const Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
-            told.push_back((remark.is_warning ? "warning: " : "") + remark.text);
+        for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
+            (remark.is_warning ? file.warnings : file.told).push_back(std::move(remark.text));
         }
     };
     const bool replaces = options_.replaces || record_.is_ours(result.file);

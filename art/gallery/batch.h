@@ -12,7 +12,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,8 @@ namespace sikku {
 /// Reason why a job cannot be made within this many bytes; empty if it can.
 std::string too_much_memory(const JobForecast& forecast, double memory);
 
-/// Receives the output path and a list for its messages.
-using FileMaker = std::function<void(const std::filesystem::path& path, std::vector<std::string>& told)>;
+/// Makes a file at a path and adds its messages to `file`.
+using FileMaker = std::function<void(const std::filesystem::path& path, FinishedJob& file)>;
 
 /// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
 /// @param file  its `file`, `hash` and `job` are known
@@ -53,20 +52,20 @@ struct BatchOptions {
     bool keep_going = false;
 };
 
-/// Hears what a gallery does. Calls may come from several threads at once.
+/// Receives progress reports of a gallery. Calls may come from several threads at once.
 class GalleryListener {
 public:
     virtual ~GalleryListener() = default;
     /// @param cost  seconds on one core, roughly
     virtual void begin(std::size_t /*jobs*/, double /*cost*/) {}
-    /// A job has ended, well or not.
+    /// A job has ended, successfully or not.
     virtual void finish(double /*cost*/) {}
-    /// Called now and then while jobs are under way.
+    /// Called regularly while jobs are in progress.
     virtual void watch() {}
     virtual void end() {}
-    /// Another run makes that many jobs; this run waits for them.
+    /// Another run is making that many jobs; this run waits for them.
     virtual void wait_for_jobs(std::size_t /*jobs*/) {}
-    /// Another run uses the record; this run waits for it.
+    /// Another run is using the record; this run waits for it.
     virtual void wait_for_record(const std::string& /*record*/) {}
     /// A sheet or the page is being made.
     virtual void sheet(const std::string& /*name*/) {}

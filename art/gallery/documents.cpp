@@ -1,14 +1,18 @@
 #include "art/gallery/documents.h"
 
+#include "engine/base/hash.h"
+#include "engine/base/input_file.h"
+
 #include <exception>
-#include <utility>
+#include <system_error>
 
 namespace sikku {
 namespace {
 
 constexpr std::size_t most_documents = 256;
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
-constexpr std::size_t work_bytes = 8192;  // of a planned work, beside its text
+constexpr std::uint64_t most_hashed_bytes = std::uint64_t{16} << 20;
+constexpr std::size_t work_bytes = 8192;  // memory of a planned work without its text
 
 }  // namespace
 
@@ -71,6 +75,21 @@ void Works::forget(const std::string& key) {
     if (found == known_.end()) return;
     bytes_ -= found->second.bytes;
     known_.erase(found);
+}
+
+std::string Works::digits_of(const std::filesystem::path& file) {
+    const std::lock_guard guard(mutex_);
+    const auto [entry, is_new] = digits_.try_emplace(file);
+    if (!is_new) return entry->second;
+    try {
+        const InputFile input(file);
+        if (input.size() > most_hashed_bytes) return {};
+        TextHash hash;
+        hash.add(input.read(0, input.size()));
+        entry->second = hash.digits();
+    } catch (const std::system_error&) {
+    }
+    return entry->second;
 }
 
 std::size_t Works::planned() const {

@@ -2,7 +2,7 @@
 
 #include "engine/base/output_file.h"
 
-#include "art/gallery/jobs.h"
+#include "engine/base/hash.h"
 
 #include <dirent.h>
 #include <fcntl.h>

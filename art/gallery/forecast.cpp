@@ -3,6 +3,18 @@
 #include "engine/derivation/forecast.h"
 
 namespace sikku {
+namespace {
+
+std::string length_of(const Grammar& grammar) {
+    try {
+        if (const auto word = forecast(grammar, false)) return word->length();
+    } catch (const BudgetError&) {
+        // Words too long to count can still be drawn.
+    }
+    return "?";
+}
+
+}  // namespace
 
 JobForecast forecast_job(const GalleryJob& job, bool exact) {
     JobForecast result;
@@ -13,9 +25,7 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
         return result;
     }
     try {
-        if (exact) {
-            if (const auto word = forecast(job.document().grammar(), false)) result.symbols = word->length();
-        }
+        if (exact) result.symbols = length_of(job.document().grammar());
         const Cost cost = job.work()->forecast();
         result.seconds = cost.seconds;
         result.bytes = cost.bytes;

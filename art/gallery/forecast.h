@@ -1,4 +1,4 @@
-// art/gallery/forecast.h: what a job of a gallery will cost, before it is begun.
+// art/gallery/forecast.h: estimates the cost of a job before it begins.
 #pragma once
 
 #include "art/gallery/jobs.h"
@@ -15,7 +15,6 @@ struct JobForecast {
     double memory = 0;    ///< bytes while it is made on one thread, beside what the program takes
     double band = 0;      ///< more for each further thread, if it is a picture
     std::string problem;  ///< why it cannot be made, as far as that is known already
-    double cost() const { return seconds; }
 };
 
 /// @param exact  the length of the word is told to the last digit

@@ -32,7 +32,7 @@ void for_each_number(std::size_t count, int threads, const Monitor& monitor, con
     });
 }
 
-/// Requested sheets.
+/// The sheets that were requested.
 std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, double memory) {
     std::vector<SheetRequest> sheets;
     if (!request.contact.empty()) sheets.push_back({"contact", request.contact, false, threads, memory});
@@ -40,7 +40,7 @@ std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, 
     return sheets;
 }
 
-/// Does the job use the module for pictures?
+/// True if the job uses the module for pictures.
 bool is_picture(const GalleryJob& job) {
     const auto format = print_format(job.file());
     return &job.interpreter() == &prints() && format && !is_vector(*format);
@@ -69,14 +69,14 @@ public:
                 if (sheet.is_poster != posters) continue;
                 for (const std::string& file : sheet_files(sheet)) {
                     make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
-                        draw_gallery_sheet(jobs_, sheet, path, [this](std::uint64_t) { monitor_.check(); });
+                        draw_gallery_sheet(jobs_, sheet, path, monitor_);
                     });
                 }
             }
         };
         draw(false);
         make("index.html", request.title, order, troubles,
-             [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path); });
+             [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path, monitor_); });
         draw(true);
     }
 
@@ -132,9 +132,7 @@ Gallery::Gallery(GalleryRequest request, GalleryOptions options, const GalleryKe
     select();
     const bool pictures =
         !request_.poster.empty() || !request_.contact.empty() ||
-        std::any_of(chosen_.begin(), chosen_.end(), [&](std::size_t job) {
-            return &jobs_[job].interpreter() == &prints() && jobs_[job].format != "svg" && jobs_[job].format != "pdf";
-        });
+        std::any_of(chosen_.begin(), chosen_.end(), [&](std::size_t job) { return is_picture(jobs_[job]); });
     const double base = base_memory(pictures) + static_cast<double>(jobs_.size()) * job_bytes;
     memory_ = std::max(options_.memory - base, options_.memory / 8);
 }
@@ -157,7 +155,7 @@ void Gallery::select() {
     if (options_.shard.count > 1) {
         std::vector<double> costs;
         forecast_all(chosen_);
-        for (const auto& forecast : forecasts_) costs.push_back(forecast->cost());
+        for (const auto& forecast : forecasts_) costs.push_back(forecast->seconds);
         const std::vector<std::size_t> shards = balance(costs, options_.shard.count);
         std::erase_if(chosen_, [&](std::size_t job) { return shards[job] + 1 != options_.shard.index; });
     }
@@ -180,7 +178,7 @@ void Gallery::select() {
 std::vector<std::pair<std::string, JobForecast>> Gallery::sheet_forecasts(
     const std::vector<const GalleryJob*>& jobs) const {
     std::vector<std::pair<std::string, JobForecast>> forecasts;
-    // A part of the jobs makes no sheets.
+    // Runs for a part of the jobs make no sheets.
     if (chosen_.size() != jobs_.size()) return forecasts;
     for (const SheetRequest& sheet : sheets_of(request_, options_.threads, memory_)) {
         for (const std::string& file : sheet_files(sheet)) {
@@ -249,7 +247,8 @@ GalleryResult Gallery::make(GalleryListener& listener) {
         }
     }
     const bool is_whole = shard.count == 1 && options_.only.empty();
-    if (is_whole && !result.finished.empty() && (result.failures.empty() || options_.keep_going)) {
+    if (is_whole && !monitor_.stop_requested() && !result.finished.empty() &&
+        (result.failures.empty() || options_.keep_going)) {
         try {
             Summaries summaries(jobs_, result.finished, folder, record, options_, listener, monitor_);
             summaries.make(request_, memory_, order, result.troubles);
@@ -259,7 +258,7 @@ GalleryResult Gallery::make(GalleryListener& listener) {
     try {
         record.complete(order, batch.begun, shard.count == 1);
     } catch (const std::exception& error) {
-        result.troubles.push_back(error.what());  // the lines appended so far hold all the same
+        result.troubles.push_back(error.what());  // the lines appended so far remain valid
     }
     return result;
 }

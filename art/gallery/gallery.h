@@ -18,26 +18,26 @@ namespace sikku {
 
 struct GalleryOptions {
     std::filesystem::path folder = "gallery";
-    std::vector<std::string> only{};  ///< names or files of jobs that are made anew; empty: all that are not there
-    bool force = false;               ///< make all anew, and replace files of others that are in the way
+    std::vector<std::string> only{};  ///< names or files of jobs to make again; empty: all missing ones
+    bool force = false;               ///< make all jobs again, and replace files that the gallery did not make
     bool keep_going = false;          ///< make other jobs after one failed
-    double memory = 1e9;              ///< bytes in all; jobs wait rather than exceed it
+    double memory = 1e9;              ///< maximum memory in bytes; jobs wait for it
     int threads = 0;                  ///< jobs at a time; 0: one for each core
     Shard shard{};
     bool exact = false;  ///< forecasts report the length of each word to the last digit
 };
 
-/// What became of a run.
+/// Result of a run.
 struct GalleryResult {
-    std::map<std::size_t, FinishedJob> finished;  ///< all chosen jobs that are there, by number
-    std::vector<std::size_t> made;                ///< numbers of those made by this run
+    std::map<std::size_t, FinishedJob> finished;  ///< all selected jobs that are finished, by number
+    std::vector<std::size_t> made;                ///< numbers of the jobs made by this run
     std::vector<Failure> failures;
     std::vector<std::string> troubles;  ///< why sheets, the page or the record could not be written
     std::size_t left = 0;               ///< jobs that were not begun
     std::string record;                 ///< name of the record file, for messages
 };
 
-/// The jobs of a request, and what to do with them.
+/// The jobs of a request, and the operations on them.
 class Gallery {
 public:
     /// @param keys  must outlive the gallery
@@ -47,16 +47,16 @@ public:
     const std::vector<GalleryJob>& jobs() const { return jobs_; }
     /// Numbers of the jobs of this shard and of `only`.
     const std::vector<std::size_t>& chosen() const { return chosen_; }
-    /// Bytes for jobs, beside what the program itself takes.
+    /// Memory for jobs in bytes, without that of the program itself.
     double memory() const { return memory_; }
-    /// The forecast of a chosen job; all are computed when the first one is asked for.
+    /// The forecast of a selected job; the first call computes all of them.
     const JobForecast& forecast(std::size_t job);
     /// Forecasts of the requested sheets: file and memory, or why the sheet cannot be made.
-    /// @param jobs  those that can be made
+    /// @param jobs  jobs that can be made
     std::vector<std::pair<std::string, JobForecast>> sheet_forecasts(
         const std::vector<const GalleryJob*>& jobs) const;
 
-    /// Makes what is not there yet, then the page and the sheets. A stop request ends it early, without an exception
+    /// Makes all missing jobs, then the page and the sheets. A stop request ends it early, without an exception
     /// once jobs have begun. @throws Stopped; std::runtime_error if the folder cannot be used
     GalleryResult make(GalleryListener& listener);
 

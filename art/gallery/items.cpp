@@ -6,11 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <istream>
-#include <span>
 
 namespace sikku {
 namespace {
@@ -34,7 +31,7 @@ std::optional<GalleryRange> read_range(const std::string& key, const std::string
     GalleryRange range{numbers[0], numbers.size() == 3 ? numbers[2] : 1.0, 0};
     const double steps = (numbers[1] - range.first) / range.step;
     if (range.step == 0 || !(steps >= 0)) {
-        fail(place, fmt::format("{}: the range {} holds nothing", key, printable(text, 80)));
+        fail(place, fmt::format("{}: the range {} is empty", key, printable(text, 80)));
     }
     range.count = std::floor(steps + 1e-9) + 1;
     return range;
@@ -63,7 +60,7 @@ bool has_control(std::string_view text) {
     });
 }
 
-/// @param known  null: of a key of the pattern's own
+/// @param known  the row of the key; null for keys and defines of the pattern
 void check_value(const std::string& key, const GalleryKey* known, const std::string& value,
                  const std::string& place) {
     if (!fits_xml(value)) {
@@ -84,7 +81,7 @@ void check_value(const std::string& key, const GalleryKey* known, const std::str
     }
 }
 
-/// @param known  null: of a key of the pattern's own
+/// @param known  the row of the key; null for keys and defines of the pattern
 void check_range(const std::string& key, const GalleryRange& range, const std::string& word, const GalleryKey* known,
                  const std::string& place) {
     if (!known) return;

@@ -1,5 +1,5 @@
-// art/gallery/items.h: the requests of a gallery file, a manifest and the command line as items: each a list of
-// patterns, formats, and keys with the values they take in turn. Nothing is expanded yet.
+// art/gallery/items.h: reads gallery files, manifests and command lines into items: lists of patterns, formats, and
+// keys with all their values, not yet expanded.
 #pragma once
 
 #include "art/gallery/jobs.h"
@@ -27,7 +27,7 @@ struct GalleryRange {
     std::string value(std::uint64_t index) const;
 };
 
-/// A key and the values it takes in turn. Ranges are stored unexpanded, so memory is linear in the file.
+/// A key and all its values. Ranges are stored unexpanded, so memory is linear in the file.
 class GalleryAxis {
 public:
     GalleryAxis(std::string its_key, std::string its_place, bool is_in_set)
@@ -60,13 +60,13 @@ private:
     double count_ = 0;
 };
 
-/// Settings requested together. Copies share the values, which may be many.
+/// Settings requested together. Copies share the values.
 struct GalleryItem {
     using Axis = std::shared_ptr<const GalleryAxis>;
     std::string place;
     bool needs_pattern = false;
     std::filesystem::path folder;
-    std::shared_ptr<const std::vector<std::string>> patterns;  ///< null: the bundled ones
+    std::shared_ptr<const std::vector<std::string>> patterns;  ///< null: the bundled patterns
     std::string patterns_place;
     std::vector<std::string> formats;
     std::shared_ptr<const std::string> name;  ///< with placeholders; null: the default form
@@ -78,7 +78,7 @@ struct GalleryItem {
     void take(Axis axis);
 };
 
-/// A list of items, counted as it grows: each makes at least one job.
+/// A list of items that limits their number: each makes at least one job.
 class GalleryItems {
 public:
     /// @throws GalleryError if there are too many items, or too many settings in all of them
@@ -89,13 +89,14 @@ private:
     std::size_t settings_ = 0;
 };
 
-/// Longest name, or form of a name; longer ones are rejected.
+/// Maximum length of a name or a name template; longer ones are rejected.
 constexpr std::size_t longest_job_name = 1000;
 
 /// Sets a key of an item to the value in a file. @throws GalleryError
 void read_gallery_key(const GalleryKeys& keys, const std::string& written, const GalleryValue& value,
                       GalleryItem& item);
-/// The axis of a key; of one of the pattern's own where `known` is null. @throws GalleryError
+/// Reads the axis of a key. @throws GalleryError
+/// @param known  the row of the key; null for keys and defines of the pattern
 GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKey* known);
 
 /// @throws GalleryError if the value is not a sheet size

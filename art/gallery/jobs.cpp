@@ -15,11 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <mutex>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -28,7 +25,7 @@
 namespace sikku {
 namespace {
 
-/// Would a file or folder of that path stand where galleries keep their records?
+/// True if a file or folder with that path would collide with the records of galleries.
 bool is_record(const std::string& name, const std::string& file) {
     const std::string first = (name.find('/') == std::string::npos ? file : name).substr(0, name.find('/'));
     return first.starts_with("gallery") && first.ends_with(".jsonl");
@@ -54,7 +51,7 @@ std::string name_part(std::string_view value) {
 class Compilations {
 public:
     struct Result {
-        std::string problem;  ///< reason why it cannot be compiled; empty: it can
+        std::string problem;  ///< reason why the pattern cannot be compiled; empty if it can
         std::string steps;    ///< else the derivation length
     };
 
@@ -62,7 +59,7 @@ public:
         std::string key = fmt::format("{}", static_cast<const void*>(job.pattern.get()));
         const auto add = [&](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
         for (const char* name : {"variant", "n"}) add(job.keys.contains(name) ? job.keys.at(name) : "");
-        // Any seed of up to 18 digits works.
+        // Any seed of up to 18 digits will do.
         const auto seed = job.keys.find("seed");
         add(seed != job.keys.end() && seed->second.size() > 18 ? seed->second : "");
         for (const auto& [name, value] : job.overrides) {
@@ -137,8 +134,8 @@ public:
         for (const GalleryItem& item : items_) patterns_.push_back(patterns_of(item));
     }
 
-    /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items.
-    /// @throws GalleryError if they are too many
+    /// Counts the jobs of all items before anything is expanded. Time: linear in the keys of all items. @throws
+    /// GalleryError if there are too many
     void require_few(double most_jobs) const {
         double sum = 0;
         double settings = 0;
@@ -297,8 +294,8 @@ private:
         }
     }
 
-    /// Does the pattern compile with the settings of the job? If not, the first setting that breaks it is reported;
-    /// found by bisection, as there may be many. A pattern with errors of its own is left to its jobs.
+    /// Checks that the pattern compiles with the settings of the job; otherwise reports the first setting that breaks
+    /// it, found by bisection. Errors of the pattern itself are left to its jobs.
     void check_pattern(const GalleryItem& item, const GalleryJob& job, const std::vector<Choice>& choices,
                        const std::vector<std::uint64_t>& at) {
         if (!job.pattern->text) return;
@@ -381,7 +378,7 @@ private:
             const GalleryAxis& axis = *choices[i].axis;
             if (axis.key == key || axis.key == written) return axis.value(at[i]);
         }
-        // The pattern's own value, with the changes of the job; if it has none, the job itself reports why.
+        // Use the pattern's value with the changes of the job; if there is none, the job itself reports why.
         if (key == "n") return job.pattern->text ? compilations_.of(job).steps : "";
         for (const GalleryItem::Axis& axis : item.axes) {
             if (axis->key == key || axis->key == written) return axis->value(0);
@@ -403,7 +400,7 @@ private:
             const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
             const std::string message =
                 error.option().empty() ? error.what() : fmt::format("{}{}: {}", error.option(), value, error.what());
-            // For a single option, its place in the file.
+            // An error about a single option has the place of that option in the file.
             for (const GalleryItem::Axis& axis : item.axes) {
                 if (axis->key == error.option() && !axis->place.empty()) fail(axis->place, message);
             }
@@ -473,7 +470,7 @@ void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::v
     }
 }
 
-/// A file whose text is read bit by bit. @throws GalleryError if it cannot be opened
+/// A file that is read in blocks. @throws GalleryError if it cannot be opened
 std::ifstream open_text_file(const std::string& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw GalleryError(fmt::format("{} is a folder", file));
@@ -525,29 +522,6 @@ std::string GalleryJob::text() const {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-namespace {
-
-/// The hash of an ICC profile, computed once in a run; empty if it cannot be read, which the print itself reports.
-std::string profile_digits(const std::filesystem::path& file) {
-    static std::mutex mutex;
-    static std::map<std::filesystem::path, std::string> known;
-    const std::lock_guard guard(mutex);
-    const auto [entry, is_new] = known.try_emplace(file);
-    if (!is_new) return entry->second;
-    constexpr std::uint64_t largest_profile = 16 << 20;
-    try {
-        const InputFile profile(file);
-        if (profile.size() > largest_profile) return {};
-        TextHash hash;
-        hash.add(profile.read(0, profile.size()));
-        entry->second = hash.digits();
-    } catch (const std::system_error&) {
-    }
-    return entry->second;
-}
-
-}  // namespace
-
 std::string GalleryJob::hash() const {
     TextHash hash;
     hash.add_piece(SIKKU_VERSION);
@@ -563,11 +537,13 @@ std::string GalleryJob::hash() const {
         hash.add_piece(key);
         hash.add_piece(value);
     }
-    // The file may change and keep its name.
-    if (keys.contains("cmyk")) hash.add_piece(profile_digits(folder / keys.at("cmyk")));
+    // The contents of the file may change.
+    if (keys.contains("cmyk")) hash.add_piece(works->digits_of(folder / keys.at("cmyk")));
     if (pattern->text) {
-        const std::string whole = text() + pattern->text->text;
-        if (whole.find(".scl") != std::string::npos || whole.find(".kbm") != std::string::npos) {
+        // Search for scales and key maps instead of compiling, which would take long for every job of a finished
+        // gallery.
+        const std::string whole = lower_case(text() + pattern->text->text);
+        if (whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos) {
             try {
                 for (const auto& [file, held] : work()->read_files()) {
                     hash.add_piece(file);
@@ -598,9 +574,12 @@ Document GalleryJob::document() const {
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
     if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
     if (keys.contains("variant")) settings.variant = keys.at("variant");
-    std::string key = fmt::format("{}:{}", static_cast<const void*>(pattern.get()), settings.variant);
+    std::string key = fmt::format("{}", static_cast<const void*>(pattern.get()));
+    const auto add = [&key](const std::string& piece) { key += fmt::format(":{}:{}", piece.size(), piece); };
+    add(settings.variant);
     for (const Setting& setting : settings.settings) {
-        key += fmt::format(":{}:{}:{}", setting.key, setting.value.size(), setting.value);
+        add(setting.key);
+        add(setting.value);
     }
     return documents->get(key, pattern->text->text.size(), [&] {
         Diagnostics diagnostics;
@@ -644,23 +623,6 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys&
     std::vector<GalleryJob> jobs = expansion.jobs();
     if (request.title.empty()) request.title = title_of(jobs);
     return jobs;
-}
-
-void TextHash::add(std::string_view bytes) {
-    constexpr Unsigned128 prime = (Unsigned128{1} << 88) + 0x13b;
-    Unsigned128 state = (Unsigned128{high_} << 64) | low_;
-    for (const char byte : bytes) state = (state ^ static_cast<unsigned char>(byte)) * prime;
-    high_ = static_cast<std::uint64_t>(state >> 64);
-    low_ = static_cast<std::uint64_t>(state);
-}
-
-void TextHash::add_piece(std::string_view bytes) {
-    add(fmt::format("{}:", bytes.size()));
-    add(bytes);
-}
-
-std::string TextHash::digits() const {
-    return fmt::format("{:016x}{:016x}", high_, low_);
 }
 
 }  // namespace sikku

@@ -1,10 +1,10 @@
-// art/gallery/jobs.h: what a gallery is to hold, as a plain list of jobs: from a gallery file, a manifest, a command
-// line.
+// art/gallery/jobs.h: expands a gallery file, a manifest or a command line into a list of jobs.
 #pragma once
 
 #include "art/gallery/documents.h"
 #include "art/gallery/keys.h"
 #include "art/gallery/patterns.h"
+#include "engine/base/hash.h"
 #include "engine/interpreter.h"
 
 #include <cstdint>
@@ -21,38 +21,38 @@ namespace sikku {
 /// More jobs are refused before they are expanded.
 constexpr double most_gallery_jobs = 1'000'000;
 
-/// Everything that it takes to make one file, whoever makes it, wherever and when.
+/// Everything needed to make one file, on any machine at any time.
 struct GalleryJob {
-    std::string name;    ///< of the file, without the ending; `/` leads into folders
-    std::string format;  ///< the ending: svg, png, mid …; `notes.svg` is the score of `sikku play`
+    std::string name;    ///< name of the file without extension; may contain folders
+    std::string format;  ///< extension: svg, png, mid …; `notes.svg` is the score of `sikku play`
     const GalleryKeys* language = nullptr;  ///< must outlive the job
     std::shared_ptr<Documents> documents;   ///< shared by the jobs of a gallery
-    std::shared_ptr<Works> works;           ///< likewise
+    std::shared_ptr<Works> works;           ///< shared by the jobs of a gallery
     std::shared_ptr<const GalleryPattern> pattern;
-    std::map<std::string, std::string> keys;       ///< options of draw and play that were given and matter here
+    std::map<std::string, std::string> keys;       ///< the given options of draw or play that apply to this job
     std::map<std::string, std::string> overrides;  ///< keys and defines of the pattern
-    std::string place;             ///< where it was asked for, `gallery.toml:3:1`; empty: command line
-    std::filesystem::path folder;  ///< what its options name lies here
+    std::string place;                             ///< place of the request, `gallery.toml:3:1`; empty: command line
+    std::filesystem::path folder;                  ///< folder of files named by the options
 
     /// The file's path below the folder of the gallery.
     std::string file() const { return name + "." + format; }
-    /// What makes it.
+    /// The interpreter that makes it.
     const Interpreter& interpreter() const { return language->interpreter_of(format); }
     /// Its options, for the interpreter.
     OptionValues values() const;
-    /// Its pattern with its overrides, compiled once for all jobs that have the same. @throws PatternError,
-    /// GalleryError
+    /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides. @throws
+    /// PatternError, GalleryError
     Document document() const;
-    /// Planned once, unless there are too many to keep. @throws what Interpreter::plan() and document() throw
+    /// The planned work, cached unless there are too many. @throws what Interpreter::plan() and document() throw
     std::shared_ptr<Work> work() const;
-    /// Canonical: equal jobs have equal texts. One line of JSON, which read_manifest() reads back.
+    /// The job as one line of JSON, which read_manifest() reads back. Equal jobs have equal texts.
     std::string text() const;
-    /// 32 hexadecimal digits of all that decides what the file holds: settings, pattern, files the pattern names,
-    /// version of the program.
+    /// Hash of everything that determines the contents of the file, as 32 hexadecimal digits: settings, pattern,
+    /// files the pattern names, version of the program.
     std::string hash() const;
 };
 
-/// What the command line asks for.
+/// The request of a command line.
 struct GalleryRequest {
     std::vector<std::string> patterns;  ///< names, globs, folders, files
     std::string gallery_file;
@@ -65,26 +65,13 @@ struct GalleryRequest {
     std::vector<std::string> overrides;        ///< KEY=VALUE
     std::string poster, contact;               ///< sizes of sheets; empty: taken from the gallery file
     Monitor monitor;                           ///< polled while jobs are listed
-    std::string title;                         ///< of the page; empty: from the gallery file, or its contents
+    std::string title;  ///< title of the page; empty: from the gallery file, or from its contents
 };
 
-/// All jobs in the order of what was asked for; with nothing asked for, all patterns that come along and draw.
+/// Lists all jobs in the order of the request; an empty request lists all bundled patterns that draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
 /// @throws GalleryError with file, line and column for every error that can be detected before a pattern is compiled;
-/// Interrupted
+/// Stopped
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys);
-
-/// Fowler, Noll and Vo's hash of 128 bits (FNV-1a), to be fed piece by piece.
-class TextHash {
-public:
-    void add(std::string_view bytes);
-    /// The same, but with its length, so that pieces cannot run into each other.
-    void add_piece(std::string_view bytes);
-    std::string digits() const;
-
-private:
-    std::uint64_t high_ = 0x6c62272e07bb0142;
-    std::uint64_t low_ = 0x62b821756295c58d;
-};
 
 }  // namespace sikku

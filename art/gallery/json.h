@@ -1,4 +1,4 @@
-// art/gallery/json.h: JSON that others may have written.
+// art/gallery/json.h: parses untrusted JSON.
 #pragma once
 
 #include <cstddef>

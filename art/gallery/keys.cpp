@@ -48,7 +48,7 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
         if (key.owner == KeyOwner::engine) continue;
         const Interpreter* reader = reader_of(key.owner);
         if (!reader) continue;
-        // Keys that are options of the interpreter, too, go through its table.
+        // Keys that are also options of the interpreter use its table.
         const OptionInfo* option = find_option(reader->options(), key.name);
         const bool is_option = option && option->is_key && !option->sets_more && !option->is_alone;
         keys_.push_back(

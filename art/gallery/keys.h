@@ -15,16 +15,16 @@ namespace sikku {
 struct GalleryKey {
     std::string name{};
     std::string help{};
-    std::string_view unit{};
-    const Interpreter* use = nullptr;  ///< whose jobs it concerns; null: all
+    std::string_view unit{};           ///< may follow the number
+    const Interpreter* use = nullptr;  ///< interpreter whose jobs use the key; null: all
     OptionKind kind = OptionKind::text;
-    bool overrides = false;  ///< it is a key of the pattern
+    bool overrides = false;  ///< true if it overrides a key of the pattern
     double least = -1e300;
     double most = 1e300;
     bool is_option = true;  ///< the command line has it, too
 };
 
-/// What gallery files may contain.
+/// The keys and formats that gallery files may contain.
 class GalleryKeys {
 public:
     /// @param interpreters  in order of precedence for formats of the same name: prints, then scores
@@ -50,7 +50,7 @@ private:
         const Interpreter* interpreter;
     };
     const Known* known(std::string_view format) const;
-    /// Who reads the keys of that owner, or null.
+    /// The interpreter that reads the keys of that owner, or null.
     const Interpreter* reader_of(KeyOwner owner) const;
 
     std::vector<const Interpreter*> interpreters_;

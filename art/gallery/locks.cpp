@@ -1,6 +1,6 @@
 #include "art/gallery/locks.h"
 
-#include "art/gallery/jobs.h"
+#include "engine/base/hash.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 const std::string lock_name = ".gallery.lock";
 constexpr std::string_view line_start = "sikku gallery ";
 
-// Locked bytes. Gallery files use those from `first_file` on.
+// Bytes of the lock file. Files of the gallery use those from `first_file` on.
 constexpr std::int64_t presence = 0;  // shared by all runs
 constexpr std::int64_t turn = 1;      // for records
 constexpr std::int64_t first_file = 2;
@@ -30,7 +30,7 @@ std::int64_t byte_of(const std::string& file) {
     return first_file + std::stoll(hash.digits().substr(0, 15), nullptr, 16);
 }
 
-/// Identifies the running process to readers of the file.
+/// Identifies this process to readers of the lock file.
 std::string own_line() {
     std::array<char, HOST_NAME_MAX + 1> host{};
     ::gethostname(host.data(), host.size() - 1);
@@ -55,13 +55,13 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
         // The last run may just have removed it.
     } while (!is_named());
     const std::string line = own_line();
-    // On a full disk, other runs see this run only by its lock.
+    // If the disk is full, the lock alone shows this run to others.
     [[maybe_unused]] const ssize_t written = ::write(file_.get(), line.data(), line.size());
 }
 
 GalleryLocks::~GalleryLocks() {
     if (!file_) return;
-    // In turn, so that of two runs ending at the same time one sees that it is the last.
+    // Runs end one at a time, so that exactly one of them detects that it is the last.
     lock(F_WRLCK, turn, true);
     if (lock(F_WRLCK, presence, false) == Result::locked) {
         try {
@@ -87,7 +87,7 @@ GalleryLocks::Result GalleryLocks::lock(short type, std::int64_t byte, bool wait
     return Result::locked;
 }
 
-/// Locks where locks have worked before.
+/// Locks a byte on a file system that is known to support locks.
 GalleryLocks::Result GalleryLocks::require_lock(short type, std::int64_t byte, bool waits) const {
     const Result result = lock(type, byte, waits);
     if (result == Result::unsupported) {

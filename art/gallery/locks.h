@@ -10,7 +10,7 @@ namespace sikku {
 
 /// Locks of the runs working in a folder: whole runs, shards and restarts alike. They lock bytes of the file
 /// `.gallery.lock` (one line per run: host and process), which the last run removes. The system drops the locks of a
-/// process however it ends, so a file whose lock is free has no living owner, and its unfinished remains may be
+/// process however it ends, so a file whose lock is free has no living owner, and its unfinished parts may be
 /// removed. Network file systems pass the locks on to other hosts; without lock support, other runs cannot be
 /// detected. Whether locks are supported is found out once, at the start. A lock that fails later, as when a server
 /// has no memory for more locks, ends the run with an error: without the lock, another run could remove the
@@ -23,20 +23,20 @@ public:
     GalleryLocks(const GalleryLocks&) = delete;
     GalleryLocks& operator=(const GalleryLocks&) = delete;
 
-    /// Does the file system support locks?
+    /// True if the file system supports locks.
     bool work() const { return static_cast<bool>(file_); }
     /// Locks a file of the gallery; false if another run has it. Without lock support, always true.
     /// @throws std::runtime_error if locks are supported and this one fails
     bool take(const std::string& file);
     void release(const std::string& file);
 
-    /// Is another run active? Without locks this is unknown, and the result is true.
+    /// True if another run is active, or if locks are not supported.
     bool others_present() const;
     /// Counter that grows when a run begins; without locks, with each call.
     std::uint64_t arrivals();
 
-    /// While it exists, no other run rewrites records and, if it is exclusive, none reads them either. Waits for its
-    /// turn. One at a time in a process.
+    /// Holds the lock of the records: no other run rewrites them and, if it is exclusive, none reads them. The
+    /// constructor waits for the lock. At most one at a time in a process.
     class Turn {
     public:
         /// @throws std::runtime_error if locks are supported and this one fails

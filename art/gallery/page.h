@@ -1,4 +1,4 @@
-// art/gallery/page.h: the page of a gallery: its prints to search, to look at closely, and to take along.
+// art/gallery/page.h: writes the HTML page of a gallery, with search, zoom and downloads.
 #pragma once
 
 #include "engine/base/output.h"

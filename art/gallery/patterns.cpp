@@ -22,7 +22,8 @@ bool has_wildcards(std::string_view word) {
     return word.find_first_of("*?[") != std::string_view::npos;
 }
 
-/// Position after the set `[…]` that begins at `at`; npos if it does not end. `fits`: does the set contain the byte?
+/// Position after the set `[…]` that begins at `at`; npos if it does not end. `fits` is set to whether the set
+/// contains the byte.
 std::size_t read_set(std::string_view form, std::size_t at, char byte, bool& fits) {
     const bool is_not = at + 1 < form.size() && (form[at + 1] == '!' || form[at + 1] == '^');
     std::size_t i = at + (is_not ? 2 : 1);

@@ -1,5 +1,4 @@
-// art/gallery/patterns.h: finds the patterns that a gallery names, by name, file, folder or wildcards, and reads each
-// once.
+// art/gallery/patterns.h: finds patterns by name, file, folder or wildcards, and reads each once.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -14,7 +13,7 @@
 
 namespace sikku {
 
-/// The text of a pattern and what messages call it.
+/// The text of a pattern and its name in messages.
 struct PatternText {
     std::string name;
     std::string text;
@@ -30,9 +29,8 @@ struct GalleryPattern {
     std::string problem;                      ///< then: why
 };
 
-/// Does the whole of `name` match `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]` for
-/// one that is listed or not listed, and `\` takes the next byte literally? Time: at most the product of both
-/// lengths.
+/// True if the whole of `name` matches `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]`
+/// for one byte in or not in a set, and `\` quotes the next byte. Time: at most the product of both lengths.
 bool fits_wildcards(std::string_view form, std::string_view name);
 
 /// Finds patterns and reads each once. Searches at most a million folder entries and reads at most 1 GB.
@@ -62,7 +60,7 @@ private:
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;
     std::size_t bytes_ = 0;    // of all texts
-    std::size_t entries_ = 0;  // of folders searched
+    std::size_t entries_ = 0;  // folder entries searched so far
 };
 
 }  // namespace sikku

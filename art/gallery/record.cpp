@@ -81,6 +81,7 @@ RecordText read_record(const std::string& text) {
             job.bytes = json.at("bytes").get<std::uint64_t>();
             job.content = json.at("content").get<std::string>();
             job.job = json.at("job").dump();
+            if (json.contains("warnings")) job.warnings = json.at("warnings").get<std::vector<std::string>>();
             if (json.contains("told")) job.told = json.at("told").get<std::vector<std::string>>();
             if (!is_inside(job.file)) continue;
             record.claims.erase(job.file);
@@ -98,7 +99,7 @@ RecordText read_record(const std::string& text) {
 /// What OutputFile adds to a name until the file is whole: `.NAME.abc234.tmp`, and of sound another such behind it.
 /// Long names are cut to 200 bytes, not inside of a character.
 bool is_unfinished(const std::string& name, const std::string& target) {
-    // A cut name may be that of several files, of which another may be under way.
+    // Several files may share a shortened name, and another run may be making one of them.
     if (target.size() > 200) return false;
     std::string_view rest = name;
     const auto take = [&](std::string_view piece) {
@@ -119,7 +120,7 @@ bool is_unfinished(const std::string& name, const std::string& target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
-/// Contents of an open file from a byte on, up to 1 MB without a line feed: no line of a record is that long.
+/// Reads an open file from a byte on, but stops after 1 MB without a line feed, longer than any line of a record.
 /// @throws std::runtime_error for over 1 GB
 std::string read_from(const Descriptor& file, off_t from) {
     constexpr std::size_t longest_line = std::size_t{1} << 20;
@@ -160,6 +161,7 @@ std::string FinishedJob::line() const {
     json["bytes"] = bytes;
     json["content"] = content;
     json["job"] = read_json(job);
+    if (!warnings.empty()) json["warnings"] = warnings;
     if (!told.empty()) json["told"] = told;
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -214,7 +216,7 @@ std::vector<std::string> GalleryRecord::others() const {
     return files;
 }
 
-/// Is this still the file that was read, and not another one with the same number?
+/// True if this is still the file that was read, and not another one with the same inode number.
 bool GalleryRecord::continues(const Descriptor& record, const Reading& reading) {
     std::string end(reading.end.size(), '\0');
     const off_t at = reading.bytes - static_cast<off_t>(end.size());
@@ -227,7 +229,7 @@ void GalleryRecord::read_others() {
     for (auto& [file, reading] : others_) {
         const Descriptor record = folder_.open(file);
         struct stat status {};
-        // It may be gone: its lines are then in the record of the whole gallery.
+        // A missing file was merged: its lines are in the record of the whole gallery.
         if (!record || ::fstat(record.get(), &status) != 0) continue;
         if (status.st_ino != reading.inode || status.st_size < reading.bytes || !continues(record, reading)) {
             reading = {status.st_ino, 0, {}};
@@ -252,7 +254,7 @@ void GalleryRecord::take_in(const RecordText& record, bool keeps) {
     for (const auto& entry : record.finished) {
         const FinishedJob& job = entry.second;
         Known& known = known_[entry.first];
-        std::erase_if(known.versions, [&](const FinishedJob& version) { return version.line() == job.line(); });
+        std::erase_if(known.versions, [&](const FinishedJob& version) { return version == job; });
         known.versions.push_back(job);
         known.kept = known.kept || keeps;
     }
@@ -271,7 +273,7 @@ void GalleryRecord::refresh() {
     read_others();
 }
 
-/// Removes the unfinished remains of the files in `left_`, except those that another run is making.
+/// Removes the unfinished parts of the files in `left_`, except those that another run is making.
 void GalleryRecord::remove_left() {
     std::map<std::string, std::vector<std::string>> by_folder;
     for (const std::string& file : left_) by_folder[folder_of(file)].push_back(file);
@@ -376,7 +378,7 @@ std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
         } catch (const std::runtime_error&) {
             continue;
         }
-        // Without locks: a record with nothing in progress.
+        // Without locks, only records with nothing in progress.
         const bool is_locked = ::flock(shard.descriptor.get(), LOCK_EX | LOCK_NB) == 0;
         if (!is_locked && errno == EWOULDBLOCK) continue;
         const RecordText record = read_record(read_from(shard.descriptor, 0));
@@ -389,14 +391,13 @@ std::vector<GalleryRecord::Left> GalleryRecord::take_over_shards() {
     return shards;
 }
 
-/// Does the record of the whole gallery agree on all these files?
+/// True if the record of the whole gallery contains all these files unchanged.
 bool GalleryRecord::is_in_the_whole(const std::vector<FinishedJob>& jobs) const {
     if (!folder_.open(std::string(whole_name))) return false;
     const RecordText whole = read_record(folder_.read(std::string(whole_name)));
     return std::all_of(jobs.begin(), jobs.end(), [&](const FinishedJob& job) {
         const auto found = whole.finished.find(job.file);
-        return found != whole.finished.end() && found->second.line() == job.line() &&
-               !whole.claims.contains(job.file);
+        return found != whole.finished.end() && found->second == job && !whole.claims.contains(job.file);
     });
 }
 
@@ -429,7 +430,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
         replace(text);
     }
     for (const Left& shard : shards) folder_.remove(shard.name);
-    // Before the turn of another run, which may take it over.
+    // Release it before the lock of the records, so that another run may merge it.
     descriptor_.close();
 }
 

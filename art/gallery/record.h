@@ -1,4 +1,4 @@
-// art/gallery/record.h: what a gallery's folder is known to hold: one line of JSON for each finished job.
+// art/gallery/record.h: the record of a gallery's folder: one line of JSON for each finished job.
 #pragma once
 
 #include "art/gallery/locks.h"
@@ -16,23 +16,25 @@ namespace sikku {
 
 /// What is known of a file that was made. Nothing in it depends on when or how fast it was made.
 struct FinishedJob {
-    std::string file;               ///< path below the folder
-    std::string hash;               ///< GalleryJob::hash()
-    std::uint64_t bytes = 0;        ///< of the file
-    std::string content;            ///< hash of the file's bytes
-    std::string job;                ///< GalleryJob::text()
-    std::vector<std::string> told;  ///< what there was to tell, warnings first of all
+    std::string file;         ///< path below the folder
+    std::string hash;         ///< GalleryJob::hash()
+    std::uint64_t bytes = 0;  ///< of the file
+    std::string content;      ///< hash of the file's bytes
+    std::string job;          ///< GalleryJob::text()
+    std::vector<std::string> warnings;
+    std::vector<std::string> told;  ///< facts
 
     /// One line of JSON, with its line feed.
     std::string line() const;
+    bool operator==(const FinishedJob&) const = default;
 };
 
 struct RecordText;
 
 /// The records of a folder. Each run appends to one file, `gallery.jsonl` or that of its shard, and reads all of
 /// them, again whenever other runs are active. Before a file is made, it is locked against all other runs and its
-/// name is claimed in the record, so that the remains of a killed run are recognised as the gallery's own. Torn
-/// lines, such as the last line of a killed run, are ignored. May be used from several threads.
+/// name is claimed in the record, so that the unfinished files of a killed run are recognised as the gallery's own.
+/// Incomplete lines, such as the last line of a killed run, are ignored. May be used from several threads.
 class GalleryRecord {
 public:
     /// Locks the record against other runs of the same shard and removes the unfinished files of killed runs.
@@ -51,7 +53,7 @@ public:
     std::optional<FinishedJob> finished(const std::string& file, const std::string& hash) const;
     /// Was a file of this name made or begun by a gallery?
     bool is_ours(const std::string& file) const;
-    /// Was it begun and not finished, by a run that has ended or one that is still active?
+    /// True if the file was begun but not finished, by an ended or an active run.
     bool is_begun(const std::string& file) const;
 
     /// Reserves the file for this run; false if another run is making it.
@@ -65,9 +67,9 @@ public:
     /// Synchronises the file to disk, then appends the record in a single write and synchronises that, too.
     void add(const FinishedJob& job);
     /// Rewrites the record beside the old one and renames it into place: the finished jobs of `order`, in that order,
-    /// then all other made or begun files. As `sole`, it takes over the current records of shards, including the
-    /// unfinished files of killed ones, and removes them unless they are in use. A shard record that adds nothing to
-    /// `gallery.jsonl` is removed. Add nothing after that.
+    /// then all other made or begun files. As `sole`, it merges the current records of shards, including the
+    /// unfinished files of killed ones, and removes those records unless they are in use. A shard record that adds
+    /// nothing to `gallery.jsonl` is removed. Add nothing after that.
     /// @param begun  files that this run began and did not finish; the next run makes others first
     void complete(const std::vector<FinishedJob>& order, const std::vector<std::string>& begun, bool sole);
 
@@ -81,7 +83,7 @@ private:
     struct Reading {
         ino_t inode = 0;
         off_t bytes = 0;
-        std::string end;  ///< of the part read: file numbers are reused
+        std::string end;  ///< last bytes of the part read: inode numbers are reused
     };
     /// The record of a shard that no run is using, locked.
     struct Left {
@@ -108,7 +110,7 @@ private:
     bool others_were_present_ = true;
     std::map<std::string, Reading> others_;
     std::map<std::string, Known> known_;
-    std::set<std::string> left_;  ///< begun by killed runs; unfinished remains may exist
+    std::set<std::string> left_;  ///< files begun by killed runs, whose unfinished parts may exist
     mutable std::mutex mutex_;
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <optional>
 #include <queue>
 
 namespace sikku {
@@ -72,7 +73,7 @@ Shard read_shard(const std::string& text, const Environment& environment) {
     }
     if (!index) {
         if (count) {
-            throw SettingError("shard", text, "no batch system says which part this is");
+            throw SettingError("shard", text, "no batch system states which part this is");
         }
         return shard;
     }

@@ -1,9 +1,8 @@
-// art/gallery/shards.h: a gallery cut into parts for several machines.
+// art/gallery/shards.h: divides a gallery into parts for several machines.
 #pragma once
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 
 #include "art/draw_settings.h"
 #include "art/gallery/page.h"
+#include "art/gallery/values.h"
 #include "art/print_cell.h"
 #include "art/prints.h"
 #include "art/sheet/sheet.h"
@@ -15,7 +16,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace sikku {
@@ -29,18 +29,19 @@ bool is_print(const GalleryJob& job) {
 }
 
 /// Jobs of one name, in the order of their first.
-struct Prints {
+struct NamedJobs {
     std::vector<const GalleryJob*> jobs;
+    /// @param format extension of the format; jobs may use its alias
     const GalleryJob* find(std::string_view format) const {
         for (const GalleryJob* job : jobs) {
-            if (job->format == format) return job;
+            if (find_format(job->interpreter().formats(), job->format)->extension == format) return job;
         }
         return nullptr;
     }
 };
 
-std::vector<Prints> by_name(const std::vector<const GalleryJob*>& jobs) {
-    std::vector<Prints> list;
+std::vector<NamedJobs> by_name(const std::vector<const GalleryJob*>& jobs) {
+    std::vector<NamedJobs> list;
     std::map<std::string_view, std::size_t> places;
     for (const GalleryJob* job : jobs) {
         const auto [place, is_new] = places.emplace(job->name, list.size());
@@ -95,7 +96,7 @@ std::string angle_of(const Pattern& pattern) {
     return fmt::format("{:.6g}", 360.0 / parts);
 }
 
-GalleryEntry entry_of(const Prints& item) {
+GalleryEntry entry_of(const NamedJobs& item) {
     const GalleryJob& first = *item.jobs.front();
     const Document loaded = first.document();
     GalleryEntry entry;
@@ -150,9 +151,12 @@ bool is_gallery_page(std::string_view beginning) {
 }
 
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
-                         const std::filesystem::path& path) {
+                         const std::filesystem::path& path, const Monitor& monitor) {
     std::vector<GalleryEntry> entries;
-    for (const Prints& item : by_name(jobs)) entries.push_back(entry_of(item));
+    for (const NamedJobs& item : by_name(jobs)) {
+        monitor.check();
+        entries.push_back(entry_of(item));
+    }
     OutputFile file(path);
     write_gallery_page(title, entries, file);
     file.commit();
@@ -174,7 +178,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     std::map<const GalleryPattern*, const GalleryJob*> first;
     std::map<const GalleryPattern*, std::set<std::string>> varying;
     std::vector<std::pair<const GalleryJob*, Document>> prints;
-    for (const Prints& item : by_name(jobs)) {
+    for (const NamedJobs& item : by_name(jobs)) {
         const auto print =
             std::find_if(item.jobs.begin(), item.jobs.end(), [](const GalleryJob* job) { return is_print(*job); });
         if (print == item.jobs.end()) continue;
@@ -217,7 +221,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
 SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
     SheetOptions options;
     options.format = *print_format(file);
-    options.page = read_draw_settings({{"size", request.size}}).page;
+    options.page = read_draw_settings({{"size", request.size}, {"margin", "0mm"}}).page;
     options.page.margin = std::min(options.page.width, options.page.height) / 25;
     // Large sheets are looked at from further away, and memory has an end.
     options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
@@ -231,11 +235,12 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 }  // namespace
 
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const std::function<void(std::uint64_t)>& watch) {
+                        const std::filesystem::path& file, const Monitor& monitor) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
-    if (cells.empty()) return;
+    if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
-    options.watch = watch;
+    options.monitor = monitor;
+    options.watch = [monitor](std::uint64_t) { monitor.check(); };
     draw_sheet(cells, options, file);
 }
 

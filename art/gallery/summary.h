@@ -1,10 +1,9 @@
-// art/gallery/summary.h: what is made of a whole gallery: its page, a poster, a contact sheet.
+// art/gallery/summary.h: makes the page, the poster and the contact sheet of a gallery.
 #pragma once
 
 #include "art/gallery/jobs.h"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +13,7 @@ namespace sikku {
 /// Files that no job may have: `index.html` and those of the sheets.
 bool is_summary(std::string_view file);
 
-/// Whether a file that begins with these (up to 4096) bytes is a page written by write_gallery_index().
+/// True if a file that begins with these (up to 4096) bytes was written by write_gallery_index().
 bool is_gallery_page(std::string_view beginning);
 
 struct SheetRequest {
@@ -31,13 +30,13 @@ std::vector<std::string> sheet_files(const SheetRequest& request);
 /// @param jobs  that are there
 /// @param file  `index.html`: one entry for each name, whatever formats it was made in
 void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::string& title,
-                         const std::filesystem::path& file);
+                         const std::filesystem::path& file, const Monitor& monitor);
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's ending tells the format. Where patterns
-/// have several derivation lengths, each has rows of its own. Nothing is written where there is no print.
-/// @throws GalleryError, and what draw_sheet() throws
+/// have several derivation lengths, each has rows of its own.
+/// @throws GalleryError if there is no print; what draw_sheet() throws
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const std::function<void(std::uint64_t)>& watch);
+                        const std::filesystem::path& file, const Monitor& monitor);
 
 /// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

@@ -40,7 +40,7 @@ public:
         std::size_t values = 0;
         for (at_ = text_.starts_with("\xEF\xBB\xBF") ? 3 : 0; at_ < text_.size();) {
             const char letter = text_[at_];
-            // toml++ 3.3 reads beyond its tables on such a character.
+            // toml++ 3.3 reads out of bounds on such a character.
             require(static_cast<unsigned char>(letter) < 0x80,
                     "non-ASCII characters are allowed only in strings and comments");
             if (letter == '#') {
@@ -48,7 +48,7 @@ public:
                 continue;
             }
             if (letter == '"' || letter == '\'') {
-                // Elsewhere it would belong to a number or a word, which the parser reads to its end.
+                // Elsewhere the parser would read the quote as part of a number or a word.
                 require(may_begin_string(),
                         "unexpected quote: expected a key, '=', ',' or a bracket before a string");
                 pass_string(letter);
@@ -62,7 +62,7 @@ public:
                 depth -= depth > 0 ? 1 : 0;
             }
             if (letter == ',' || letter == '=' || letter == '[' || letter == '{' || letter == '\n') dots = 0;
-            // Each dot of a key makes a table.
+            // Each dot in a key creates a table.
             if (letter == ',' || letter == '=' || letter == '[' || letter == '.') {
                 require(++values <= most_toml_values, "too many values: a gallery file has at most 250000");
             }
@@ -80,7 +80,7 @@ private:
              message);
     }
 
-    /// After a blank, a separator or a bracket; after a dot if a key and not a number precedes it.
+    /// True after a blank, a separator or a bracket, or after a dot that follows a key and not a number.
     bool may_begin_string() const {
         if (at_ == 0) return true;
         const char before = text_[at_ - 1];
@@ -106,7 +106,7 @@ private:
                 return;
             } else if (is_long && text_.compare(at_, 3, three) == 0) {
                 at_ += 3;
-                // Up to two quotes may precede the three that end it.
+                // Up to two quotes may precede the closing three.
                 while (at_ < text_.size() && text_[at_] == quote) ++at_;
                 return;
             } else {

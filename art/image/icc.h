@@ -1,4 +1,4 @@
-// art/image/icc.h: ICC profiles, through lcms2. Part of the module with OpenImageIO.
+// art/image/icc.h: converts colours by ICC profiles with lcms2. Part of the module with OpenImageIO.
 #pragma once
 
 #include <cstdint>

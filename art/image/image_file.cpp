@@ -13,10 +13,10 @@
 namespace sikku {
 namespace {
 
-/// Rejects limits under which the libraries of the module, which start threads and allocate memory on loading, would
-/// end the program.
+/// Rejects limits under which the libraries of the module would abort: they start threads and allocate memory on
+/// loading.
 void require_resources(int threads) {
-    // Logging of an unused library; the pools of OpenImageIO and OpenEXR; the bands of the picture.
+    // One for the log of an unused library, the pools of OpenImageIO and OpenEXR, the bands of the picture.
     constexpr int at_load = 4;
     constexpr int least_pool = 3;
     const int bands = thread_count(threads);
@@ -24,7 +24,7 @@ void require_resources(int threads) {
     if (const int there = startable_threads(wanted); there < wanted) {
         throw std::runtime_error("pictures need " + std::to_string(wanted) + " threads, but only " +
                                  std::to_string(there) +
-                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads (-j 1)");
+                                 " can be started; raise `ulimit -u` or `-v`, or use fewer threads");
     }
     constexpr std::size_t address_space = std::size_t{640} << 20;
     void* const reserved =

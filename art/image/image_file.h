@@ -1,4 +1,4 @@
-// art/image/image_file.h: raster files through OpenImageIO, which is loaded only when the first one is made.
+// art/image/image_file.h: writes picture files with OpenImageIO, which is loaded on first use.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ struct ImageSpec {
     int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
 };
 
-/// JPEG stores texts in one EXIF block of 64 kB; other TIFF readers accept as much. Half a pattern is not a pattern.
+/// JPEG stores texts in one EXIF block of 64 kB; other TIFF readers accept as much. Longer patterns are left out
+/// rather than cut.
 constexpr std::size_t longest_short_text = 60'000;
 /// Does a file of that format (as in ImageSpec) hold that text?
 inline bool keeps_text(std::string_view format, std::string_view text) {
@@ -59,8 +60,7 @@ public:
 };
 
 /// Loads the module and checks that it can start its threads, for pictures using this many (0: one for each core).
-/// Call before work whose result would be lost: under a low `ulimit -u` or `-v` the libraries of the module would end
-/// the program.
+/// Call before long work: under a low `ulimit -u` or `-v` the libraries of the module would abort the program.
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
 void prepare_images(int threads);
 

@@ -1,5 +1,5 @@
-// art/image/image_module.cpp: the only file that sees OpenImageIO. With icc.cpp it is a module of its own, loaded by
-// image_file.cpp.
+// art/image/image_module.cpp: the only file that includes OpenImageIO. With icc.cpp it is a module of its own, loaded
+// by image_file.cpp.
 #include "art/image/image_module.h"
 
 #include "art/image/icc.h"
@@ -269,8 +269,8 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
 }
 
 FileWriter::~FileWriter() {
-    // Not closed: the file is given up. Without its proxy the library does not complete a PNG, for which libpng would
-    // report missing pixels on standard error.
+    // The unfinished file is not closed: without its proxy the library does not complete the PNG, for which libpng
+    // would report missing pixels on standard error.
     if (output_ && spec_.format == "png") output_->set_ioproxy(nullptr);
     output_.reset();
 }

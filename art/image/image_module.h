@@ -1,4 +1,4 @@
-// art/image/image_module.h: what the module with OpenImageIO exports to image_file.cpp.
+// art/image/image_module.h: the functions that the module with OpenImageIO exports to image_file.cpp.
 #pragma once
 
 #include "art/image/image_file.h"

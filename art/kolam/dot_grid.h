@@ -1,4 +1,4 @@
-// art/kolam/dot_grid.h: kolams on a grid of dots: which gaps the lines cross in, and how many lines that makes.
+// art/kolam/dot_grid.h: kolams on a grid of dots: crossings in the gaps between dots, and the lines they form.
 #pragma once
 
 #include "engine/base/monitor.h"

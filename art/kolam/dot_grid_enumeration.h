@@ -1,4 +1,4 @@
-// art/kolam/dot_grid_enumeration.h: all kolams of a single line on a small grid of dots.
+// art/kolam/dot_grid_enumeration.h: enumerates all single-line kolams on a small grid of dots.
 #pragma once
 
 #include "art/kolam/dot_grid.h"

@@ -1,4 +1,4 @@
-// art/kolam/dot_grid_pattern.h: a kolam on a grid of dots as an ordinary pattern file.
+// art/kolam/dot_grid_pattern.h: writes a kolam on a grid of dots as a pattern file.
 #pragma once
 
 #include "art/kolam/dot_grid.h"

@@ -1,4 +1,4 @@
-// art/kolam/dots.h: dots where the tradition would set them.
+// art/kolam/dots.h: places the dots of a kolam as tradition does.
 #pragma once
 
 #include "art/kolam/faces.h"
@@ -8,7 +8,7 @@
 
 namespace sikku::kolam_plane {
 
-/// Sets one dot in each odd face, sorted by y, then by x.
+/// Places one dot in each odd face, sorted by y, then by x.
 std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, const Strokes& strokes,
                                const Lines& lines, const KolamOptions& options);
 

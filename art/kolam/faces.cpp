@@ -50,7 +50,7 @@ Faces::Faces(const PlanarGraph& graph, std::span<const char> closed_times, const
     breathe(options);
 }
 
-/// Finds the cycles and returns what each encloses, negative where it runs clockwise.
+/// Finds the cycles and returns the area of each, negative for clockwise cycles.
 std::vector<double> Faces::find_cycles(Pulse& pulse) {
     cycle_.assign(2 * graph_.edges.size(), none);
     std::vector<double> areas;
@@ -76,7 +76,7 @@ bool Faces::is_lower(std::uint32_t a, std::uint32_t b) const {
     return std::pair(graph_.places[a].y, graph_.places[a].x) < std::pair(graph_.places[b].y, graph_.places[b].x);
 }
 
-/// Finds the components and the cycle around each, and returns the lowest vertex of each.
+/// Finds the components and their outer cycles, and returns the lowest vertex of each component.
 std::vector<std::uint32_t> Faces::find_components(std::span<const double> areas, Pulse& pulse) {
     UnionFind components(graph_.places.size());
     for (const auto& [a, b] : graph_.edges) components.join(a, b);

@@ -1,4 +1,4 @@
-// art/kolam/faces.h: the faces of a planar graph, and which of them closed lines enclose.
+// art/kolam/faces.h: finds the faces of a planar graph, and those that closed lines enclose.
 #pragma once
 
 #include "art/kolam/planar_graph.h"
@@ -21,15 +21,15 @@ public:
     std::uint64_t count() const { return begins_.size() - outer_.size(); }
 
     std::uint32_t cycles() const { return static_cast<std::uint32_t>(begins_.size()); }
-    /// One of the half-edges of a cycle.
+    /// A half-edge of a cycle.
     std::uint32_t half_of(std::uint32_t cycle) const { return begins_[cycle]; }
     bool is_outer(std::uint32_t cycle) const { return outer_[component_[graph_.tail(begins_[cycle])]] == cycle; }
-    /// Is the face of a cycle odd, where the outside is even and the two sides of a closed line differ?
+    /// True if the face of a cycle is odd: crossing a closed line changes the parity, and the outside is even.
     bool is_odd(std::uint32_t cycle) const { return odd_[cycle] != 0; }
     bool has_holes(std::uint32_t cycle) const { return has_holes_[cycle] != 0; }
 
-    /// The bounded face in which a point lies that is on no edge; none outside. Looks down until an edge is met; an
-    /// edge covers its left end and not its right one.
+    /// The bounded face that contains a point, which must not lie on an edge; none outside. Searches downwards for an
+    /// edge; an edge includes its left end but not its right one.
     std::uint32_t at(glm::dvec2 point) const;
 
 private:

@@ -22,7 +22,7 @@ namespace {
 
 using namespace kolam_plane;
 
-/// The stages of an examination, each of which works on what those before it found.
+/// Runs the stages of an examination, each on the results of the previous ones.
 template <class Plane>
 KolamExamination examine(const Plane& plane, const Strokes& strokes, const KolamOptions& options) {
     KolamExamination result;
@@ -76,7 +76,7 @@ KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, cons
     derive(grammar, *turtle, derivation);
     const Strokes strokes = reader.finish();
     if (strokes.count() == 0) {
-        throw std::runtime_error("there is nothing to examine: the word holds no step that draws");
+        throw std::runtime_error("there is nothing to examine: the word contains no step that draws");
     }
     return examine(plane, strokes, options);
 }

@@ -1,4 +1,4 @@
-// art/kolam/kolam.h: what there is to know of a drawing as a kolam: its lines, crossings, faces, dots and symmetry.
+// art/kolam/kolam.h: examines a drawing as a kolam: lines, crossings, faces, dots and symmetry.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -23,8 +23,8 @@ struct KolamSymmetry {
 /// A dot where the tradition would set one, in turtle steps.
 struct KolamDot {
     glm::dvec2 at{0.0};
-    bool is_enclosed = false;  ///< the closed lines as they are drawn run around it an odd number of times
-    bool is_alone = false;     ///< the whole line around its face is seen from it
+    bool is_enclosed = false;  ///< the drawn closed lines run around it an odd number of times
+    bool is_alone = false;     ///< the whole outline of its face is visible from it
 };
 
 /// The examination of a drawing. Vertices are where the turtle pauses and where segments meet; edges are the pieces
@@ -38,53 +38,53 @@ struct KolamDot {
 /// through a crossing where both strands go straight on; where they turn back (touchings) it keeps them apart.
 /// Whether dots are enclosed is asked of the curve itself. Polygons and discs are not looked at.
 struct KolamExamination {
-    bool is_exact = false;   ///< all that is said here was found in whole numbers but where the dots are
-    double tolerance = 0.0;  ///< else: points that are as near as this, in steps, are one
+    bool is_exact = false;   ///< computed in whole numbers, except for the positions of dots
+    double tolerance = 0.0;  ///< otherwise the distance in steps below which points are merged
     bool is_spline = false;
     std::uint64_t segments = 0;  ///< steps that draw (or guide a spline), as often as they are drawn
     std::uint64_t strokes = 0;
 
     std::uint64_t lines = 0;                    ///< as drawn; strokes that meet end to end are one line
-    std::uint64_t open_lines = 0;               ///< of them
-    std::vector<std::uint32_t> line_of_stroke;  ///< for each stroke the number of its line, by their first strokes
+    std::uint64_t open_lines = 0;               ///< number of open lines
+    std::vector<std::uint32_t> line_of_stroke;  ///< line of each stroke, numbered by first strokes
     std::vector<std::uint32_t> orbit_of_line;   ///< lines that are images of each other share a number
-    std::uint64_t straight_lines = 0;  ///< lines if one goes straight on wherever edges meet, as the eye does
+    std::uint64_t straight_lines = 0;           ///< number of lines when continuing straight on wherever edges meet
 
     std::uint64_t vertices = 0;
     std::uint64_t edges = 0;
     std::uint64_t components = 0;
-    std::uint64_t faces = 0;         ///< bounded ones
-    std::uint64_t reused_edges = 0;  ///< drawn more than once
+    std::uint64_t faces = 0;         ///< number of bounded faces
+    std::uint64_t reused_edges = 0;  ///< edges drawn more than once
 
     std::uint64_t meetings = 0;       ///< vertices that are visited more than once
     std::uint64_t crossings = 0;      ///< visited by two strands that cross
-    std::uint64_t skew = 0;           ///< crossings where two straight strands at right angles are not what crosses
+    std::uint64_t skew = 0;           ///< crossings other than of two straight strands at right angles
     std::uint64_t mid_crossings = 0;  ///< crossings inside of segments, where the turtle does not pause
     std::uint64_t touchings = 0;      ///< visited by two strands that do not cross
     std::uint64_t multiple = 0;       ///< visited by more than two
 
     KolamSymmetry symmetry;
-    glm::dvec2 centre{0.0};  ///< about which it is symmetric
+    glm::dvec2 centre{0.0};  ///< centre of symmetry
 
-    std::vector<KolamDot> dots;  ///< by y, then by x
+    std::vector<KolamDot> dots;  ///< sorted by y, then by x
 
-    std::uint64_t loose_dots() const;  ///< not enclosed, or not alone
+    std::uint64_t loose_dots() const;  ///< dots not enclosed or not alone
 
-    /// What breaks a rule of kolams: every dot is circumscribed, every line is closed, no stretch is drawn twice.
-    /// Empty for a kolam. Source: Gopalan & VanLeeuwen, Forma 30 (2015), section 2.
+    /// Violations of the rules of kolams: every dot is encircled, every line is closed, nothing is drawn twice. Empty
+    /// for a kolam.
+    /// Source: Gopalan & VanLeeuwen, Forma 30 (2015), section 2.
     std::vector<std::string> faults() const;
-    /// What is not customary, and still allowed: several lines, crossings of more than two strands or not at right
-    /// angles.
+    /// Unusual features that are allowed: several lines, crossings of more than two strands or not at right angles.
     std::vector<std::string> remarks() const;
     bool is_kolam() const { return faults().empty(); }
 };
 
 struct KolamOptions {
     bool spline = false;  ///< the pattern's `line: spline`
-    /// Most nodes of the derivation that are visited. A segment takes the memory and time of 40 of them, a crossing
-    /// those of 10.
+    /// Maximum number of derivation nodes visited. A segment takes the memory and time of 40 nodes, a crossing those
+    /// of 10.
     double budget = 200e6;
-    std::function<bool(const Pen&)> draws = {};  ///< what of the lines is seen; null: all
+    std::function<bool(const Pen&)> draws = {};  ///< true for visible lines; null: all are visible
     /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch = {};
     Monitor monitor = {};     ///< polled throughout the examination
@@ -97,7 +97,7 @@ struct KolamOptions {
 /// @throws BudgetError, WordError; std::runtime_error if no segment is drawn
 KolamExamination examine_kolam(const Grammar& grammar, const KolamOptions& options);
 
-/// Where the dots of an examination are.
+/// The positions of the dots of an examination.
 std::vector<glm::dvec2> dot_places(const KolamExamination& examination);
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
-// art/kolam/kolam_plane.h: the planes in which drawings are examined: where points are, which way lines go, where
-// they meet; in whole numbers, and in doubles with a tolerance.
+// art/kolam/kolam_plane.h: geometric predicates for examinations, in exact whole numbers, and in doubles with a
+// tolerance.
 #pragma once
 
 #include "engine/geometry/lattice.h"
@@ -27,6 +27,7 @@ __extension__ using Wide = __int128;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double steps_are_one = 1e-6;
+constexpr long double pi = 3.141592653589793238462643383279502884L;  // std::numbers of libc++ 13 has that of a double
 
 inline double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -69,7 +70,7 @@ public:
           rank_(static_cast<std::size_t>(lattice.rank)),
           table_(64, none) {
         for (int i = 0; i < k_; ++i) {
-            const long double angle = 2 * std::numbers::pi_v<long double> * i / k_;
+            const long double angle = 2 * pi * i / k_;
             cosines_.push_back(std::cos(angle));
             sines_.push_back(std::sin(angle));
         }
@@ -115,7 +116,7 @@ public:
             x += static_cast<long double>(step[i]) * cosines_[i];
             y += static_cast<long double>(step[i]) * sines_[i];
         }
-        const long double turned = std::atan2(y, x) / (2 * std::numbers::pi_v<long double>)*turn_;
+        const long double turned = std::atan2(y, x) / (2 * pi) * turn_;
         return static_cast<double>((std::llround(turned) + turn_) % turn_);
     }
 

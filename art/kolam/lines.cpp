@@ -8,7 +8,7 @@
 namespace sikku::kolam_plane {
 namespace {
 
-/// Uses of edges, in the order of drawing, and where each goes on.
+/// Lists the uses of edges in drawing order, and links each with its continuation.
 class LineFollower {
 public:
     LineFollower(const PlanarGraph& graph, const Strokes& strokes, const KolamOptions& options)
@@ -27,10 +27,10 @@ private:
         link_[a] = b;
         link_[b] = a;
     }
-    /// The half-edge that leaves the vertex at an end.
+    /// The half-edge of an end that leaves its vertex.
     std::uint32_t leaving(std::uint32_t end) const { return end % 2 == 0 ? uses_[end / 2] : uses_[end / 2] ^ 1; }
 
-    /// Finds the uses and links those of one stroke.
+    /// Lists the uses and links those of each stroke.
     void follow_strokes() {
         for (std::size_t i = 0; i < strokes_.count(); ++i) {
             const auto nodes = strokes_.stroke(i);
@@ -57,7 +57,7 @@ private:
         breathe(options_);
     }
 
-    /// Ends of strokes at one vertex go on into each other: first those that do so straight on.
+    /// Joins the ends of strokes that meet at a vertex, straight continuations first.
     void join_ends() {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // vertex, end
         for (std::uint32_t end = 0; end < link_.size(); ++end) {
@@ -150,15 +150,15 @@ private:
     const KolamOptions& options_;
     Pulse pulse_;
     std::vector<std::uint32_t> uses_;        // half-edges
-    std::vector<std::uint32_t> first_uses_;  // of strokes
-    std::vector<std::uint32_t> link_;  // end 2u is where use u begins, 2u+1 where it ends: the end that it goes on at
+    std::vector<std::uint32_t> first_uses_;  // first use of each stroke
+    std::vector<std::uint32_t> link_;  // of end 2u, the beginning of use u, and 2u + 1: the end that continues it
     Lines lines_;
 };
 
-/// Counts a vertex that two strands visit.
+/// Counts one vertex that two strands visit.
 void count_pair(const PlanarGraph& graph, const Lines& lines, const Pass& p, const Pass& q, Meetings& found) {
     for (const std::uint32_t half : {p.a, p.b, q.a, q.b}) {
-        if (half != none && lines.times[half / 2] > 1) return;  // they run along each other
+        if (half != none && lines.times[half / 2] > 1) return;  // the strands share an edge
     }
     if (p.b == none || q.b == none) {
         ++found.touchings;

@@ -1,4 +1,4 @@
-// art/kolam/lines.h: the lines of a drawing, and how they meet.
+// art/kolam/lines.h: finds the lines of a drawing and the points where they meet.
 #pragma once
 
 #include "art/kolam/planar_graph.h"
@@ -11,25 +11,25 @@ namespace sikku::kolam_plane {
 /// One visit of a line to a vertex.
 struct Pass {
     std::uint32_t vertex = 0;
-    std::uint32_t a = 0;  ///< half-edges that leave the vertex; `b` is none where an open line ends
+    std::uint32_t a = 0;  ///< half-edges that leave the vertex; `b` is none at the end of an open line
     std::uint32_t b = 0;
 };
 
 /// Strokes that meet end to end are one line.
 struct Lines {
     std::uint64_t count = 0;
-    std::uint64_t open = 0;                     ///< of them
-    std::vector<std::uint32_t> line_of_stroke;  ///< numbered by their first strokes
+    std::uint64_t open = 0;                     ///< number of open lines
+    std::vector<std::uint32_t> line_of_stroke;  ///< line of each stroke, numbered by first strokes
     std::vector<bool> is_stroke_of_open_line;   ///< for each stroke
     std::vector<std::uint32_t> times;           ///< how often each edge is drawn
-    std::vector<char> closed_times;             ///< by closed lines, modulo 2
-    std::vector<Pass> passes;                   ///< by vertex
+    std::vector<char> closed_times;             ///< how often closed lines draw each edge, modulo 2
+    std::vector<Pass> passes;                   ///< visits, sorted by vertex
 };
 
 /// Follows the strokes along the edges. @throws BudgetError
 Lines follow_strokes(const PlanarGraph& graph, const Strokes& strokes, const KolamOptions& options);
 
-/// Vertices that are visited more than once, by kind as in KolamExamination.
+/// Vertices visited more than once, by kind as in KolamExamination.
 struct Meetings {
     std::uint64_t all = 0;
     std::uint64_t crossings = 0;
@@ -40,7 +40,7 @@ struct Meetings {
 };
 Meetings count_meetings(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options);
 
-/// The number of lines if one goes straight on wherever edges meet.
+/// The number of lines when continuing straight on wherever edges meet.
 std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions& options);
 
 }  // namespace sikku::kolam_plane

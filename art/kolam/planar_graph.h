@@ -1,4 +1,4 @@
-// art/kolam/planar_graph.h: a drawing as a graph in the plane: vertices where lines meet, edges between them.
+// art/kolam/planar_graph.h: represents a drawing as a planar graph, with vertices where lines meet.
 #pragma once
 
 #include "art/kolam/kolam.h"
@@ -15,7 +15,7 @@
 
 namespace sikku::kolam_plane {
 
-/// Polls both ways to stop an examination: for the ends of stages.
+/// Polls both the watch function and the monitor, at the end of a stage.
 inline void breathe(const KolamOptions& options) {
     options.monitor.check();
     if (options.watch) options.watch(0);
@@ -27,26 +27,26 @@ void sort(const KolamOptions& options, Range& range, Less less = {}) {
     std::sort(range.begin(), range.end(), stoppable(options.monitor, less));
 }
 
-/// Half-edges 2e and 2e+1 run along edge e, the one as its segment does, the other back. Each vertex is the tail of
-/// the half-edges around it.
+/// Half-edge 2e runs along edge e in the direction of its segment, half-edge 2e+1 the other way. Each vertex is the
+/// tail of the half-edges around it.
 struct PlanarGraph {
     bool is_exact = false;
     double turn = 0.0;                        ///< a full turn, in the unit of directions
-    double rounding = 0.0;                    ///< how far coordinates may be off, with a margin
-    std::span<const glm::dvec2> node_places;  ///< of the plane, which must outlive the graph
+    double rounding = 0.0;                    ///< upper bound of the error of coordinates
+    std::span<const glm::dvec2> node_places;  ///< positions of nodes in the plane, which must outlive the graph
 
-    std::vector<Segment> segments;    ///< by nodes
-    std::optional<SegmentGrid> grid;  ///< over the segments
+    std::vector<Segment> segments;    ///< sorted by nodes
+    std::optional<SegmentGrid> grid;  ///< grid over the segments
 
-    std::vector<glm::dvec2> places;                              ///< of vertices
-    std::vector<std::uint32_t> node;                             ///< of a vertex, or none
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< vertices, as the edge's segment runs
+    std::vector<glm::dvec2> places;                              ///< positions of vertices
+    std::vector<std::uint32_t> node;                             ///< node of each vertex, or none
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< vertices, in the direction of the segment
     std::vector<std::uint32_t> edge_segment;
-    std::vector<std::uint32_t> piece_begins;  ///< for each segment, into piece_half
-    std::vector<std::uint32_t> piece_half;    ///< along the segment
+    std::vector<std::uint32_t> piece_begins;  ///< first index of each segment in piece_half
+    std::vector<std::uint32_t> piece_half;    ///< half-edges along each segment
     std::vector<std::uint32_t> around_begins;
-    std::vector<std::uint32_t> around_half;  ///< half-edges by the vertex that they leave, anticlockwise
-    std::vector<std::uint32_t> rank;         ///< of a half-edge among those
+    std::vector<std::uint32_t> around_half;  ///< half-edges sorted by tail, anticlockwise
+    std::vector<std::uint32_t> rank;         ///< index of each half-edge in around_half
 
     bool same_direction(double a, double b) const {
         return is_exact ? a == b : std::fabs(std::remainder(a - b, turn)) <= steps_are_one;
@@ -84,7 +84,7 @@ struct PlanarGraph {
         if (found == list.end()) found = list.begin();
         return same_direction(direction(*found), wanted) ? *found : none;
     }
-    /// The half-edge that follows with the same face on its left.
+    /// The next half-edge along the face on the left.
     std::uint32_t next(std::uint32_t half) const {
         const auto list = around(head(half));
         const std::uint32_t back = rank[half ^ 1];
@@ -98,13 +98,13 @@ struct PlanarGraph {
                                                            }) -
                                           segments.begin());
     }
-    /// The half-edges of a segment, in its direction.
+    /// The half-edges along a segment, in its direction.
     std::span<const std::uint32_t> pieces(std::uint32_t segment) const {
         return {piece_half.data() + piece_begins[segment], piece_begins[segment + 1] - piece_begins[segment]};
     }
 };
 
-/// Finds the graph of all that is drawn. Plane is ExactPlane or RoughPlane.
+/// Builds the graph of all strokes. Plane is ExactPlane or RoughPlane.
 /// @throws BudgetError
 template <class Plane>
 PlanarGraph make_graph(const Plane& plane, const Strokes& strokes, const KolamOptions& options);

@@ -1,4 +1,4 @@
-// art/kolam/segment_grid.h: a square grid over a drawing.
+// art/kolam/segment_grid.h: a square grid that finds the segments near a place.
 #pragma once
 
 #include "engine/base/monitor.h"

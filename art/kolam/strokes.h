@@ -1,4 +1,4 @@
-// art/kolam/strokes.h: the strokes of a drawing as nodes of a plane.
+// art/kolam/strokes.h: reads the strokes of a drawing as nodes of a plane.
 #pragma once
 
 #include "art/kolam/kolam_plane.h"
@@ -26,7 +26,7 @@ struct Strokes {
     }
 };
 
-/// Reads what a turtle draws. Plane is ExactPlane or RoughPlane.
+/// Reads the strokes of a turtle. Plane is ExactPlane or RoughPlane.
 template <class Plane>
 class StrokeReader : public PathSink, public PlaceSink {
 public:

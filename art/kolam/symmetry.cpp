@@ -68,8 +68,8 @@ private:
     UnionFind joined_;
 };
 
-/// Nodes that belong together: the ends of a straight piece with none between them, or a control point between its
-/// neighbours.
+/// Nodes that a symmetry maps together: the ends of a straight piece with no node between them, or a control point
+/// with its neighbours.
 using Element = std::array<std::uint32_t, 3>;
 
 void order(Element& element) {
@@ -93,7 +93,7 @@ std::vector<Element> spline_elements(const Strokes& strokes) {
     return elements;
 }
 
-/// The longest straight pieces; nullopt if one ends where lines cross between nodes, which no symmetry maps.
+/// The maximal straight pieces; nullopt if one ends at a crossing that is not a node, which cannot be mapped.
 std::optional<std::vector<Element>> straight_elements(const PlanarGraph& graph, const KolamOptions& options) {
     std::vector<Element> elements;
     Pulse pulse(options.monitor);

@@ -1,4 +1,4 @@
-// art/kolam/symmetry.h: what maps a drawing onto itself.
+// art/kolam/symmetry.h: finds the symmetries of a drawing.
 #pragma once
 
 #include "art/kolam/lines.h"
@@ -12,11 +12,11 @@ namespace sikku::kolam_plane {
 struct SymmetryFound {
     KolamSymmetry group;
     glm::dvec2 centre{0.0};
-    std::vector<std::uint32_t> orbit_of_line;  ///< as KolamExamination has it
+    std::vector<std::uint32_t> orbit_of_line;  ///< as in KolamExamination
 };
 
-/// Finds the symmetries of a drawing. Of straight lines the longest straight pieces must be mapped onto each other,
-/// of splines the control points with both neighbours. Plane is ExactPlane or RoughPlane.
+/// Finds the symmetries of a drawing. A symmetry maps the maximal straight pieces of straight lines, or the control
+/// points of splines with their neighbours, onto each other. Plane is ExactPlane or RoughPlane.
 template <class Plane>
 SymmetryFound find_symmetry(const Plane& plane, const PlanarGraph& graph, const Strokes& strokes, const Lines& lines,
                             const KolamOptions& options);

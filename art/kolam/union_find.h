@@ -1,4 +1,4 @@
-// art/kolam/union_find.h: sets of numbers that are joined.
+// art/kolam/union_find.h: disjoint sets of numbers.
 #pragma once
 
 #include <algorithm>

@@ -2,13 +2,13 @@
 
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
+#include "engine/base/decimal.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -274,7 +274,7 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
     bool moves = false;
     const std::string& text = options.end;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        // Comments may contain anything.
+        // Comments may contain any characters.
         if (text[i] == '(' || text[i] == ';') {
             i = text.find(text[i] == '(' ? ')' : '\n', i);
             if (i == std::string::npos) break;
@@ -282,9 +282,8 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
         }
         const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
         double value = 0;
-        const char* const last = text.data() + text.size();
-        if (letter < 'A' || letter > 'Z' || std::from_chars(text.data() + i + 1, last, value).ec != std::errc())
-            continue;
+        const std::string_view rest = std::string_view(text).substr(i + 1);
+        if (letter < 'A' || letter > 'Z' || parse_number(rest, value).ec != std::errc()) continue;
         if (letter == 'G') moves = value == 0 || value == 1;
         if (moves && letter == 'X') at[0] = value;
         if (moves && letter == 'Y') at[1] = value;

@@ -1,4 +1,4 @@
-// art/plotter/gcode.h: strokes as G-code, for plotters that are driven by grbl and its kind.
+// art/plotter/gcode.h: writes strokes as G-code, for plotters with grbl and similar controllers.
 #pragma once
 
 #include "art/plotter/plot.h"
@@ -28,11 +28,11 @@ struct GcodeOptions {
 /// The options of a kind of machine: `grbl` (M3 and M5) or `z`; nullopt for another name.
 std::optional<GcodeOptions> gcode_profile(std::string_view name);
 
-/// Where the lines after the last stroke leave the pen, in millimetres from the bottom left corner of the page: the
-/// last X and Y of their G0 and G1 moves (absolute, as the file begins); nullopt if there are none, as after homing.
+/// Position of the pen after the closing G-code lines, in millimetres from the bottom left corner of the page: the
+/// last X and Y of their G0 and G1 moves (in absolute coordinates); nullopt if there are none, as after homing.
 std::optional<glm::dvec2> gcode_home(const GcodeOptions& options);
 
-/// Formats a comment that no controller executes: `(label: text)`. The label keeps LinuxCNC from reading active
+/// Formats a comment that no controller executes: `(label: text)`. The label keeps LinuxCNC from executing active
 /// comments such as `(MSG,…` and `(LOGOPEN,…`. Omits `!`, `?` and `~`, which Grbl obeys anywhere, `%`, which begins
 /// and ends programs, `(`, `)` and `;`, and control characters; replaces non-ASCII characters, some of whose bytes
 /// are also Grbl commands, with `_`. Keeps 60 characters of the text: Grbl reads lines of 80.

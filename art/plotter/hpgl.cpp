@@ -26,7 +26,7 @@ constexpr std::size_t longest_instruction = 200;
 
 using Units = glm::ivec2;
 
-/// A sheet of the HP 7475A, in plotter units.
+/// A paper size of the HP 7475A, in plotter units.
 struct Sheet {
     std::string_view name;
     glm::dvec2 limits, first, second;  ///< the largest coordinates; the scaling points
@@ -40,7 +40,7 @@ bool is_turned(const Page& page) {
     return page.height > page.width;
 }
 
-/// From the page, y up, to the plotter.
+/// Converts a point of the page, y up, into plotter coordinates.
 glm::dvec2 on_plotter(glm::dvec2 point, const Page& page, const HpglOptions& options) {
     const glm::dvec2 size(page.width, page.height);
     const glm::dvec2 at = is_turned(page) ? glm::dvec2(size.y - point.y, point.x) : point;
@@ -85,7 +85,7 @@ public:
         end_instruction();
         started_ = false;
     }
-    /// The recipe comes last: plotters before HP-GL/2 do not know comments, and report that only after the plot.
+    /// The recipe comes last: plotters before HP-GL/2 reject comments, and report the error only after the plot.
     void finish() override {
         file_.write("PU;SP0;\n");
         for (const std::string& piece : recipe_comments(print_.pattern, print_.made)) {
@@ -118,13 +118,13 @@ private:
             return;
         }
         const glm::dvec2 reach = paper.high - paper.low;
-        // What fits however the page is turned: the same distance from the middle of the sheet on both sides.
+        // The centred area that fits in both orientations: equally far from the middle of the sheet on both sides.
         const glm::dvec2 free = glm::min(paper.high - paper.centre, paper.centre - paper.low);
         const glm::dvec2 half = 0.5 * glm::dvec2(std::max(print_.page.width, print_.page.height),
                                                  std::min(print_.page.width, print_.page.height));
         const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
         throw std::runtime_error(
-            fmt::format("the drawing leaves the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm "
+            fmt::format("the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm "
                         "keeps it inside",
                         reach.x, reach.y, paper.is_hp7475a ? fmt::format(" on {} (HP 7475A)", paper.name) : "",
                         std::ceil(10 * margin - 1e-6) / 10));

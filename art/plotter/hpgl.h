@@ -1,4 +1,4 @@
-// art/plotter/hpgl.h: strokes as HP-GL, for pen plotters and vinyl cutters.
+// art/plotter/hpgl.h: writes strokes as HP-GL, for pen plotters and vinyl cutters.
 #pragma once
 
 #include "art/plotter/plot.h"
@@ -12,48 +12,48 @@
 
 namespace sikku {
 
-/// What a plotter reaches of a sheet. Coordinates are millimetres from the plotter's origin, x along the long side.
+/// The area of a sheet that a plotter reaches. Coordinates are millimetres from the plotter's origin, x along the
+/// long side.
 struct HpglPaper {
     std::string name;     ///< for messages: `A4`
     glm::dvec2 low{0.0};  ///< hard-clip limits
     glm::dvec2 high{0.0};
-    glm::dvec2 centre{0.0};   ///< of the sheet
+    glm::dvec2 centre{0.0};   ///< centre of the sheet
     bool is_hp7475a = false;  ///< the limits are those of the HP 7475A
 };
 
 /// A4, A3, letter and tabloid: the sheets of the HP 7475A, whose origin lies inside the bottom left corner of the
-/// sheet and whose limits are 276 x 193 mm on A4 and 404 x 276 mm on A3. Other sizes as parse_size() reads them are
-/// the limits themselves, either way round, from an origin in their bottom left corner; with `,centre`, as of large
-/// drafting plotters (HP 7585, DraftMaster), every size is, from an origin in the middle. Nullopt for anything else.
+/// sheet and whose limits are 276 x 193 mm on A4 and 404 x 276 mm on A3. Any other size that parse_size() reads gives
+/// the limits themselves, in either orientation, with the origin in their bottom left corner. With `,centre`, as for
+/// large drafting plotters (HP 7585, DraftMaster), every size gives the limits, with the origin in the middle.
+/// Nullopt for anything else.
 /// Source: Hewlett-Packard, HP 7475A Interfacing and Programming Manual, 1983: hard-clip limits; the frame of the
 /// scaling points P1 and P2, which is centred on the sheet.
 std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi);
 
 struct HpglOptions {
-    std::optional<HpglPaper> paper;  ///< absent: the page itself, from its corner
+    std::optional<HpglPaper> paper;  ///< absent: the page itself, with the origin in its corner
 };
 
-/// Where the pen is at first, on the page: the plotter's origin, in millimetres from the bottom left corner, y up.
+/// Initial position of the pen: the plotter's origin, in millimetres from the bottom left corner of the page, y up.
 glm::dvec2 hpgl_origin(const Page& page, const HpglOptions& options);
 
 /// Describes origin and orientation in a sentence.
 std::string describe_hpgl(const Page& page, const HpglOptions& options);
 
-/// Begins the file. Absolute coordinates in plotter units of 0.025 mm; curves are flattened so that all of the line
-/// stays within one unit of what it ought to be. Pen n of the plotter is the style's n-th colour.
+/// Begins the file. Absolute coordinates in plotter units of 0.025 mm; curves are flattened to lines that stay within
+/// one unit of the exact curve. Pen n of the plotter is the style's n-th colour.
 ///
-/// The x axis of plotters lies along the long side of their sheet. A page that is higher than wide is therefore
-/// turned by 90 degrees anticlockwise, as `RO90` does, but in the coordinates, as many devices do not know that
-/// instruction: the top of the page is at the left of the plotter. Without a paper, the origin is the bottom left
-/// corner of the sheet, which suits cutters and plotters whose origin is set by hand; with one, the page is centred
-/// on the sheet or, if only limits are known, within them. Scaling is left off (no IP and SC), so that lengths are
-/// true.
-///
-/// Only IN, SP, PU and PD are used, which every device of the family knows; those from before HP-GL/2 take no more
-/// than 32767 units, 819 mm. At the end SP0 carries the pen back to its stall, near the origin. `print`, `options`
-/// and `file` are kept by reference. After finish() the file is complete, but not committed.
-/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and for
-/// what lies off the page or beyond the limits of the paper
+/// The x axis of plotters lies along the long side of their sheet. A portrait page is therefore turned by 90 degrees
+/// anticlockwise, so that its top is at the left of the plotter. The coordinates are turned, because many devices do
+/// not support the instruction `RO90`. Without a paper, the origin is the bottom left corner of the sheet, which
+/// suits cutters and plotters whose origin is set by hand; with one, the page is centred on the sheet or, if only
+/// limits are known, within them. Scaling is left off (no IP and SC), so that lengths are true.
+/// Only IN, SP, PU and PD are used, which every device of the family supports; devices older than HP-GL/2 accept at
+/// most 32767 units, 819 mm. At the end SP0 returns the pen to its stall, near the origin. `print`, `options` and
+/// `file` are kept by reference. After finish() the file is complete, but not committed.
+/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, or if the
+/// drawing lies off the page or beyond the limits of the paper
 /// Source: Hewlett-Packard, HP-GL/2 and HP RTL Reference Guide, 1997.
 std::unique_ptr<PlotWriter> write_hpgl(const Print& print, const HpglOptions& options, Output& file);
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <stdexcept>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -23,7 +25,7 @@ double square(glm::dvec2 way) {
     return glm::dot(way, way);
 }
 
-/// The direction in which a Bézier leaves its first point.
+/// The direction of a Bézier at its first point.
 glm::dvec2 leaving(const Bezier& b) {
     for (std::size_t i = 1; i < 4; ++i) {
         if (b[i] != b[0]) return glm::normalize(b[i] - b[0]);
@@ -31,10 +33,10 @@ glm::dvec2 leaving(const Bezier& b) {
     return {0.0, 0.0};
 }
 
-/// A piece with the directions at its ends.
+/// A piece of a stroke with the directions at its ends.
 struct Part {
     bool is_curve = false;
-    Bezier bezier;  ///< of lines, its ends count
+    Bezier bezier;  ///< for a line, only the end points matter
     glm::dvec2 out{0.0}, in{0.0};
 
     double length() const { return glm::distance(bezier[0], bezier[3]); }
@@ -62,7 +64,7 @@ public:
         path_.is_closed = is_closed;
     }
 
-    /// @param beyond  by how much an open stroke is extended at both ends
+    /// @param beyond  extension of an open stroke at both ends
     PenPath path(double beyond) {
         const std::size_t count = parts_.size();
         const Part &first = parts_.front(), &last = parts_.back();
@@ -85,7 +87,7 @@ public:
                 line(part.bezier[3] + offset_ * left_of(part.in) - cut * part.in);
             }
             if (is_last && !path_.is_closed) break;
-            // Cut off at both sides, or led around the corner.
+            // At a corner, offset lines are either trimmed or connected around it.
             if (!(cut > 0)) corner(part, next);
         }
         if (!path_.is_closed && beyond > 0) line(end() + beyond * last.in);
@@ -99,7 +101,7 @@ private:
         if (to != end()) path_.pieces.push_back({false, {}, {}, to});
     }
 
-    /// By how much the ends of two lines are cut off inside a corner; 0 if they are not.
+    /// Length trimmed from two lines at the inside of a corner; 0 if they are not trimmed.
     double trim(const Part& part, const Part& next) const {
         const double turn = cross(part.in, next.out);
         if (part.is_curve || next.is_curve || offset_ * turn <= 0) return 0;
@@ -107,7 +109,7 @@ private:
         return cut < 0.5 * std::min(part.length(), next.length()) ? cut : 0;
     }
 
-    /// Around the outside of a corner an arc, inside it a line, which lies within the stroke.
+    /// Connects around a corner: by an arc on the outside, by a line within the stroke on the inside.
     void corner(const Part& part, const Part& next) {
         const glm::dvec2 at = part.bezier[3];
         const glm::dvec2 to = at + offset_ * left_of(next.out);
@@ -130,8 +132,8 @@ private:
         path_.pieces.back().end = to;
     }
 
-    /// The offset of a Bézier: tangents are those of the curve, as long as its speed; halved until the middle is
-    /// right.
+    /// Adds the offset of a Bézier. Its tangents have the directions of the curve's, with lengths from its speed; the
+    /// curve is halved until the middle is within the tolerance.
     void follow(const Bezier& b, int depth) {
         const Bezier reversed = {b[3], b[2], b[1], b[0]};
         const glm::dvec2 out = leaving(b), in = -leaving(reversed);
@@ -149,7 +151,7 @@ private:
         const Bezier half = part_of(b, 0.5, 1);
         const glm::dvec2 way = leaving(half);
         const glm::dvec2 off = part_of(found, 0, 0.5)[3] - middle;
-        // Across the curve; along it the parametrisation may differ.
+        // Compare across the curve only: along it the parametrisation may differ.
         const bool is_close = std::fabs(glm::dot(off, left_of(way)) - offset_) <= tolerance_ &&
                               std::fabs(glm::dot(off, way)) <= 0.1 * glm::distance(from, to) + tolerance_;
         if (is_close || depth == 8) {
@@ -179,10 +181,21 @@ PenPath reversed(const PenPath& path) {
 
 }  // namespace
 
+std::size_t pass_count(double width, double pen) {
+    return static_cast<std::size_t>(std::clamp(std::ceil(width / pen - 0.1), 1.0, 1e5));
+}
+
+void require_few_passes(std::size_t pieces, std::size_t passes) {
+    constexpr std::size_t most = 20'000'000;
+    if (pieces > most / passes) {
+        throw std::runtime_error("the passes of one stroke would have over 20 million pieces; use a wider pen");
+    }
+}
+
 std::vector<double> pass_offsets(double width, double pen) {
-    const double count = std::clamp(std::ceil(width / pen - 0.1), 1.0, 1e5);
+    std::vector<double> offsets(pass_count(width, pen));
+    const auto count = static_cast<double>(offsets.size());
     const double apart = count > 1 ? std::min(pen, (width - pen) / (count - 1)) : 0.0;
-    std::vector<double> offsets(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         offsets[i] = (static_cast<double>(i) - (count - 1) / 2) * apart;
     }
@@ -192,6 +205,7 @@ std::vector<double> pass_offsets(double width, double pen) {
 std::vector<PenPath> pen_passes(const PenPath& stroke, double width, double pen, double tolerance) {
     const std::vector<double> offsets = pass_offsets(width, pen);
     if (offsets.size() == 1) return {stroke};
+    require_few_passes(stroke.pieces.size(), offsets.size());
     const std::vector<Part> parts = parts_of(stroke);
     std::vector<PenPath> result;
     if (parts.empty()) {
@@ -211,7 +225,7 @@ std::vector<PenPath> pen_passes(const PenPath& stroke, double width, double pen,
             result.push_back(std::move(path));
             continue;
         }
-        // To and fro.
+        // Open strokes go back and forth.
         PenPath& whole = result.front();
         if (glm::distance(whole.pieces.back().end, path.start) >
             glm::distance(whole.pieces.back().end, path.pieces.back().end)) {

@@ -6,7 +6,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 1e9;  // of a round of exchanges
+constexpr double most_work = 1e9;  // of one round of exchanges
 
 class Medoids {
 public:
@@ -21,10 +21,10 @@ public:
         }
     }
 
-    /// Removes the pen that costs least, until so many are left.
+    /// Removes the pen whose loss costs least, until `most` are left.
     void remove(std::size_t most) {
         while (pens_.size() > most) {
-            // What it costs to draw with the second nearest pen instead.
+            // The cost of drawing with the second nearest pen instead.
             std::vector<double> cost(colours_.size());
             for (std::size_t i = 0; i < colours_.size(); ++i) {
                 const std::size_t first = nearest(i, pens_);
@@ -39,7 +39,7 @@ public:
         }
     }
 
-    /// Exchanges pens for other colours as long as that helps.
+    /// Exchanges pens for other colours while that lowers the cost.
     void exchange() {
         const auto tries = static_cast<double>(pens_.size() * colours_.size());
         if (tries * tries > most_work) return;

@@ -26,7 +26,7 @@ using Index = std::uint32_t;
 constexpr Index none = PlotSegment::none;
 constexpr std::size_t most_points = 1'000'000'000;
 constexpr std::size_t points_in_block = 1024;
-constexpr double thinnest = 0.05;  // millimetres, of pens that fill
+constexpr double thinnest = 0.05;  // millimetres; least pen width for fills
 
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
     std::uint64_t hash = (a * 0x9e3779b97f4a7c15U) ^ (b + 0x632be59bd9b4e019U);
@@ -231,11 +231,11 @@ void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, Plo
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds) {
     for (const double speed : {speeds.drawing, speeds.travelling}) {
         if (!(speed >= 1e-3 && speed <= 1e6)) {
-            throw std::runtime_error("a plotter's speeds are between 0.001 and 1000000 mm/s");
+            throw std::runtime_error("a plotter's speeds must be between 0.001 and 1000000 mm/s");
         }
     }
     if (!(speeds.lift >= 0 && speeds.lift <= 3600)) {
-        throw std::runtime_error("the time for lifting the pen is between 0 and 3600 s");
+        throw std::runtime_error("the time for lifting the pen must be between 0 and 3600 s");
     }
     return tally.drawn / speeds.drawing + tally.travelled / speeds.travelling +
            static_cast<double>(tally.lifts) * speeds.lift;
@@ -274,13 +274,13 @@ std::vector<int> fill_pens(const Style& style) {
 PlotPlan::PlotPlan(const Print& print, const PlotOptions& options)
     : print_(print), options_(options), slots_(print.style.line_slots()) {
     if (!(std::isfinite(options.split) && options.split >= 0)) {
-        throw std::runtime_error("the length at which strokes are split is finite and at least 0 mm");
+        throw std::runtime_error("the length at which strokes are split must be finite and at least 0 mm");
     }
     if (!(std::isfinite(options.pen_width) && options.pen_width >= 0)) {
-        throw std::runtime_error("the width of the pen is finite and at least 0 mm");
+        throw std::runtime_error("the width of the pen must be finite and at least 0 mm");
     }
     if (options.hatch && !(std::isfinite(options.hatch->spacing) && options.hatch->spacing >= 0)) {
-        throw std::runtime_error("the spacing of hatching is finite and at least 0 mm");
+        throw std::runtime_error("the spacing of hatching must be finite and at least 0 mm");
     }
     for (const int pen : fill_pens(print.style)) {
         fill_slots_.push_back(slots_[static_cast<std::size_t>(pen)]);
@@ -306,7 +306,7 @@ PlotPlan::Gathered& PlotPlan::gathered(const Pen& pen, bool fills) {
     return *found;
 }
 
-/// The width of the pen that fills, in steps.
+/// The width of a pen that fills, in steps.
 double PlotPlan::pen_steps(const Pen& pen) const {
     const double step = print_.placement.step;
     return std::max(options_.pen_width > 0 ? options_.pen_width : print_.style.line_width(pen, step), thinnest) /
@@ -372,7 +372,7 @@ void PlotPlan::end_stroke(bool closed) {
     down_ = false;
 }
 
-/// Hands on the passes of the stroke so far.
+/// Replaces the stroke gathered so far by its passes.
 void PlotPlan::draw_wide(bool closed) {
     if (!wide_) return;
     PenPath path = std::move(*wide_);
@@ -399,7 +399,7 @@ void PlotPlan::draw_wide(bool closed) {
 }
 
 PlotPlan::Gathered& PlotPlan::outlines(const Pen& pen) {
-    gathered(pen, true);  // where they are added when all lines are known
+    gathered(pen, true);  // reserves the layer to which outlines are added when all lines are known
     auto& found = outlines_[slot_of(pen, true)];
     if (!found) found = std::make_unique<Gathered>();
     return *found;
@@ -460,7 +460,7 @@ void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     into.add(Gathered::Kind::curves, std::span(path).subspan(1));
 }
 
-/// The point of the drawing at a place on the page.
+/// Converts a position on the page into drawing coordinates.
 glm::dvec2 PlotPlan::drawn_at(glm::dvec2 millimetres) const {
     const glm::dmat3x2& matrix = print_.placement.to_page;
     const glm::dmat2 turned(matrix[0], matrix[1]);
@@ -468,7 +468,7 @@ glm::dvec2 PlotPlan::drawn_at(glm::dvec2 millimetres) const {
     return glm::inverse(turned) * (glm::dvec2(millimetres.x, print_.page.height - millimetres.y) - matrix[2]);
 }
 
-/// Points that are closer are one.
+/// Distance below which points are merged.
 double PlotPlan::tolerance() const {
     Box box;
     for (const auto* list : {&gathered_, &outlines_}) {
@@ -484,7 +484,7 @@ double PlotPlan::tolerance() const {
     return std::max({1e-9 * std::max(size.x, size.y), 4e-15 * std::max(far.x, far.y), 1e-290});
 }
 
-/// Outlines of fills, without edges that lie on lines or other outlines.
+/// Adds the outlines of fills, except edges that lie on lines or other outlines.
 void PlotPlan::add_outlines(double tolerance) {
     if (outlines_.empty()) return;
     std::size_t count = covered_ ? covered_->segments() : 0;
@@ -526,7 +526,7 @@ void PlotPlan::add_outlines(double tolerance) {
     covered_.reset();
 }
 
-/// To as many pens as there are.
+/// Merges colours until there are at most as many as pens.
 void PlotPlan::merge_colours() {
     std::erase_if(gathered_, [](const auto& entry) { return entry.second->runs.empty(); });
     report_.colours = gathered_.size();
@@ -535,7 +535,7 @@ void PlotPlan::merge_colours() {
     std::vector<int> slots;
     Pulse pulse(options_.monitor);
     for (const auto& [slot, pen] : gathered_) {
-        PenColour& colour = colours.emplace_back(print_.style.line_colour(pen->pen));
+        PenColour& colour = colours.emplace_back(PenColour{print_.style.line_colour(pen->pen)});
         slots.push_back(slot);
         pen->for_each([&](auto, glm::dvec2 from, std::span<const glm::dvec2> p) {
             pulse();
@@ -552,7 +552,7 @@ void PlotPlan::merge_colours() {
     for (std::size_t i = 0; i < pens.size(); ++i) {
         if (pens[i] != i) gathered_.erase(slots[i]);
     }
-    // Pens are numbered as PlotWriter does.
+    // Numbers the pens as PlotWriter does.
     for (MergedPen& merged : report_.merged) {
         merged.number = 1 + static_cast<int>(std::distance(gathered_.begin(), gathered_.find(merged.number)));
     }

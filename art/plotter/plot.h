@@ -1,5 +1,4 @@
-// art/plotter/plot.h: a drawing as a pen plotter likes it: no line twice, few lifts of the pen, short ways between
-// them.
+// art/plotter/plot.h: arranges a drawing for a pen plotter: no line twice, few pen lifts, little pen-up travel.
 #pragma once
 
 #include "art/plotter/passes.h"
@@ -22,21 +21,21 @@ struct PlotOptions {
     /// and curves meet, so that one that is longer by itself stays whole. 0: never.
     double split = 0.0;
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
-    std::optional<Hatch> hatch = {};  ///< of filled shapes; absent: outlines alone
-    int pens = 0;                     ///< most pens, to which colours are merged; 0: one for each colour
+    std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
+    int pens = 0;                     ///< maximum number of pens, to which colours are merged; 0: one for each colour
     glm::dvec2 start{0.0};            ///< of the pen, in millimetres from the bottom left corner of the page, y up
-    std::optional<glm::dvec2> home = {};  ///< where the pen returns to after the last stroke, likewise
+    std::optional<glm::dvec2> home = {};  ///< position of the pen after the last stroke, in the same coordinates
     Monitor monitor = {};                 ///< polled while the plot is arranged and drawn
 };
 
-/// How fast a plotter is. Without acceleration: a real one is slower where strokes are short.
+/// Speeds of a plotter. Acceleration is ignored: real plotters are slower on short strokes.
 struct PlotSpeeds {
     double drawing = 40.0;     ///< mm/s, pen down
     double travelling = 80.0;  ///< mm/s, pen up
     double lift = 0.3;         ///< seconds for lifting the pen and lowering it again
 };
 
-/// What there is to plot. Pen-up travel begins at PlotOptions::start and ends where the last stroke does, or at home.
+/// Lengths and counts of a plot. Pen-up travel begins at PlotOptions::start and ends at the last stroke or at home.
 struct PlotTally {
     double drawn = 0.0;       ///< mm, pen down
     double travelled = 0.0;   ///< mm, pen up
@@ -47,46 +46,45 @@ struct PlotTally {
 /// @throws std::runtime_error unless both speeds are between 0.001 and 10^6 mm/s, and the lift is at most an hour
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds);
 
-/// A colour that is drawn with the pen of another one.
+/// A colour that is drawn with the pen of another colour.
 struct MergedPen {
     Colour colour;
     Colour pen;
-    int number = 0;      ///< of the pen, from 1
+    int number = 0;      ///< number of the pen, from 1
     double drawn = 0.0;  ///< millimetres
 };
 
 struct PlotReport {
     PlotTally before;  ///< pen after pen, but everything as it was drawn
     PlotTally after;
-    std::uint64_t segments = 0;     ///< lines and curves as they were drawn, and edges of fills that no line draws
-    std::uint64_t duplicates = 0;   ///< drawn lines and curves that lay on another one and were left out
-    std::uint64_t fills = 0;        ///< polygons, areas and discs
-    bool returns = false;           ///< travel includes the way home
-    std::size_t colours = 0;        ///< that were drawn
-    std::vector<MergedPen> merged;  ///< in the order of the palette
+    std::uint64_t segments = 0;     ///< lines and curves drawn, and edges of fills that no line draws
+    std::uint64_t duplicates = 0;   ///< drawn lines and curves left out because they lay on another one
+    std::uint64_t fills = 0;        ///< number of polygons, areas and discs
+    bool returns = false;           ///< travel includes the return home
+    std::size_t colours = 0;        ///< number of colours drawn
+    std::vector<MergedPen> merged;  ///< merged colours, in the order of the palette
 };
 
-/// A way of the lifted pen, in pattern units.
+/// One movement of the lifted pen, in pattern units.
 struct PlotTravel {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
-/// The style with more colours in its palette: each colour of a fill is that of a line, too, so that there is a pen
-/// for it.
+/// Extends the palette of a style so that each fill colour is also a line colour, and therefore has a pen.
 Style with_fill_pens(const Style& style);
-/// For each colour index the one whose lines look as its fills; itself if there is none.
+/// For each colour index, the index whose line colour equals its fill colour; the index itself if there is none.
 std::vector<int> fill_pens(const Style& style);
 
-/// Gathers a drawing and arranges it for a plotter. What the style leaves invisible is passed over.
+/// Gathers a drawing and arranges it for a plotter. Skips what the style makes invisible.
 ///
 /// A plotter draws lines only, and each colour of the style is a pen:
-/// - Polygons and areas become their outlines, in the pen of their fill's colour, and hatching if it is asked for. An
+/// - Polygons and areas become outlines, in the pen of their fill colour, and hatching if requested. An
 ///   edge that lies on a line of any pen, or on another outline, is not drawn again.
-/// - Discs and dots are filled by spirals (see spiral()), from the outside to the centre unless the other way round
-///   makes the travel shorter.
-/// - With a `pen_width`, strokes that are wider are drawn in several passes (see pen_passes()). Without, a pen is as
-///   wide as its strokes; in SVG and PDF, as when it first drew.
-/// - Fills hide nothing: only drawings in space have a front (see plot_scene()).
+/// - Discs and dots are filled by spirals (see spiral()), from the outside to the centre unless the other direction
+///   shortens pen-up travel.
+/// - With a `pen_width`, wider strokes are drawn in several passes (see pen_passes()). Without, a pen is as wide as
+///   its strokes; in SVG and PDF, as wide as its first stroke.
+/// - Fills hide nothing, except in drawings in space (see plot_scene()).
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal
 /// to the bit; those of splines and of turtles that add up doubles are not.) Of lines and curves with the same
@@ -125,11 +123,11 @@ public:
 
     /// Call once, after the last stroke and before what follows. @throws Stopped
     void arrange();
-    /// The strokes as they are to be plotted, in pattern units, pen after pen. They are to be drawn in the colour of
-    /// their pen whatever `stroke:` says: outlines may be there where lines are not. @throws Stopped
+    /// The strokes as they are to be plotted, in pattern units, pen after pen. The caller draws them in the colour of
+    /// their pen even with `stroke: none`: fills may have outlines where lines are invisible. @throws Stopped
     void draw(PathSink& sink) const;
     const PlotReport& report() const { return report_; }
-    /// Pen-up travel in its order, from the start and, if there is one, back home.
+    /// Pen-up movements in order, from the start to the first stroke and, if there is a home, back to it.
     std::vector<PlotTravel> travels() const;
 
 private:
@@ -155,22 +153,22 @@ private:
     const Print& print_;
     PlotOptions options_;
     std::vector<int> slots_;                             ///< of colour indices
-    std::vector<int> fill_slots_;                        ///< of colour indices, for the pens of fills
+    std::vector<int> fill_slots_;                        ///< pen slots of colour indices, for fills
     std::map<int, std::unique_ptr<Gathered>> gathered_;  ///< by slot
-    std::map<int, std::unique_ptr<Gathered>> outlines_;  ///< of fills, likewise
-    std::unique_ptr<Gathered> covered_;                  ///< middles of strokes drawn in several passes
+    std::map<int, std::unique_ptr<Gathered>> outlines_;  ///< outlines of fills by pen slot
+    std::unique_ptr<Gathered> covered_;                  ///< middle lines of strokes drawn in several passes
     std::vector<std::unique_ptr<Layer>> layers_;         ///< pens in their order
     PlotReport report_;
     Gathered* into_ = nullptr;  ///< of the stroke that is being drawn; null if it is not seen
     bool down_ = false;         ///< its piece with the present pen has begun
-    bool is_whole_ = false;     ///< the pen was not changed since the stroke began
+    bool is_whole_ = false;     ///< the pen has not changed since the stroke began
     Pen pen_;
     std::optional<PenPath> wide_;  ///< the stroke so far, if it takes several passes
     glm::dvec2 at_{0.0};
 };
 
-/// Writes strokes in plotters' own languages: all that it is handed, as PlotPlan::draw() does, in the colours of
-/// their pens. Polygons and discs are passed over, widths do not count.
+/// Writes all strokes it receives from PlotPlan::draw() in the language of a plotter, in the colours of their pens.
+/// Ignores polygons, discs and widths.
 class PlotWriter : public PathSink {
 public:
     void change_pen(const Pen& pen) final;

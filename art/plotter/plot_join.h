@@ -1,4 +1,4 @@
-// art/plotter/plot_join.h: lines and curves that meet, joined into strokes.
+// art/plotter/plot_join.h: joins lines and curves that meet into strokes.
 #pragma once
 
 #include "engine/base/monitor.h"

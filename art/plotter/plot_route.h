@@ -1,4 +1,4 @@
-// art/plotter/plot_route.h: strokes in an order that makes the ways between them short.
+// art/plotter/plot_route.h: orders strokes for short pen-up travel.
 #pragma once
 
 #include "art/plotter/plot_join.h"

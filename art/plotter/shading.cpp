@@ -18,19 +18,19 @@ namespace {
 constexpr double most_lines = 1e6;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-/// Where a line crosses the outline; numbered along the outline.
+/// A crossing of a line with the outline; crossings are numbered along the outline.
 struct Crossing {
     std::int64_t line = 0;
-    double at = 0;  ///< along the line
+    double at = 0;  ///< position along the line
     int winding = 0;
     std::size_t edge = 0;
 };
 
-/// Part of a line inside the polygon.
+/// A part of a line inside the polygon.
 struct Stretch {
     std::int64_t line = 0;
     double from = 0, to = 0;
-    std::size_t crossings[2] = {none, none};  ///< of the outline at its ends
+    std::size_t crossings[2] = {none, none};  ///< crossings at its ends
     bool is_drawn = false;
 };
 
@@ -73,7 +73,7 @@ private:
             const glm::dvec2 a = vertices_[i], b = vertices_[(i + 1) % vertices_.size()];
             const double from = glm::dot(a, across_), to = glm::dot(b, across_);
             if (from == to) continue;
-            // Lines in [lower, upper), so that one through a vertex crosses once.
+            // A half-open interval, so that a line through a vertex crosses once.
             const auto first = static_cast<std::int64_t>(std::ceil(std::min(from, to) / spacing_ - 0.5));
             const auto last = static_cast<std::int64_t>(std::ceil(std::max(from, to) / spacing_ - 0.5));
             for (std::int64_t k = 0; k < last - first; ++k) {
@@ -109,7 +109,7 @@ private:
         }
     }
 
-    /// From one stretch to the next along the outline, upwards.
+    /// Joins stretches upwards along the outline into one line.
     std::vector<glm::dvec2> zigzag(std::size_t i) {
         std::vector<glm::dvec2> points;
         for (int side = 0; i != none; side = 1 - side) {
@@ -123,7 +123,7 @@ private:
         return points;
     }
 
-    /// The stretch that is reached from the end of another by following the outline to the next line.
+    /// The stretch reached from the end of another by following the outline to the next line.
     std::size_t next(const Stretch& stretch, int side) const {
         const std::size_t here = stretch.crossings[side];
         const std::size_t count = crossings_.size();
@@ -137,7 +137,7 @@ private:
         return none;
     }
 
-    /// Is the outline between two crossings close to straight?
+    /// True if the outline between two crossings is nearly straight.
     bool follows_outline(std::size_t here, std::size_t there, bool forwards) const {
         const glm::dvec2 from = point(crossings_[here].line, crossings_[here].at);
         const glm::dvec2 way = point(crossings_[there].line, crossings_[there].at) - from;
@@ -160,7 +160,7 @@ private:
     Pulse pulse_;
     std::vector<Crossing> crossings_;
     std::vector<Stretch> stretches_;
-    std::vector<std::size_t> stretch_of_;  ///< by crossing
+    std::vector<std::size_t> stretch_of_;  ///< stretch of each crossing
 };
 
 }  // namespace
@@ -187,7 +187,7 @@ std::vector<glm::dvec2> spiral(glm::dvec2 centre, double radius, double pen) {
     const double handle = 4.0 / 3.0 * std::tan(std::numbers::pi / 16);
     const double edge = std::max(radius - pen / 2, radius / 4);
     std::vector<glm::dvec2> path = {centre + edge * unit_vector(0.0)};
-    // An eighth of a turn, in which the radius shrinks.
+    // Adds an eighth of a turn with shrinking radius.
     const auto turn = [&](std::size_t i, double outer, double inner) {
         const glm::dvec2 from = unit_vector(45.0 * static_cast<double>(i % eighths));
         const glm::dvec2 to = unit_vector(45.0 * static_cast<double>((i + 1) % eighths));

@@ -11,28 +11,28 @@
 
 namespace sikku {
 
-/// How filled shapes are shaded.
+/// Hatching of filled shapes.
 struct Hatch {
     double spacing = 0.0;     ///< millimetres between lines; 0: the width of the pen
     double angle = 45.0;      ///< degrees on the page, anticlockwise from its lower edge
     bool is_crossed = false;  ///< hatched a second time, at right angles
 };
 
-/// Unit vectors of the drawing along which its lines run, one or two, so that they have their angles on the page.
+/// The one or two directions of the lines, as unit vectors of the drawing that have the given angles on the page.
 std::vector<glm::dvec2> hatch_directions(const Hatch& hatch, const Placement& placement);
 
 /// Hatches a polygon (non-zero winding rule; it may cross itself) with lines along the unit vector `along`,
 /// `spacing` apart. All polygons share one set of lines, so that the hatching of neighbours lines up. Ends stay
-/// `inset` inside the outline. Ends of successive lines are joined along the outline where nothing lies between, so
-/// that a convex shape is a single zigzag; the joins deviate from the outline by less than half the spacing. All
-/// lengths are in the units of the vertices.
+/// `inset` inside the outline. Ends of successive lines are joined along the outline where nothing lies between them,
+/// so that a convex shape becomes a single zigzag; the joins deviate from the outline by less than half the spacing.
+/// All lengths are in the units of the vertices.
 /// Cost: O(k log k) for k crossings of lines and edges. @throws std::runtime_error for over 10^6 lines in one shape;
 /// Stopped
 std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> vertices, glm::dvec2 along,
                                                  double spacing, double inset, const Monitor& monitor = {});
 
 /// Fills a disc with a pen that is `pen` wide: a circle half a pen inside the edge, then a spiral to the centre whose
-/// turns are at most one pen apart. The circle alone where its inside is covered by the pen. Starts at the right.
+/// turns are at most one pen apart. If the circle covers the whole disc, there is no spiral. Starts at the right.
 /// @param radius  above 0, in the same unit as `pen`
 /// @return the start, then three control points for each Bézier, within 0.01 percent of the radius
 std::vector<glm::dvec2> spiral(glm::dvec2 centre, double radius, double pen);

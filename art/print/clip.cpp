@@ -80,7 +80,7 @@ void ClipSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
 }
 
 void ClipSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
-    // A curve lies within the box of its control points.
+    // A curve lies within the convex hull, and so within the box, of its control points.
     if (overlaps(box_of(outline))) sink_.area(outline, pen);
 }
 

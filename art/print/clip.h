@@ -1,4 +1,4 @@
-// art/print/clip.h: what of a drawing may be seen in a box.
+// art/print/clip.h: removes parts of a drawing that lie outside a box.
 #pragma once
 
 #include "art/print/page.h"
@@ -6,7 +6,7 @@
 
 namespace sikku {
 
-/// Passes on what of a drawing may be seen in a box of it, in strokes of their own where it leaves and comes back.
+/// Passes on the parts of a drawing that may be visible in a box; a stroke that leaves the box and returns is split.
 class ClipSink : public PathSink {
 public:
     /// @param box  in steps, the pen's width around it included

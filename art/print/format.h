@@ -12,14 +12,14 @@ namespace sikku {
 
 enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, obj, glb };
 
-/// What a format is made of, which decides how it is drawn.
+/// What the files of a format consist of, which decides how they are drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
 
-/// One file format. Everything that depends on the format asks this row.
+/// One file format. All code that depends on the format reads this row.
 struct FormatInfo {
     PrintFormat format = PrintFormat::svg;
     FormatKind kind = FormatKind::vectors;
-    std::string_view label{};      ///< as texts name it: `HP-GL`
+    std::string_view label{};      ///< name in messages and texts: `HP-GL`
     std::string_view extension{};  ///< without the dot
     std::string_view alias{};      ///< another extension of the same format, or empty
     bool is_animated = false;      ///< can draw itself, stroke by stroke
@@ -41,7 +41,7 @@ inline bool is_vector(PrintFormat format) {
     const FormatKind kind = info(format).kind;
     return kind == FormatKind::vectors || kind == FormatKind::plot;
 }
-/// HP-GL and G-code, which move a pen.
+/// HP-GL and G-code, which describe movements of a pen.
 inline bool is_for_plotters(PrintFormat format) {
     return info(format).kind == FormatKind::plot;
 }

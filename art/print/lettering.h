@@ -1,5 +1,4 @@
-// art/print/lettering.h: writing in a plain font of single strokes, which plotters draw and every writer of prints
-// takes.
+// art/print/lettering.h: writes text in a font of single strokes, which all formats and plotters can draw.
 #pragma once
 
 #include "engine/geometry/path.h"

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "art/print/page.h"
+#include "engine/base/bits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -30,7 +30,7 @@ inline std::int32_t to_whole(double value) {
     constexpr double magic = 6755399441055744.0;
     value = value > -most ? value : (value <= -most ? -most : 0.0);
     value = value < most ? value : most;
-    return static_cast<std::int32_t>(std::bit_cast<std::int64_t>(value + magic) - std::bit_cast<std::int64_t>(magic));
+    return static_cast<std::int32_t>(bit_cast<std::int64_t>(value + magic) - bit_cast<std::int64_t>(magic));
 }
 
 /// The placement of a print in micrometres.
@@ -132,7 +132,7 @@ public:
 private:
     void grow(std::size_t bytes) {
         const std::size_t wanted = std::max(size_ + bytes, std::max<std::size_t>(1024, 2 * capacity_));
-        auto larger = std::make_unique_for_overwrite<char[]>(wanted);
+        std::unique_ptr<char[]> larger(new char[wanted]);  // not cleared
         std::copy_n(text_.get(), size_, larger.get());
         text_ = std::move(larger);
         capacity_ = wanted;

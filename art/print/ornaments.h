@@ -1,4 +1,4 @@
-// art/print/ornaments.h: what is drawn around and beside a pattern's own lines: the dots of a kolam, a border.
+// art/print/ornaments.h: adds dots, a border and strand colours to the lines of a pattern.
 #pragma once
 
 #include "art/print/print.h"
@@ -19,15 +19,12 @@ constexpr std::string_view rice = "#fffaf0";
 constexpr std::string_view kolam_colours = "#fffaf0 #f2b632 #7fc8a9 #e77f67 #8fb8de #d6a2e8 #c5d86d #f7b2ad";
 
 /// Hands a drawing on in colours of a palette that has grown: indices are brought below its old size first.
-class OldColours : public PathSink {
+class OldColours : public PathFilter {
 public:
-    OldColours(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+    OldColours(PathSink& sink, const Style& style) : PathFilter(sink), style_(style) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, old(pen)); }
-    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
-    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
     void change_pen(const Pen& pen) override { sink_.change_pen(old(pen)); }
-    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
@@ -37,59 +34,47 @@ private:
         pen.colour = style_.index(pen);
         return pen;
     }
-    PathSink& sink_;
     Style style_;
 };
 
 /// Records the positions of the discs of a drawing.
-class NotedDiscs : public PathSink {
+class NotedDiscs : public PathFilter {
 public:
-    NotedDiscs(PathSink& sink, const Style& style) : sink_(sink), style_(style) {}
+    NotedDiscs(PathSink& sink, const Style& style) : PathFilter(sink), style_(style) {}
 
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
-    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
-    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
-    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
-    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha > 0) places.push_back(centre);
         sink_.disc(centre, radius, pen);
     }
 
-    std::vector<glm::dvec2> places;  ///< of the visible ones
+    std::vector<glm::dvec2> places;  ///< positions of the visible discs
 
 private:
-    PathSink& sink_;
     const Style& style_;
 };
 
 /// Draws the strokes of each line in the next of some colours, which are indices of the palette.
-class StrokeColours : public PathSink {
+class StrokeColours : public PathFilter {
 public:
     StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
                   const std::vector<std::uint32_t>& line_of_stroke)
-        : sink_(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
+        : PathFilter(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         is_seen_ = false;
         look(pen);
         sink_.begin_stroke(start, coloured(pen));
     }
-    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
-    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
     void change_pen(const Pen& pen) override {
         look(pen);
         sink_.change_pen(coloured(pen));
     }
-    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
 
 private:
-    /// A visible stroke begins with the pen, or where an invisible one ends.
+    /// Starts a visible stroke when the pen becomes visible.
     void look(const Pen& pen) {
         const bool is_seen = style_.draws(pen);
         if (is_seen && !is_seen_) ++stroke_;
@@ -103,7 +88,6 @@ private:
         pen.colour = style_.draws(pen) ? colours_[line() % colours_.size()] : style_.index(pen);
         return pen;
     }
-    PathSink& sink_;
     std::size_t line() const { return stroke_ < lines_.size() ? lines_[stroke_] : 0; }
 
     const Style& style_;

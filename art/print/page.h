@@ -1,4 +1,4 @@
-// art/print/page.h: lengths, paper sizes, and how a drawing is placed on a page.
+// art/print/page.h: paper sizes, and the placement of a drawing on a page.
 #pragma once
 
 #include <glm/mat3x2.hpp>
@@ -37,7 +37,7 @@ struct Placement {
     double step = 1.0;          ///< millimetres of one turtle step
 };
 
-/// What the user may ask of the placement.
+/// Options of the placement.
 struct PlacementOptions {
     double rotate = 0.0;         ///< degrees anticlockwise, applied to the drawing
     bool mirror = false;         ///< left and right exchanged, before the rotation

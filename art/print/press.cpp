@@ -95,7 +95,7 @@ void check_press(const Press& press, PrintFormat format) {
     // Also false for what is no number.
     const bool has_bleed = press.bleed >= 0.0 && press.bleed <= most_bleed;
     refuse_if(!has_bleed, "bleed", fmt::format("expected 0 to {:g}mm", most_bleed));
-    refuse_if(press.bleed > 0.0 && is_for_plotters(format), "bleed", "what a plotter draws has no bleed");
+    refuse_if(press.bleed > 0.0 && is_for_plotters(format), "bleed", "a plot has no bleed");
     refuse_if(press.bits != 1 && press.bits != 8, "bits", "expected 1 or 8");
     refuse_if(format != PrintFormat::pdf && press.marks, "marks", "only a PDF has crop marks");
     refuse_if(format != PrintFormat::pdf && !press.spots.empty(), "spot", "only a PDF has spot colours");

@@ -1,4 +1,4 @@
-// art/print/print.h: everything a writer of prints needs to know beside the drawing itself.
+// art/print/print.h: the data of a print besides its drawing, and the interface of print writers.
 #pragma once
 
 #include "art/print/page.h"
@@ -19,50 +19,51 @@ struct Print {
     Style style;
     Placement placement;
     double dpi = 300.0;
-    std::string title;                 ///< of the pattern, UTF-8
+    std::string title;                 ///< title of the pattern, UTF-8
     std::string pattern;               ///< the text of the pattern file, so that the print can be made again
-    std::string made;                  ///< what made it: `sikku 0.1.0, -n 4`
-    std::optional<int> travel_colour;  ///< index of the colour in which ways of the lifted pen are shown
-    bool is_plot = false;              ///< layers that no pen draws are marked as such
+    std::string made;                  ///< the recipe: `sikku 0.1.0, -n 4`
+    std::optional<int> travel_colour;  ///< index of the colour that shows pen-up travel
+    bool is_plot = false;              ///< mark layers that no pen draws
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
-    Press press;                       ///< how it goes to press
+    Press press;                       ///< settings for the print shop
 };
 
 /// A part of a sheet, in millimetres from its top left corner.
 struct Window {
     double left = 0.0, top = 0.0;
     double width = 0.0, height = 0.0;
-    bool clips = false;   ///< what of a drawing lies outside is cut off
-    double margin = 0.0;  ///< within it, on all four sides, outside of a border
+    bool clips = false;   ///< cut off parts of the drawing outside
+    double margin = 0.0;  ///< margin within it on all four sides, outside of a border
 };
 
-/// The ink of parts too small to be seen: so much line, spread like that. In turtle steps.
+/// The ink of parts too small to be visible: length of lines and their spread, in turtle steps.
 struct Blot {
     glm::dvec3 spread{0.0};  ///< covariance: xx, xy, yy
-    glm::dvec2 size{0.0};    ///< of the part's box: it covers no more than that and the pen around it
+    glm::dvec2 size{0.0};    ///< size of the part's box: the ink covers at most the box widened by the pen
     double length = 0.0;
 };
 
-/// Receives a drawing of which some parts are blots.
+/// Receives a drawing in which some parts are blots.
 class BlotSink : public PathSink {
 public:
-    /// A line of the turtle begins at a place; what is seen of it follows in strokes, until it ends at another.
+    /// Begins a line of the turtle at a position; its visible parts follow as strokes, until it ends at another
+    /// position.
     virtual void begin_line(glm::dvec2) {}
     virtual void end_line(glm::dvec2) {}
-    /// A number for what blot() is to leave; the same may be asked for again and again.
+    /// Prepares a kind of blot and returns its number; equal requests may be repeated.
     virtual std::size_t prepare(const Blot& blot, const Pen& pen) = 0;
-    /// What was prepared, around its centre of mass.
+    /// Draws a prepared blot around its centre of mass.
     virtual void blot(std::size_t prepared, glm::dvec2 centre) = 0;
 };
 
-/// Takes the drawing of a print and writes it into a file.
+/// Receives the drawing of a print and writes it into a file.
 class PrintWriter : public PathSink {
 public:
     /// Ends the drawing so far and begins another on the same sheet, over the first: with the style, the placement
-    /// and the title of `part`, which is kept by reference until the next one or finish(). Its page is the sheet, but
-    /// its ground is laid in `window` alone.
+    /// and the title of `part`, which is kept by reference until the next part or finish(). Its page is the sheet,
+    /// but its ground fills only `window`.
     virtual void begin_part(const Print& part, const Window& window) = 0;
-    /// Completes the document; to be called once, after the last stroke.
+    /// Completes the document. Call once, after the last stroke.
     virtual void finish() = 0;
 };
 

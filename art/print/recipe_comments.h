@@ -1,5 +1,5 @@
-// art/print/recipe_comments.h: the pattern of a print and its recipe in plain letters, for formats whose only texts
-// are comments: G-code, HP-GL, OBJ, glTF, GIF.
+// art/print/recipe_comments.h: stores the pattern and the recipe of a print in the comments of formats without other
+// texts: G-code, HP-GL, OBJ, glTF, GIF.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace sikku {
 
-/// Larger patterns are left out.
+/// Maximum size in bytes of a pattern with its recipe; larger ones are not stored.
 constexpr std::size_t most_commented_bytes = std::size_t{1} << 20;
 
-/// Pieces of at most 60 characters, `sikku:` and base64 (RFC 4648), which no plotter, controller or parser takes for
-/// anything else. Empty if pattern and recipe are larger than most_commented_bytes.
+/// Returns pieces of at most 60 characters, `sikku:` and base64 (RFC 4648), which no plotter, controller or parser
+/// interprets. Empty if pattern and recipe are larger than most_commented_bytes.
 std::vector<std::string> recipe_comments(std::string_view pattern, std::string_view made);
 
-/// Pattern and recipe from all pieces in a text, in their order; nullopt if there are none or they are damaged.
+/// Reads pattern and recipe from all pieces in a text, in order; nullopt if there are none or they are damaged.
 /// Cost: linear.
 std::optional<std::pair<std::string, std::string>> read_recipe_comments(std::string_view text);
 

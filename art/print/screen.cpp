@@ -1,9 +1,10 @@
 #include "art/print/screen.h"
 
+#include "engine/base/decimal.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -20,7 +21,7 @@ Screen parse_screen(std::string_view text) {
     if (text == halftone) return screen;
     if (text.starts_with(halftone) && text[halftone.size()] == ',') {
         const char* const end = text.data() + text.size();
-        const auto [at, error] = std::from_chars(text.data() + halftone.size() + 1, end, screen.lines);
+        const auto [at, error] = parse_number(text.substr(halftone.size() + 1), screen.lines);
         if (error == std::errc() && at == end && screen.lines >= 1 && screen.lines <= 1000) return screen;
     }
     throw std::runtime_error(fmt::format(
@@ -87,7 +88,7 @@ void Screener::diffuse(std::span<const std::uint8_t> greys, std::span<std::uint8
         const std::size_t ahead = is_back ? x : x + 2;
         const std::size_t behind = is_back ? x + 2 : x;
         const int wanted = 16 * greys[x] + errors_[x + 1];
-        // Pure black and white are kept: lines keep their edges.
+        // Pure black and white stay unchanged, so that lines keep their edges.
         const bool is_white = greys[x] == 255 || (greys[x] != 0 && wanted >= 16 * 128);
         result[x] = is_white ? 255 : 0;
         if (greys[x] == 0 || greys[x] == 255) continue;

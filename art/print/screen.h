@@ -26,8 +26,8 @@ Screen parse_screen(std::string_view text);
 /// tones, then print the grey seen on screen. Black and white stay unchanged.
 ///
 /// Diffusion follows Floyd & Steinberg 1976, alternating between left to right and right to left. A halftone has
-/// round dots at 45 degrees; their spacing is the whole number of pixels nearest to the requested lines, and every
-/// grey is exact over two dots.
+/// round dots at 45 degrees; their spacing is the whole number of pixels nearest to the requested resolution, and
+/// every grey is exact over two dots.
 class Screener {
 public:
     /// @throws std::runtime_error if a halftone's dots are finer than 2 pixels or coarser than 1000

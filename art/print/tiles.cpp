@@ -17,17 +17,17 @@ namespace {
 constexpr double arm = 4.0;     // millimetres, half of a cross
 constexpr double letter = 2.5;  // millimetres
 constexpr double least_letter = 1.2;
-constexpr double halo_width = 0.7;  // millimetres around lines
+constexpr double halo_width = 0.7;  // millimetres added to the width of lines
 constexpr double ink_width = 0.2;
 constexpr int most_sheets = 400;
 
-/// A line of sheets along one axis.
+/// A row of sheets along one axis.
 struct Row {
     int count = 0;
-    double first = 0;  ///< where what the first shows begins
+    double first = 0;  ///< beginning of the part that the first sheet shows
 };
 
-/// @param length  of the page, of which `margin` on both sides need not be shown
+/// @param length  of the page, including `margin` on both sides, which may remain off the sheets
 Row row_of(double length, double margin, double room, double overlap) {
     const double inner = length - 2 * margin;
     const double count = std::max(1.0, std::ceil((inner - room) / (room - overlap) - 1e-9) + 1);
@@ -35,7 +35,7 @@ Row row_of(double length, double margin, double room, double overlap) {
     return {static_cast<int>(std::min(count, 1e6)), (length - all) / 2};
 }
 
-/// Drawn twice: a wide line in the paper's colour, so that the thin one is visible on any drawing.
+/// Draws a thin line over a wide one in the paper's colour, so that it is visible on any drawing.
 void draw_mark(glm::dvec2 from, glm::dvec2 to, double width, PathSink& sink) {
     for (const Pen& pen : {Pen{width + halo_width, true, 0}, Pen{width, true, 1}}) {
         sink.begin_stroke({from.x, -from.y}, pen);
@@ -45,7 +45,7 @@ void draw_mark(glm::dvec2 from, glm::dvec2 to, double width, PathSink& sink) {
     }
 }
 
-/// Turns letters upwards around the place where they begin.
+/// Rotates text to read upwards, around its starting point.
 class Upwards : public PathSink {
 public:
     Upwards(PathSink& sink, glm::dvec2 start) : sink_(sink), start_(start) {}
@@ -72,12 +72,12 @@ private:
     std::vector<glm::dvec2> points_;
 };
 
-/// On paper. @param start  y down
+/// Writes on blank paper. @param start  y down
 void write_plain(const std::string& text, glm::dvec2 start, double height, PathSink& sink) {
     write_text(text, {start.x, -start.y}, height, Pen{0.09 * height, true, 2}, sink);
 }
 
-/// On the print. @param start  y down
+/// Writes over the print, with a halo. @param start  y down
 void write_mark(const std::string& text, glm::dvec2 start, double height, bool upwards, PathSink& sink) {
     const glm::dvec2 from(start.x, -start.y);
     Upwards turned(sink, from);
@@ -87,7 +87,7 @@ void write_mark(const std::string& text, glm::dvec2 start, double height, bool u
     }
 }
 
-/// The sheet's number, in a strip that is cut off or covered by a neighbour, or else in the margin.
+/// Writes the sheet's number into a strip that is cut off or covered by a neighbour, otherwise into the margin.
 void write_number(const Tiling& tiling, const Tile& tile, const std::string& title, PathSink& sink) {
     const glm::dvec2 corner = tile_corner(tiling, tile);
     const Window& area = tile.area;
@@ -143,7 +143,7 @@ Tiling tiling_of(const Page& page, const TileOptions& options) {
             best = tiling;
             continue;
         }
-        // An interval of the page, from the sheets' own.
+        // Returns an interval of the page that the sheets show.
         const auto part = [](double from, double to, double length) {
             return glm::dvec2(std::clamp(from, 0.0, length), std::clamp(to, 0.0, length));
         };

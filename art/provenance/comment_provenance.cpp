@@ -6,7 +6,7 @@
 namespace sikku {
 namespace {
 
-/// Comments with their marks, and what surrounds them, of the largest recipe.
+/// Maximum size of the comments of a recipe, with their marks and the bytes around them.
 constexpr std::uint64_t most_bytes = 3 * most_commented_bytes;
 
 }  // namespace

@@ -47,7 +47,7 @@ bool has_png_checksum([[maybe_unused]] const InputFile& file, [[maybe_unused]] s
 #endif
 }
 
-/// Contents of a zlib stream.
+/// Decompresses a zlib stream.
 std::string inflated(InputStream& packed) {
     struct Inflater : z_stream {
         Inflater() : z_stream{} {
@@ -130,7 +130,7 @@ Provenance read_directory(const Part& part) {
         constexpr std::uint64_t image_description = 270, software = 305, ascii = 2;
         if ((tag != image_description && tag != software) || number(entry.substr(2, 2), little) != ascii) continue;
         std::string& text = tag == software ? found.made : found.pattern;
-        // Each text is read once, also if it is empty: an untrusted file may state it 65,535 times.
+        // Read each text only once, even if it is empty: an untrusted file may contain it 65,535 times.
         if (std::exchange(tag == software ? has_made : has_pattern, true)) continue;
         const std::uint64_t length = number(entry.substr(4, width), little);
         const std::string_view value = entry.substr(4 + width);
@@ -232,7 +232,7 @@ std::optional<Provenance> read_exr_provenance(const InputFile& file) {
             require_length(size);
             const Part value{file, at, file.size()};
             auto& text = name == "comments" ? comments : software;
-            if (text) refuse_damaged();  // the format has each attribute once
+            if (text) refuse_damaged();  // the format allows each attribute only once
             text = value.read(0, size);
             cut_at_nul(*text);
         }

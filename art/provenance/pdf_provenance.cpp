@@ -98,7 +98,7 @@ bool read_literal(InputStream& in, Take take) {
             char byte = bytes[plain];
             if (byte == '(' || byte == ')') break;
             if (byte == '\\') {
-                // What the writer escapes; the rest is handled below.
+                // Escapes that the writer uses; others are handled below.
                 if (plain + 1 == bytes.size() || !is_delimiter(bytes[plain + 1])) break;
                 byte = bytes[++plain];
             }
@@ -195,7 +195,7 @@ std::optional<Provenance> read_dictionary(InputStream& in) {
         const std::string name(bytes.substr(0, std::min<std::size_t>(bytes.find(' '), 64)));
         in.skip(name.size() + 1);
         if (name == "Creator" || name == "SikkuPattern" || name == "Subject") {
-            if (!seen.insert(name).second) return std::nullopt;  // a dictionary has each key once
+            if (!seen.insert(name).second) return std::nullopt;  // a dictionary must not repeat a key
             auto text = read_text(in);
             if (!text) return std::nullopt;
             if (name == "Creator") {

@@ -31,20 +31,20 @@ bool begins_as_tiff(std::string_view head) {
            head.starts_with("MM\0+"sv);
 }
 
-bool begins_as_gcode(std::string_view head) {
-    return head.find("(recipe: sikku:") != std::string_view::npos;
-}
-
-bool begins_as_obj(std::string_view head) {
-    return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
+bool begins_as_html(std::string_view head) {
+    return begins_as_xml(head) && head.find("<!DOCTYPE html") != std::string_view::npos;
 }
 
 bool begins_as_musicxml(std::string_view head) {
     return begins_as_xml(head) && head.find("<score-partwise") != std::string_view::npos;
 }
 
-bool begins_as_page(std::string_view head) {
-    return lower_case(head.substr(0, 14)) == "<!doctype html";
+bool begins_as_gcode(std::string_view head) {
+    return head.find("(recipe: sikku:") != std::string_view::npos;
+}
+
+bool begins_as_obj(std::string_view head) {
+    return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
 }
 
 bool begins_as_lilypond(std::string_view head) {
@@ -55,6 +55,7 @@ bool begins_as_wav(std::string_view head) {
     return head.starts_with("RIFF") && head.find("WAVE") == 8;
 }
 
+/// Sound contains no pattern.
 std::optional<Provenance> read_nothing(const InputFile& /*file*/) {
     return std::nullopt;
 }
@@ -79,7 +80,7 @@ constexpr std::array<Format, 16> formats = {{
     {"a WAV file", begins_as_wav, read_nothing},
     {"a FLAC file", begins_with<'f', 'L', 'a', 'C'>, read_nothing},
     {"a LilyPond file", begins_as_lilypond, read_lilypond_provenance},
-    {"an HTML page", begins_as_page, read_page_provenance},
+    {"an HTML page", begins_as_html, read_page_provenance},
     {"a MusicXML file", begins_as_musicxml, read_musicxml_provenance},
     {"an SVG file", begins_as_xml, read_svg_provenance},
 }};

@@ -1,4 +1,4 @@
-// art/provenance/provenance.h: reads back what a print was made from.
+// art/provenance/provenance.h: reads the pattern and the recipe of a print back from its file.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,7 @@ class UnreadableFile : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The file ends too early, or contradicts itself.
+/// Reports a file that ends too early or contradicts itself.
 [[noreturn]] inline void refuse_damaged() {
     throw UnreadableFile("is damaged or truncated");
 }

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-/// Where the writer puts its namespace.
+/// The text with which the writer declares its namespace.
 constexpr std::size_t name_space_bytes = 4096;
 /// A pattern is at most 64 MB, escaped perhaps six times as long, or twice that in hexadecimal digits.
 constexpr std::uint64_t most_head_bytes = std::uint64_t{640} << 20;
@@ -32,10 +32,10 @@ public:
         return true;
     }
 
-    /// Texts that were found.
+    /// The texts found so far.
     std::optional<Provenance> provenance() {
         if (!has_made_) return std::nullopt;
-        // Text that XML cannot hold is also written in hexadecimal digits.
+        // The writer repeats text that XML cannot represent in hexadecimal digits.
         if (!has_exact_) {
             if (description_.is_too_long) refuse_length();
             return Provenance{std::move(description_.text), std::move(made_.text)};
@@ -160,10 +160,9 @@ private:
                 text->add("\n");
                 at += rest.starts_with("\r\n") ? 2 : 1;
             } else {
-                const auto stop = std::find_if(rest.begin(), rest.end(),
-                                               [](char byte) { return byte == '<' || byte == '&' || byte == '\r'; });
-                text->add({rest.begin(), stop});
-                at += static_cast<std::size_t>(stop - rest.begin());
+                const std::string_view plain = rest.substr(0, rest.find_first_of("<&\r"));
+                text->add(plain);
+                at += plain.size();
             }
         }
         in_.skip(at);

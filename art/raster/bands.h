@@ -1,4 +1,4 @@
-// art/raster/bands.h: a picture made band by band on several threads, and handed on in order.
+// art/raster/bands.h: makes a picture in bands on several threads, and delivers them in order.
 #pragma once
 
 #include "engine/base/threads.h"

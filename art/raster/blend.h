@@ -1,4 +1,4 @@
-// art/raster/blend.h: paint onto a band of pixels.
+// art/raster/blend.h: blends colours onto a band of pixels.
 #pragma once
 
 #include "art/raster/stroke.h"

@@ -1,4 +1,4 @@
-// art/raster/fill.h: polygons into coverage by exact area.
+// art/raster/fill.h: computes the coverage of pixels by polygons from exact areas.
 #pragma once
 
 #include <cmath>

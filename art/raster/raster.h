@@ -1,4 +1,4 @@
-// art/raster/raster.h: a drawing as pixels, rendered in bands that are re-used.
+// art/raster/raster.h: renders a drawing as pixels, in reused bands.
 #pragma once
 
 #include "art/print/print.h"

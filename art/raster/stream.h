@@ -1,11 +1,11 @@
-// art/raster/stream.h: a drawing as a stream of words for each band and colour, before it is painted.
+// art/raster/stream.h: stores a drawing as a stream of words for each band and colour, before it is painted.
 #pragma once
 
 #include "art/raster/fill.h"
 #include "art/raster/stroke.h"
+#include "engine/base/bits.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -48,7 +48,7 @@ public:
     std::uint32_t* words(std::size_t count) {
         constexpr std::size_t slab = std::size_t{1} << 18;
         if (left_ < count) {
-            slabs_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(slab));
+            slabs_.push_back(std::unique_ptr<std::uint32_t[]>(new std::uint32_t[slab]));  // not cleared
             next_ = slabs_.back().get();
             left_ = slab;
         }
@@ -69,7 +69,7 @@ public:
         if (width == width_) return;
         width_ = width;
         has_end_ = false;
-        put(arena, {pack(escape, static_cast<std::int16_t>(Code::pen)), std::bit_cast<std::uint32_t>(width)});
+        put(arena, {pack(escape, static_cast<std::int16_t>(Code::pen)), bit_cast<std::uint32_t>(width)});
     }
     void polygon(Arena& arena, std::uint64_t serial, std::uint32_t colour) {
         if (serial == polygon_) return;
@@ -112,7 +112,7 @@ public:
                 }
                 const Code code{high_half(head)};
                 if (code == Code::pen) {
-                    reader.pen(std::bit_cast<float>(*word++));
+                    reader.pen(bit_cast<float>(*word++));
                 } else if (code == Code::polygon) {
                     reader.polygon(*word++);
                 } else {
@@ -135,7 +135,7 @@ private:
         for (const std::uint32_t word : words) *cursor_++ = word;
     }
     void grow(Arena& arena) {
-        constexpr std::size_t header = (sizeof(Chunk) + 3) / 4;
+        constexpr std::size_t header = (sizeof(Chunk) + 7) / 8 * 2;
         constexpr std::size_t least = 64, most = 8192;
         const std::size_t size = last_ ? std::min(2 * static_cast<std::size_t>(limit_ - last_->begin), most) : least;
         // Chunks stand in the arena's words; an even number of them keeps the pointers aligned.

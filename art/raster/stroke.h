@@ -1,4 +1,4 @@
-// art/raster/stroke.h: lines of any width into 8-bit coverage, by distance to capsules.
+// art/raster/stroke.h: computes the 8-bit coverage of pixels by lines of any width, from the distance to capsules.
 #pragma once
 
 #include <cstddef>

@@ -28,7 +28,7 @@ namespace sikku {
 namespace {
 
 constexpr double fitted_side = 190.0;    // millimetres of an A4 page within its margins, which pens are meant for
-constexpr double border_margin = 0.045;  // of a cell outside of its border, as part of its shorter side
+constexpr double border_margin = 0.045;  // space around a cell's border, as part of the cell's shorter side
 constexpr double finest_line = 0.1;      // millimetres that every printer can print
 constexpr double widest_line = 0.035;    // as part of a cell: of early generations, whose steps are long
 constexpr double line_pitch = 1.75;      // of lines of text, as part of the height of their capitals
@@ -123,6 +123,7 @@ DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     DrawOptions drawing;
     static_cast<DrawingOptions&>(drawing) = cell;
     drawing.format = options.format;
+    drawing.monitor = options.monitor;
     drawing.placement.scale = 1.0;
     return drawing;
 }
@@ -142,7 +143,7 @@ public:
     Sheet(const std::vector<SheetCell>& cells, const SheetOptions& options) : cells_(cells), options_(options) {
         if (cells.empty()) throw std::runtime_error("a sheet without prints");
         if (options_.format != PrintFormat::pdf) {
-            // Only PDF tells the sheet from its bleed.
+            // Only PDF has a separate box for the bleed.
             const double bleed = std::exchange(options_.press.bleed, 0.0);
             options_.page.width += 2 * bleed;
             options_.page.height += 2 * bleed;
@@ -262,7 +263,7 @@ std::vector<Grid> Sheet::grids() const {
     for (int columns = from; columns <= to; ++columns) {
         Grid grid{columns, {}, {}};
         for (const int group : groups) {
-            // Equal rows, or one more cell in the first ones: no cell stands alone below full rows.
+            // Rows differ by at most one cell, with longer rows first, so that no cell stands alone below full rows.
             const int rows = (group + columns - 1) / columns;
             for (int row = 0; row < rows; ++row) {
                 grid.headed.push_back(headed && row == 0);
@@ -399,6 +400,7 @@ const Plan& Sheet::arrange() {
     const Grid* best = nullptr;
     double most = 0;
     for (const Grid& grid : all) {
+        options_.monitor.check();
         const double area = score(grid);
         if (area > most * (1 + 1e-9)) {
             most = area;
@@ -417,7 +419,7 @@ const Plan& Sheet::arrange() {
     return plan_;
 }
 
-/// Texts and cells, without their drawings.
+/// Lays out texts and cells, without their drawings.
 void Sheet::lay_out(const Grid& grid, const Measures& m) {
     const Page& page = options_.page;
     const double shorter = std::min(page.width, page.height);
@@ -463,7 +465,7 @@ void Sheet::lay_out(const Grid& grid, const Measures& m) {
     }
 }
 
-/// The drawings into their cells.
+/// Places the drawings in their cells.
 void Sheet::place_drawings(const Measures& m) {
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -508,7 +510,7 @@ void Sheet::place_drawings(const Measures& m) {
     }
 }
 
-/// Spot colours may be those of any cell. @throws std::runtime_error if one is of none
+/// Checks the spot colours. @throws std::runtime_error if one occurs in no cell
 void Sheet::check_inks() const {
     Style all = print_.style;
     for (const PlacedCell& cell : plan_.cells) {
@@ -604,7 +606,7 @@ void render(const Rendering& raster, int left, int top, int height, int channels
     });
 }
 
-/// Of greys.
+/// Keeps one channel of grey pixels.
 void keep_first_channel(std::vector<std::uint8_t>& pixels, int channels) {
     const std::size_t count = pixels.size() / static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i * static_cast<std::size_t>(channels)];
@@ -663,22 +665,24 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
 }
 
 [[noreturn]] void refuse_memory(double needed, double memory) {
-    throw std::runtime_error(fmt::format("it takes about {:.0f} MB of memory; only {:.0f} MB are available",
+    throw std::runtime_error(fmt::format("it needs about {:.0f} MB of memory; only {:.0f} MB are available",
                                          std::ceil(needed / 1e6), memory / 1e6));
 }
 
-/// Computes how many drawings and rows fit in memory: whole strips, whose drawings come one after the other;
-/// otherwise bands of them, for which all drawings of the strip are kept. @throws std::runtime_error if there is too
-/// little memory
+/// Computes how many drawings and rows fit in memory: whole strips, rendered one drawing at a time; otherwise bands
+/// of strips, with all drawings of the strip in memory. @throws std::runtime_error if there is too little memory
 Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     const int threads = oneapi::tbb::this_task_arena::max_concurrency();
     if (!(options_.memory > 0)) return {threads, 0};
     double most = 1, thread = 1;
+    double memory = options_.memory;  // excluding the memory that drawings keep
+    for (const Subject& subject : subjects_) memory -= subject.cost.kept_memory;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
-            if (subjects_[i].cost.memory > options_.memory) refuse_memory(subjects_[i].cost.memory, options_.memory);
+            const DrawingCost& cost = subjects_[i].cost;
+            if (cost.memory - cost.kept_memory > memory) refuse_memory(cost.memory, options_.memory);
         });
-        most = std::max(most, subjects_[i].cost.memory);
+        most = std::max(most, subjects_[i].cost.memory - subjects_[i].cost.kept_memory);
         thread = std::max(thread, subjects_[i].cost.thread_memory);
     }
     double pixels = 0, kept = 0;
@@ -688,11 +692,11 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
         kept = std::max(kept, lines);
         pixels = std::max(pixels, (strip.bottom - strip.top) * stride);
     }
-    const auto readers = [&](double memory, double each) {
-        return static_cast<int>(std::clamp(memory / each, 1.0, static_cast<double>(threads)));
+    const auto readers = [&](double room, double each) {
+        return static_cast<int>(std::clamp(room / each, 1.0, static_cast<double>(threads)));
     };
-    if (pixels + most <= options_.memory) return {readers(options_.memory - pixels, most), 0};
-    const double left = options_.memory - kept - most;
+    if (pixels + most <= memory) return {readers(memory - pixels, most), 0};
+    const double left = memory - kept - most;
     const double rows = std::floor(left / 2 / stride / 128) * 128;
     if (rows < 128) refuse_memory(kept + most + 256 * stride, options_.memory);
     return {readers(left / 2, thread), static_cast<int>(std::min(rows, 4096.0))};
@@ -721,23 +725,24 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 }
 
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
-    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return 0;
-    double most = 0, lines = 0;
+    double most = 0, lines = 0, kept = 0;
     for (const SheetCell& cell : cells) {
         named(cell, [&] {
             const DrawingCost cost =
                 drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
-            most = std::max(most, cost.memory);
+            most = std::max(most, cost.memory - cost.kept_memory);
             lines += cost.lines_memory;
+            kept += cost.kept_memory;
         });
     }
+    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return kept;
     const PixelSize size = pixel_size(options.page, options.dpi);
     const double stride = 3.0 * size.width;
     const double shape = options.page.height / options.page.width;
     const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
-    const double whole = stride * size.height / rows + most;
+    const double whole = stride * size.height / rows + most + kept;
     if (!(options.memory > 0) || whole <= options.memory) return whole;
-    return lines / rows + most + 256 * stride;
+    return lines / rows + most + kept + 256 * stride;
 }
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// art/sheet/sheet.h: many prints on one sheet: a poster, rows of generations, a contact sheet.
+// art/sheet/sheet.h: draws many prints on one sheet: a poster, rows of generations, a contact sheet.
 #pragma once
 
 #include "art/drawing/draw.h"
@@ -16,47 +16,48 @@
 namespace sikku {
 
 /// One drawing of a sheet. It fills its cell, on its own ground, in its own style. Widths in millimetres are meant
-/// for an A4 page, and grow or shrink as the drawing does; but a line that was wider stays at least 0.1 mm wide.
-/// Of the placement, turning, mirroring and a step in millimetres count; scale does not.
+/// for an A4 page, and are scaled with the drawing, but lines are not thinned below 0.1 mm. Rotation, mirroring and
+/// step of the placement are used; `scale` is ignored.
 struct SheetCell : DrawingOptions {
     std::shared_ptr<const Grammar> grammar;
     Style style;
-    std::string title;                 ///< of its layers
+    std::string title;                 ///< title of its layers
     std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
-    std::string heading;               ///< if there is one, a row begins here, under it
+    std::string heading;               ///< if not empty, begins a row under this heading
 };
 
 struct SheetOptions {
     PrintFormat format = PrintFormat::svg;
     Page page{420.0, 594.0, 20.0};
     double dpi = 300.0;
-    std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< of the sheet, between the cells
-    Colour ink{0x2a, 0x26, 0x22, 255};                             ///< of title and captions
-    Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< of what is less important in them
-    std::string title;                                             ///< above all cells, if there is one
+    std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< ground between the cells
+    Colour ink{0x2a, 0x26, 0x22, 255};                             ///< colour of title and captions
+    Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
+    std::string title;                                             ///< above all cells; empty: none
     std::string subtitle;                                          ///< under it
-    int columns = 0;                  ///< 0: as many as let the drawings be largest; rows under a heading may break
-    std::optional<double> gap;        ///< millimetres between cells; absent: a tenth of their width
-    double inset = 0.08;              ///< between a cell's border and its drawing, as part of the cell
+    int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
+    std::optional<double> gap;  ///< millimetres between cells; absent: a tenth of their width
+    double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell
     std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
-    std::size_t caption_lines = 5;    ///< most lines of a caption; what goes on ends in `…`
-    bool same_scale = false;          ///< steps are equally long: in each row, if rows have headings, else everywhere
-    Press press;                      ///< how the sheet goes to press
-    std::string pattern;              ///< text that is kept with the file, so that it can be made again
-    std::string made;                 ///< what made it
+    std::size_t caption_lines = 5;    ///< maximum number of lines of a caption; longer ones end in `…`
+    bool same_scale = false;          ///< use one step length, in each row if rows have headings, otherwise in all
+    Press press;                      ///< settings for the print shop
+    std::string pattern;              ///< text stored in the file, so that it can be made again
+    std::string made;                 ///< recipe stored in the file
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
     int threads = 0;                  ///< 0: all cores
-    int compression = 6;              ///< of PNG: 1, quick and large, to 9
+    int compression = 6;              ///< PNG compression, 1 (fast) to 9 (small)
     double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};             ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
 
-/// Where a sheet's parts lie, in millimetres from its top left corner.
+/// The layout of a sheet, in millimetres from its top left corner.
 struct SheetLayout {
     int columns = 0;
     int rows = 0;
-    std::vector<Window> windows;  ///< of the cells, in their order
+    std::vector<Window> windows;  ///< windows of the cells, in their order
     double letters = 0.0;         ///< height of a caption's capitals
 };
 
@@ -70,12 +71,12 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
                        const std::filesystem::path& file, Destination& destination = file_system());
 
 /// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
-/// the options allow that, otherwise the minimum. 0 for other formats.
+/// the options allow that, otherwise the minimum. For other formats, the memory of the drawings.
 /// @throws what draw_sheet() throws for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 
-/// What a caption tells of a pattern: its title, the derivation length and angle, and its productions; as the file
-/// states them where they have parameters, conditions or weights.
+/// The caption of a pattern: title, derivation length, angle, and productions, which are quoted from the file if they
+/// have parameters, conditions or weights.
 std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern);
 
 /// The cells of rows that show derivation lengths from `first` to `last`, captions `n = 2`, the first one with the

@@ -1,4 +1,4 @@
-// art/sheet/sheet_captions.cpp: captions of the cells of a sheet, and the cells of rows of generations.
+// art/sheet/sheet_captions.cpp: makes the captions of cells, and the cells of rows of generations.
 #include "art/sheet/sheet.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"

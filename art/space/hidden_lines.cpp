@@ -10,12 +10,12 @@
 namespace sikku {
 namespace {
 
-constexpr double steepest = 1000.0;        // of surfaces that hide
-constexpr double share_of_noise = 1e-6;    // of the drawing's size: scenes are kept in floats
-constexpr double most_in_cells = 16;       // entries of a surface, in the mean
-constexpr std::int64_t most_cells = 1024;  // along a side
+constexpr double steepest = 1000.0;        // maximum slope of surfaces that hide lines
+constexpr double share_of_noise = 1e-6;    // of the drawing's size: scenes are stored in floats
+constexpr double most_in_cells = 16;       // mean number of cells for each surface
+constexpr std::int64_t most_cells = 1024;  // cells along a side of the grid
 
-/// Where the linear function with these values at 0 and 1 is above 0, cut out of an interval.
+/// Restricts an interval to where the linear function with these values at 0 and 1 is positive.
 template <class Interval>
 void keep_positive(double at_0, double at_1, Interval& interval) {
     if (at_0 <= 0 && at_1 <= 0) {
@@ -53,7 +53,7 @@ void HiddenLines::add_polygon(std::span<const glm::dvec3> vertices, Owner owner)
     middle += vertices[0];
     const glm::dvec2 slope = -glm::dvec2(normal) / normal.z;
     surface.plane = {slope, middle.z - glm::dot(slope, glm::dvec2(middle))};
-    surface.slack = 1 + glm::length(slope);  // times rounding_, once it is known
+    surface.slack = 1 + glm::length(slope);  // multiplied by rounding_ once it is known
     surface.low = surface.high = glm::dvec2(vertices[0]);
     surface.nearest = vertices[0].z;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -112,7 +112,7 @@ void HiddenLines::build(const Monitor& monitor) {
     for (Surface& surface : surfaces_) surface.slack *= rounding_;
     std::stable_sort(surfaces_.begin(), surfaces_.end(),
                      stoppable(monitor, [](const Surface& a, const Surface& b) { return a.nearest > b.nearest; }));
-    // As fine a grid as memory allows.
+    // Make the grid as fine as memory allows.
     const auto visit = [&](const auto& enter) {
         for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
             pulse();
@@ -146,7 +146,7 @@ void HiddenLines::build(const Monitor& monitor) {
     visit([&](std::size_t cell, std::uint32_t i) { inside_[next[cell]++] = i; });
 }
 
-/// Removes from `visible` what the surface hides of the line from a to b.
+/// Removes from `visible` the part of the line from a to b that the surface hides.
 void HiddenLines::hide(const Surface& surface, const glm::dvec3& a, const glm::dvec3& b, Owner owner,
                        Intervals& visible) const {
     std::array<Interval, 2> hidden = {{{0, 1}, {0, 0}}};
@@ -164,7 +164,7 @@ void HiddenLines::hide(const Surface& surface, const glm::dvec3& a, const glm::d
     } else {
         const glm::dvec3 way = b - a, from = a - surface.sides[0];
         const double radius = surface.sides[1].x - rounding_;
-        // Where the line is inside a circle, or inside a ball.
+        // Intersects the line with a circle or a ball.
         const auto inside = [&](double square, double half, double rest) {
             const double root = half * half - square * rest;
             if (!(square > 0)) return rest < 0 ? Interval{0, 1} : Interval{};
@@ -210,7 +210,7 @@ void HiddenLines::look_in_cell(std::int64_t cell, Interval within, const glm::dv
     }
 }
 
-/// Visible parts of the line from a to b, cell after cell.
+/// Computes the visible parts of the line from a to b, cell by cell.
 void HiddenLines::look(const glm::dvec3& a, const glm::dvec3& b, Owner owner, Intervals& visible) const {
     Interval grid{0, 1};
     const glm::dvec2 from(a), to(b);
@@ -227,7 +227,7 @@ void HiddenLines::look(const glm::dvec3& a, const glm::dvec3& b, Owner owner, In
     auto cell = cell_of(from + grid.from * way);
     double at = grid.from;
     while (at < grid.to) {
-        // Where the line leaves the cell.
+        // Find the point where the line leaves the cell.
         double leave = grid.to;
         int across = -1;
         for (int axis = 0; axis < 2; ++axis) {
@@ -260,7 +260,7 @@ std::vector<std::vector<glm::dvec2>> HiddenLines::visible(std::span<const glm::d
     bool is_down = false;
     double gap = std::numeric_limits<double>::infinity();
     const auto begin_at = [&](glm::dvec2 at) {
-        // A gap that is hardly seen is drawn.
+        // Draw across a gap too short to be visible.
         if (gap < detail && !parts.empty()) {
             parts.back().push_back(at);
         } else {

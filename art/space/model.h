@@ -1,4 +1,4 @@
-// art/space/model.h: a drawing in space as a model for other programs: Wavefront OBJ and binary glTF 2.0.
+// art/space/model.h: writes a drawing in space as a model: Wavefront OBJ or binary glTF 2.0.
 #pragma once
 
 #include "art/print/format.h"

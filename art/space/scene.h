@@ -1,4 +1,4 @@
-// art/space/scene.h: a drawing in space, kept whole: what is in front is known only at its end.
+// art/space/scene.h: holds a drawing in space in memory, because depth is known only when it is complete.
 #pragma once
 
 #include "art/style/style.h"

@@ -1,4 +1,4 @@
-// art/space/solid_raster.h: a scene as pixels: what is in front hides what is behind.
+// art/space/solid_raster.h: renders a scene as pixels with hidden surfaces removed.
 #pragma once
 
 #include "art/raster/raster.h"

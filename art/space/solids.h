@@ -1,4 +1,4 @@
-// art/space/solids.h: a scene as polygons of the page, those behind first, for what has no pixels.
+// art/space/solids.h: draws a scene as polygons from back to front, for vector formats.
 #pragma once
 
 #include "art/print/print.h"

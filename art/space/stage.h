@@ -1,4 +1,4 @@
-// art/space/stage.h: a scene before its camera and in its light, in the units of who draws it.
+// art/space/stage.h: projects and lights a scene, in the units of the caller.
 #pragma once
 
 #include "art/print/print.h"
@@ -35,7 +35,7 @@ public:
 
 private:
     const Scene& scene_;
-    const Style style_;  ///< of its own: a sheet keeps the stage longer than the print
+    const Style style_;  ///< a copy, because a sheet keeps the stage longer than the print
     Projection projection_;
     glm::dmat3x2 units_;
     double unit_;
@@ -49,7 +49,7 @@ inline Colour lit(Colour colour, double brightness) {
     constexpr double sheen = 56;
     const double added = sheen * std::max(0.0, brightness - 0.6) / 0.4;
     const auto channel = [&](std::uint8_t value) {
-        return static_cast<std::uint8_t>(value * brightness + added * (255 - value) / 255 + 0.5);
+        return static_cast<std::uint8_t>(std::lround(value * brightness + added * (255 - value) / 255));
     };
     return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
 }

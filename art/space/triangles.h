@@ -1,4 +1,4 @@
-// art/space/triangles.h: polygons in space as triangles.
+// art/space/triangles.h: divides polygons in space into triangles.
 #pragma once
 
 #include <array>

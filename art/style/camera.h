@@ -1,4 +1,4 @@
-// art/style/camera.h: from where a drawing in space is seen, and how it falls onto the paper.
+// art/style/camera.h: the camera of drawings in space, and its projection.
 #pragma once
 
 #include "engine/geometry/space_turtle.h"

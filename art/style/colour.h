@@ -1,4 +1,4 @@
-// art/style/colour.h: colours as CSS writes them.
+// art/style/colour.h: colours in the notation of CSS.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,10 @@ std::string hex(Colour colour);
 /// The CSS name if there is one, else hex(); alpha is not part of it.
 std::string colour_name(Colour colour);
 
-/// Lightness of a colour: 0 for black to 1 for white; alpha does not count. Source: Ottosson, A perceptual color
+/// Lightness of a colour: 0 for black to 1 for white; ignores alpha. Source: Ottosson, A perceptual color
 /// space for image processing (OKLab), 2020.
 double lightness(Colour colour);
-/// Perceived difference between two colours in OKLab: 0.02 is barely visible, 1 is black to white; alpha does not
-/// count.
+/// Perceived difference between two colours in OKLab: 0.02 is barely visible, 1 is black to white; ignores alpha.
 double colour_distance(Colour a, Colour b);
 
 /// Every name that parse_colour knows, in lower case, for hints.

@@ -1,8 +1,8 @@
 #include "art/style/length.h"
 
+#include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
-#include <charconv>
 #include <cmath>
 #include <system_error>
 
@@ -36,7 +36,7 @@ std::optional<Length> read_length(std::string_view text) {
     text = trimmed(text);
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     Length length;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length.number);
+    const auto [end, error] = parse_number(text, length.number);
     if (error != std::errc() || !std::isfinite(length.number)) return std::nullopt;
     length.unit = lower_case(trimmed(text.substr(static_cast<std::size_t>(end - text.data()))));
     return length;

@@ -1,4 +1,4 @@
-// art/style/length.h: lengths as users write them.
+// art/style/length.h: parses lengths with units.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace sikku {
 
-/// A number and the unit behind it: `mm`, `cm`, `m`, `in`, `pt`, `px`; empty for a bare number.
+/// A number and its unit: `mm`, `cm`, `m`, `in`, `pt`, `px`; empty for a bare number.
 struct Length {
     double number = 0.0;  ///< finite
     std::string unit;     ///< lower case

@@ -1,13 +1,13 @@
 #include "art/style/style.h"
 
 #include "art/style/length.h"
+#include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <system_error>
@@ -106,8 +106,8 @@ void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
         const std::string_view near = nearest(text, {"straight", "spline"});
         diagnostics.error(
             *word, near.empty()
-                       ? fmt::format("{} is not a kind of line: expected {}", quoted(word->view()), expected)
-                       : fmt::format("{} is not a kind of line; did you mean '{}'?", quoted(word->view()), near));
+                       ? fmt::format("{} is not a line style: expected {}", quoted(word->view()), expected)
+                       : fmt::format("{} is not a line style; did you mean '{}'?", quoted(word->view()), near));
     }
 }
 
@@ -170,7 +170,7 @@ private:
         std::string_view text = word.view();
         const std::size_t sign = text.starts_with('+') ? 1 : 0;
         double number = 0.0;
-        const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), number);
+        const auto [end, error] = parse_number(text.substr(sign), number);
         const auto digits = static_cast<std::size_t>(end - text.data());
         Span unit_at = word.part(digits);
         if (unit_at.empty()) {

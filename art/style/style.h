@@ -1,4 +1,4 @@
-// art/style/style.h: how a pattern wants to be drawn: the keys line, stroke, ground, fill, palette, dots, view.
+// art/style/style.h: the style of a drawing, from the keys line, stroke, ground, fill, palette, dots, view.
 #pragma once
 
 #include "art/style/camera.h"
@@ -29,7 +29,7 @@ struct DotStyle {
 
 struct Style {
     Line line = Line::straight;
-    bool moves_lift = false;  ///< of splines: moves lift the pen (`spline with lifts`) and are not control points
+    bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
     StrokeWidth stroke;
     std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`
@@ -39,7 +39,7 @@ struct Style {
     std::optional<DotStyle> dots;         ///< absent: none are drawn
     Camera camera;                        ///< of drawings in space
 
-    /// Are undrawn steps control points of the line?
+    /// True if undrawn steps are control points of the line.
     bool moves_draw() const { return line == Line::spline && !moves_lift; }
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;
@@ -62,7 +62,8 @@ struct Style {
 std::vector<Colour> default_palette();
 
 /// Reads and checks the keys that KeyOwner::art owns; an absent key keeps its default: straight, 0.4 mm, black on
-/// white, a palette of eight colours that everyone can tell apart. @param dpi  pixels per inch, for px in lengths
+/// white, a palette of eight colours that colour-blind readers can distinguish. @param dpi  pixels per inch, for px
+/// in lengths
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics);
 
 }  // namespace sikku

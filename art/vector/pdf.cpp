@@ -271,7 +271,7 @@ private:
         layers_.clear();
     }
 
-    /// Completes the page, whose object is written with the others.
+    /// Completes the page. Its object is written with the others at the end.
     void end_page() {
         entries_.push_back({page_,
                             fmt::format("/MediaBox {}\n/CropBox {}\n/BleedBox {}\n/TrimBox {}\n", box(edge_),
@@ -640,21 +640,21 @@ private:
     std::string order_;            ///< the same as a reader lists them: those of a part together
     std::string properties_;       ///< and as resources
     std::string forms_;
-    /// A page that is complete.
+    /// A completed page.
     struct PageEntry {
         int object;
         std::string boxes, contents;
     };
     std::vector<PageEntry> entries_;
-    Page size_;               ///< of the page that is being drawn
-    Print page_print_;        ///< of begin_page()
-    std::string shared_;      ///< streams of the drawing that all pages show
+    Page size_;               ///< size of the page that is being drawn
+    Print page_print_;        ///< the print given to begin_page()
+    std::string shared_;      ///< references to the streams of the drawing that all pages show
     bool is_shared_ = false;  ///< begin_page() was called
     const double edge_;       ///< millimetres from the edge of the medium to the trimmed sheet
     double unit_ = 1.0;       ///< points of one unit of the page
     int catalog_ = 0;
     int pages_ = 0;
-    int page_ = 0;  ///< the page that is being drawn
+    int page_ = 0;  ///< number of the page that is being drawn
     int resources_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// art/vector/pdf.h: a drawing as vector PDF 1.6 with real page boxes.
+// art/vector/pdf.h: writes a drawing as vector PDF 1.6 with page boxes.
 #pragma once
 
 #include "art/print/print.h"
@@ -14,12 +14,12 @@ namespace sikku {
 /// is short
 std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file);
 
-/// Writes a drawing into a file of several pages, each of which shows a part of it.
+/// Writes a drawing into a file of several pages, each showing a part of it.
 class PagesWriter : public PrintWriter {
 public:
-    /// Ends the drawing so far and begins a page that shows the part in `shown` of it, in millimetres of its own
-    /// page, at that place of the new one and `scale` times as large. The first call ends the drawing; what is drawn
-    /// after it belongs to the page and lies over what the page shows, with the style and the placement of `page`.
+    /// Begins a page that shows the part `shown` of the drawing, in millimetres of the drawing's page, at the
+    /// position `at` and magnified by `scale`. The first call ends the drawing; later strokes belong to the new page
+    /// and lie over that part, in the style and the placement of `page`.
     virtual void begin_page(const Print& page, const Window& shown, glm::dvec2 at, double scale) = 0;
 };
 

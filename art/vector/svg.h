@@ -1,4 +1,4 @@
-// art/vector/svg.h: a drawing as SVG in millimetres, for Inkscape, plotters and browsers.
+// art/vector/svg.h: writes a drawing as SVG in millimetres, for Inkscape, plotters and browsers.
 #pragma once
 
 #include "art/print/print.h"
@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Namespace of the elements that record what the print was made from.
+/// Namespace of the elements that contain the pattern and the recipe of the print.
 constexpr std::string_view svg_name_space = "urn:sikku:print";
 
 /// Begins the document in `file`. `print` and `file` are kept by reference and must outlive the writer. After

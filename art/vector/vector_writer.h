@@ -1,5 +1,5 @@
-// art/vector/vector_writer.h: what the writers of SVG and PDF have in common: layers, and strokes in pieces of one
-// pen each.
+// art/vector/vector_writer.h: the common base of the SVG and PDF writers: layers, and strokes split where the pen
+// changes.
 #pragma once
 
 #include "art/print/micrometres.h"

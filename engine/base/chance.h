@@ -1,4 +1,4 @@
-// engine/base/chance.h: random numbers that depend on a place in a derivation and on nothing else.
+// engine/base/chance.h: random numbers that depend only on the seed and the place in a derivation.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,10 @@
 #include "engine/base/diagnostic.h"
 
+#include "engine/base/decimal.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <tuple>
@@ -271,7 +272,7 @@ std::string printable(std::string_view text, std::size_t most) {
 
 bool read_number(std::string_view text, double& value) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = parse_number(text, value);
     return error == std::errc() && end == text.data() + text.size() && !text.empty() && std::isfinite(value);
 }
 

@@ -1,4 +1,4 @@
-// engine/base/diagnostic.h: the text of a pattern file, places in it, and what is wrong at them.
+// engine/base/diagnostic.h: source texts, places in them, and errors and warnings at those places.
 #pragma once
 
 #include <cstddef>

@@ -21,7 +21,7 @@ constexpr std::size_t block_bytes = std::size_t{1} << 16;
 InputFile::InputFile(const std::filesystem::path& path) {
     const auto fail = [](int error) { throw std::system_error(error, std::generic_category()); };
     struct stat state = {};
-    // Merely opening a pipe would take the reader away from its writer.
+    // Opening a pipe and closing it again would break the connection of its writer.
     if (::stat(path.c_str(), &state) != 0) fail(errno);
     if (!S_ISREG(state.st_mode)) fail(EINVAL);
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -70,7 +70,7 @@ std::string_view InputStream::ahead(std::size_t least) {
         block_.resize(kept + wanted);
         const std::size_t got = file_.read(at_, block_.data() + kept, wanted);
         block_.resize(kept + got);
-        at_ = got == wanted ? at_ + got : end_;  // a truncated file ends here
+        at_ = got == wanted ? at_ + got : end_;  // the file was truncated
     }
     return std::string_view(block_).substr(next_);
 }
@@ -126,7 +126,7 @@ std::string read_file(const std::filesystem::path& file, const std::string& name
     std::error_code unknown;
     if (std::filesystem::is_directory(file, unknown)) throw std::runtime_error(name + " is a folder");
     std::FILE* stream = nullptr;
-    // A signal interrupts waiting for the writer of a pipe.
+    // A signal interrupts the wait for the writer of a pipe.
     while (!(stream = std::fopen(file.c_str(), "rb"))) {
         const int error = errno;
         monitor.check();

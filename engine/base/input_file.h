@@ -13,8 +13,8 @@
 
 namespace sikku {
 
-/// A regular file, open for reading. A read never takes more memory than the bytes present, whatever sizes the file
-/// states.
+/// A regular file, open for reading. No read allocates more memory than the bytes present, whatever sizes the file
+/// claims.
 class InputFile {
 public:
     /// Does not open pipes and devices, which might block.
@@ -61,17 +61,17 @@ public:
 
 private:
     const InputFile& file_;
-    std::uint64_t at_, end_;  // of the unread part
+    std::uint64_t at_, end_;  // bounds of the unread part
     std::string block_;
     std::size_t next_ = 0;
 };
 
-/// Reads an open stream to its end, or `most` + 1 bytes. Signals interrupt waiting, not reading.
+/// Reads an open stream to its end, at most `most` + 1 bytes. Signals interrupt waiting, not reading.
 /// @param name  for messages
 /// @throws std::runtime_error; Stopped
 std::string read_stream(std::FILE* stream, const std::string& name, std::size_t most, const Monitor& monitor = {});
 
-/// The same of a file; waits for the writer of a named pipe.
+/// Reads a file likewise; waits for the writer of a named pipe.
 /// @throws std::runtime_error if it is a folder or cannot be read; Stopped
 std::string read_file(const std::filesystem::path& file, const std::string& name, std::size_t most,
                       const Monitor& monitor = {});

@@ -13,11 +13,11 @@ enum class KeyOwner : std::uint8_t { engine, art, music };
 
 /// One key of pattern files. Parsing, `--set`, galleries, help and the manual use the same row.
 struct KeyInfo {
-    std::string_view name;  ///< as files write it: lower case, single blanks
+    std::string_view name;  ///< as written in files: lower case, single blanks
     KeyOwner owner = KeyOwner::engine;
-    std::string_view values;     ///< what may follow the colon
-    std::string_view if_absent;  ///< what holds without the key; empty: nothing
-    std::string_view help;       ///< what the key sets, as a noun phrase
+    std::string_view values;     ///< syntax of the value
+    std::string_view if_absent;  ///< default value; empty: none
+    std::string_view help;       ///< meaning of the key, as a noun phrase
 };
 
 /// All keys, grouped by owner, in the order of the manual.

@@ -7,11 +7,11 @@
 
 namespace sikku {
 
-/// Bytes that programs can have now without swapping; 4 GB if the system does not say.
+/// Bytes of memory available without swapping; 4 GB if the system does not report it.
 std::uint64_t available_memory();
 
-/// A size in bytes: `1G`, `512M`, `2GiB`, `500MB`, any case; k, M, G and T are powers of 1024. Nullopt for anything
-/// else, and for 0.
+/// Parses a size in bytes: `1G`, `512M`, `2GiB`, `500MB`, any case; k, M, G and T are powers of 1024. Nullopt for
+/// anything else, and for 0.
 std::optional<double> parse_bytes(std::string_view text);
 
 }  // namespace sikku

@@ -19,8 +19,8 @@ private:
 };
 
 /// Passed to all work that may take longer than 0.3 s. A value of two pointers and a context, which must outlive the
-/// work; a default-constructed one never stops the work. May be used by several threads at once if its context allows
-/// it.
+/// work; a default-constructed monitor never stops the work. Several threads may use it at once if its context allows
+/// that.
 class Monitor {
 public:
     using StopRequested = bool (*)(void* context);

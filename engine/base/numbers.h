@@ -1,4 +1,4 @@
-// engine/base/numbers.h: numbers of 128 bits under one name on every compiler.
+// engine/base/numbers.h: portable names for the 128-bit number types of compilers.
 #pragma once
 
 #if defined(__SIZEOF_FLOAT128__) && defined(__SIZEOF_INT128__)

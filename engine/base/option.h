@@ -14,25 +14,25 @@
 
 namespace sikku {
 
-/// What the value of an option may be before the option reads it.
+/// Syntax of an option's value, which is checked before the setter reads it.
 enum class OptionKind : std::uint8_t { text, number, whole, flag };
 
-/// One row without its setter.
+/// A row of the table, without its setter.
 struct OptionInfo {
     std::string_view name;     ///< lower case, words joined by hyphens
     std::string_view help;     ///< a noun phrase or an imperative, with range and default
-    std::string_view value{};  ///< stands for the value in help, `SIZE`; in brackets if it may be left out
-    std::string_view group{};  ///< heading in help; empty: the first
+    std::string_view value{};  ///< placeholder of the value in help, `SIZE`; in brackets if the value is optional
+    std::string_view group{};  ///< heading in help; empty: the first group
     std::string_view unit{};   ///< may follow the number: `40mm/s`
     OptionKind kind = OptionKind::text;
-    double least = -1e300;  ///< of numbers
+    double least = -1e300;  ///< minimum of numbers
     double most = 1e300;
     bool is_list = false;    ///< may be given several times
-    bool is_alone = false;   ///< not in galleries, whose jobs are one file of one derivation length each
-    bool is_on = false;      ///< a flag that holds unless it is set to false
+    bool is_alone = false;   ///< not available in galleries, where each job makes one file of one derivation length
+    bool is_on = false;      ///< a flag that is on by default
     char letter = 0;         ///< short form on the command line; 0: none
-    bool sets_more = false;  ///< of `is_key`: accepts values that the key does not
-    bool is_key = false;     ///< also a key of the language, which the option overrides
+    bool sets_more = false;  ///< with `is_key`: accepts more values than the key
+    bool is_key = false;     ///< overrides the key of the same name
 };
 
 /// `set` reads the text of a value; numbers are in range, flags are `true` or `false`.
@@ -41,7 +41,7 @@ template <typename Settings>
 struct Option {
     OptionInfo info;
     void (*set)(Settings& settings, const std::string& text);
-    /// Instead of `set`, for rows that share one setter.
+    /// Used instead of `set` by rows that share one setter.
     void (*set_named)(Settings& settings, std::string_view name, const std::string& text) = nullptr;
 };
 
@@ -52,14 +52,14 @@ struct OptionValue {
 };
 using OptionValues = std::vector<OptionValue>;
 
-/// A value, or a combination of values, that is not possible. what() is the whole message without the name of the
-/// option, so that each caller can name the option as its users write it.
+/// Reports an invalid value or an invalid combination of options. what() is the message without the name of the
+/// option, which callers add in the notation of their users.
 class SettingError : public std::runtime_error {
 public:
     SettingError(std::string option, std::string value, const std::string& message)
         : std::runtime_error(message), option_(std::move(option)), value_(std::move(value)) {}
-    const std::string& option() const { return option_; }  ///< as in the table
-    const std::string& value() const { return value_; }    ///< empty where the combination is at fault
+    const std::string& option() const { return option_; }  ///< name in the table
+    const std::string& value() const { return value_; }    ///< empty if a combination is invalid
 
 private:
     std::string option_;
@@ -69,13 +69,13 @@ private:
 /// The text of a value without the unit of its option.
 std::string without_unit(const OptionInfo& option, const std::string& text);
 
-/// Checks a value against kind and range of its option. @throws SettingError
+/// Checks a value against the kind and the range of its option. @throws SettingError
 void check_option(const OptionInfo& option, const std::string& text);
 
-/// @throws SettingError, always
+/// Throws a SettingError.
 [[noreturn]] void refuse_option(std::string_view option, const std::string& value, const std::string& message);
 
-/// The number that a checked text holds.
+/// Converts a checked text to its number.
 double to_number(const std::string& text);
 
 /// Reads a whole number. @throws SettingError if it does not fit
@@ -85,7 +85,7 @@ void read_whole(std::string_view option, const std::string& text, Whole& value) 
     if (error != std::errc() || end != text.data() + text.size()) refuse_option(option, text, "too large");
 }
 
-/// The option of every interpreter that derives words.
+/// The option `budget`, which all interpreters have.
 constexpr OptionInfo budget_option = {.name = "budget",
                                       .help = "maximum number of derivation nodes visited (2e8)",
                                       .value = "NODES",
@@ -100,7 +100,7 @@ const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::str
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values);
 
 /// Applies values in the order of the table, so that rows may build on those before them (lengths in px on `dpi`).
-/// @throws SettingError for an unknown name, a repeated one that is no list, and for what a row refuses
+/// @throws SettingError for unknown names, repeated names of options that are not lists, and invalid values
 template <typename Settings>
 void apply_options(std::span<const Option<Settings>> table, const OptionValues& values, Settings& settings) {
     std::vector<const OptionInfo*> known;

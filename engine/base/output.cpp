@@ -17,7 +17,7 @@ public:
     }
 };
 
-/// Appears in the map on commit().
+/// An output that is stored in the map on commit().
 class NamedMemory : public MemoryOutput {
 public:
     NamedMemory(std::map<std::string, std::string>& outputs, std::string name)

@@ -1,4 +1,4 @@
-// engine/base/output.h: where finished bytes go: files that appear whole or not at all, or memory.
+// engine/base/output.h: destinations of finished bytes: files that appear whole or not at all, or memory.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// One output being written. It appears on commit(); without commit() nothing stays. Every failure (a missing folder,
-/// a full disk) is a std::runtime_error that names the output and the cause.
+/// An output being written. It appears on commit(); without commit() it is discarded. Every failure (a missing
+/// folder, a full disk) is a std::runtime_error that names the output and the cause.
 class Output {
 public:
     Output() = default;
@@ -22,20 +22,20 @@ public:
     virtual void write(std::string_view bytes) = 0;
     /// Number of bytes written so far.
     virtual std::uint64_t size() const = 0;
-    /// Whether insert(), overwrite() and temporary() may be used: false for devices and pipes.
+    /// True if insert(), overwrite() and temporary() may be used: not for devices and pipes.
     virtual bool can_insert() const = 0;
-    /// Puts `bytes` before the byte at `position` (at most size()). Cost: the bytes that move up.
+    /// Inserts `bytes` before the byte at `position` (at most size()). Cost: linear in the bytes after it.
     virtual void insert(std::uint64_t position, std::string_view bytes) = 0;
-    /// Replaces bytes that were written.
+    /// Replaces bytes already written.
     virtual void overwrite(std::uint64_t position, std::string_view bytes) = 0;
-    /// A temporary file with all that was written so far, for a library or program that opens files by itself. Do
-    /// not write() after that.
+    /// A temporary file with all bytes written so far, for libraries and programs that open files themselves. Do not
+    /// call write() afterwards.
     virtual const std::filesystem::path& temporary() = 0;
     /// Call once, last.
     virtual void commit() = 0;
 };
 
-/// Opens outputs by name. A work may open several: the sheets of a tiled print, the materials of a model.
+/// Opens outputs by name. A work may open several, such as the sheets of a tiled print or the materials of a model.
 class Destination {
 public:
     virtual ~Destination() = default;
@@ -72,7 +72,7 @@ class MemoryDestination : public Destination {
 public:
     std::unique_ptr<Output> open(const std::filesystem::path& name) override;
     const std::map<std::string, std::string>& outputs() const { return outputs_; }
-    /// The bytes of an output, moved out. @throws std::out_of_range if there is none of that name
+    /// Removes an output and returns its bytes. @throws std::out_of_range if there is none of that name
     std::string take(const std::string& name);
 
 private:

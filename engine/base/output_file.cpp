@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -68,7 +67,8 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
 constexpr int most_links = 40;             // as the kernel follows
 
-/// Accepts a failed call if the file system or kind of file has nothing to synchronise.
+/// Checks the result of a synchronising call; accepts failures if the file system or the kind of file does not
+/// support it.
 bool is_not_for_sync(int error) {
     return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
 }
@@ -81,7 +81,7 @@ int synchronise(int descriptor) {
     return 0;
 }
 
-/// Synchronises the names in a folder. An unreadable folder is left to the system.
+/// Synchronises the names in a folder, unless it is unreadable.
 int synchronise_folder(const std::filesystem::path& folder) {
     const int descriptor =
         ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
@@ -127,7 +127,7 @@ bool is_in_held_folder(const std::string& name) {
 std::string random_letters() {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567";
     std::array<unsigned char, 6> bytes{};
-    if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) bytes.fill(0);
+    if (::getentropy(bytes.data(), bytes.size()) != 0) bytes.fill(0);
     std::string result;
     for (const unsigned char byte : bytes) result += letters[byte % letters.size()];
     return result;
@@ -163,7 +163,7 @@ OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)),
             if (target_.filename().empty()) fail(target_.empty() ? ENOENT : EISDIR);
             break;
         }
-        // A caller that holds a folder open does not trust its contents: the name itself is used, not its target.
+        // A caller that holds a folder open does not trust its contents: links are replaced, not followed.
         if (is_held && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) break;
         if (S_ISLNK(status.st_mode)) {
             if (links == most_links) fail(ELOOP);
@@ -294,7 +294,7 @@ const std::filesystem::path& OutputFile::temporary() {
 void OutputFile::commit() {
     flush();
     if (!direct_) {
-        // By name where a library has made the file anew.
+        // Synchronise by name, because a library may have recreated the file.
         struct stat own {};
         struct stat named {};
         const bool is_own = ::fstat(descriptor_, &own) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&

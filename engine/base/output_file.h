@@ -25,7 +25,7 @@ public:
 
     /// Buffered (1 MB).
     void write(std::string_view bytes) override;
-    /// Bytes handed over so far.
+    /// Number of bytes written so far.
     std::uint64_t size() const override { return written_; }
     /// Whether insert() may be used: false for devices and pipes.
     bool can_insert() const override { return !direct_; }
@@ -52,7 +52,7 @@ private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
-    int mode_ = -1;                    ///< of the replaced file
+    int mode_ = -1;                    ///< mode of the replaced file
     UnfinishedFile* entry_ = nullptr;  ///< in the list of remove_unfinished_files()
     bool direct_ = false;
     std::string buffer_;

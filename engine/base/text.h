@@ -1,4 +1,4 @@
-// engine/base/text.h: texts, for all who write them to files.
+// engine/base/text.h: trims, escapes and formats texts for output files.
 #pragma once
 
 #include <cstdint>
@@ -33,10 +33,10 @@ std::string did_you_mean(std::span<const std::string_view> names);
 
 /// `1 note`, `2 notes`.
 std::string counted(std::uint64_t count, std::string_view what);
-/// The same of a number in decimal digits.
+/// The same for a number in decimal digits.
 std::string counted(std::string_view digits, std::string_view what);
 
-/// `320 ms`, `3.2 s`, `1 min 20 s`, `2.5 h`; years from some three centuries on.
+/// Formats a duration: `320 ms`, `3.2 s`, `1 min 20 s`, `2.5 h`; above about three centuries in years.
 std::string time_text(double seconds);
 /// `17 kB`, `1.2 GB`.
 std::string bytes_text(double bytes);

@@ -1,4 +1,4 @@
-// engine/base/threads.h: work on a number of threads.
+// engine/base/threads.h: runs work on a given number of threads.
 #pragma once
 
 #include <oneapi/tbb/global_control.h>
@@ -20,9 +20,9 @@ inline int thread_count(int threads) {
 /// or `-v`. Cost: 20 µs per thread.
 int startable_threads(int wanted);
 
-/// Calls `work`, whose parallel parts use this many threads (0: all cores), and returns its result. Uses more threads
-/// than cores, without a library warning on the terminal, only where the limits allow it. Uses fewer threads where
-/// fewer can be started; the library would end the program.
+/// Calls `work`, whose parallel parts use this many threads (0: all cores), and returns its result. More threads than
+/// cores are used only if the limits allow them, and without the library's warning. Fewer threads are used if no more
+/// can be started, in which case the library would abort the program.
 template <typename Work>
 decltype(auto) on_threads(int threads, Work&& work) {
     const int count = 1 + startable_threads(thread_count(threads) - 1);

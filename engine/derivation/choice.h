@@ -1,4 +1,4 @@
-// engine/derivation/choice.h: which of the productions that match applies.
+// engine/derivation/choice.h: selects the production that applies from those that match.
 #pragma once
 
 #include "engine/language/grammar.h"

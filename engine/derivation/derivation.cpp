@@ -1,5 +1,6 @@
 #include "engine/derivation/derivation.h"
 
+#include "engine/base/bits.h"
 #include "engine/derivation/levels.h"
 #include "engine/derivation/rewriting.h"
 #include "engine/derivation/streamer.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <memory>
 #include <utility>
 
@@ -17,9 +17,8 @@ namespace {
 /// To the bit: -0 is not 0.
 bool is_same(const ModuleWord& one, const ModuleWord& other) {
     return one.symbols == other.symbols &&
-           std::equal(
-               one.arguments.begin(), one.arguments.end(), other.arguments.begin(), other.arguments.end(),
-               [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); });
+           std::equal(one.arguments.begin(), one.arguments.end(), other.arguments.begin(), other.arguments.end(),
+                      [](double a, double b) { return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b); });
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// engine/derivation/derivation.h: from a grammar to the symbols of its derived word, storing no word where that can
-// be avoided.
+// engine/derivation/derivation.h: derives the word of a grammar as a stream of symbols, storing whole words only if
+// necessary.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -95,8 +95,8 @@ void derive(const Grammar& grammar, SymbolSink& sink, const DerivationOptions& o
 /// A grammar with the same derived word in which no step that is left looks at its neighbours: `grammar` itself, or
 /// what is left of it when the word after the last step that does so takes the place of the axiom.
 /// Memory: that word, the one before it, and 8 bytes a symbol (up to 16 with parameters or brackets in contexts).
-/// Time: linear in the symbols of the words and in the symbols compared. BudgetError above the limits of `options`;
-/// only those limits matter here.
+/// Time: linear in the symbols of the words and in the symbols compared. @throws BudgetError above the limits of
+/// `options`, whose other members are ignored.
 Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options);
 
 /// A plain grammar with nothing left to derive whose word is that of `grammar`, `interpret:` applied, so that readers

@@ -1,4 +1,4 @@
-// engine/derivation/drawn_successors.h: successors that are drawn with constant weights, prepared for speed.
+// engine/derivation/drawn_successors.h: precomputed random choice among successors with constant weights.
 #pragma once
 
 #include "engine/language/grammar.h"

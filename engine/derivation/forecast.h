@@ -1,4 +1,4 @@
-// engine/derivation/forecast.h: how long the word will be and what it will cost, before anything is derived.
+// engine/derivation/forecast.h: forecasts the length and the cost of a word before it is derived.
 #pragma once
 
 #include "engine/derivation/derivation.h"
@@ -42,11 +42,14 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 /// The same without exact counts, at a cost that does not grow with the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
-/// Symbols of the word, for progress reports; 0 if nothing short of deriving tells.
+/// Estimates the number of symbols of a forecast word that draw lines or discs.
+double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
+
+/// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.
 double expected_symbols(const Grammar& grammar, bool interpreted);
 
-/// Upper bound of the seconds for matching contexts: as if every candidate were compared in full at every symbol of
-/// the first word, in every step with contexts. The budget ends it before that.
+/// Upper bound of the seconds for matching contexts, assuming that every candidate is compared in full at every
+/// symbol of the first word, in every step with contexts. The budget may stop it earlier.
 double matching_seconds(const Grammar& grammar, double budget);
 
 /// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.

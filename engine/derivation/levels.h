@@ -1,4 +1,4 @@
-// engine/derivation/levels.h: which table rewrites at which level of an expansion.
+// engine/derivation/levels.h: selects the table for each level of an expansion.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -10,10 +10,10 @@
 
 namespace sikku {
 
-/// The longest run of symbols that a sink is handed.
+/// Maximum length of a run of symbols passed to a sink.
 constexpr std::size_t longest_run = 4096;
 
-/// Symbols or frames between two calls of DerivationOptions::watch.
+/// Number of symbols or frames between two calls of DerivationOptions::watch.
 constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;
 
 /// The tables from the last level upwards: level 0 is the finished word, level r has r tables still to come.

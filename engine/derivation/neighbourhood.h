@@ -15,8 +15,8 @@ class MatchingError : public BudgetError {
     using BudgetError::BudgetError;
 };
 
-/// Counts the symbols compared in matching, over all steps of a derivation, so that the budget stops long contexts at
-/// many places. A few comparisons for each symbol of a word are free.
+/// Counts the symbols compared in matching, over all steps of a derivation, so that the budget limits long contexts
+/// at many places. A few comparisons for each symbol of a word are free.
 class MatchingWork {
 public:
     explicit MatchingWork(const DerivationOptions& options)
@@ -103,8 +103,8 @@ public:
         }
     }
 
-    /// Does `context` match to the left of position `at`? Writes the positions of its symbols, from left to right, to
-    /// `seen_at` unless it is null.
+    /// True if `context` matches to the left of position `at`. Writes the positions of its symbols, from left to
+    /// right, to `seen_at` unless it is null.
     bool left_matches(const Word& context, std::size_t at, std::uint32_t* seen_at = nullptr) const {
         std::size_t k = context.size();
         for (; k > 0; --k) {

@@ -9,7 +9,7 @@ namespace sikku {
 /// Expands the axiom of a plain grammar through `levels`. Does not finish the sink.
 void stream_symbols(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 
-/// Expands the axiom of a grammar with parameters or chance, where each module is another. Does not finish the sink.
+/// Expands the axiom of a grammar with parameters or random choices, module by module. Does not finish the sink.
 /// @throws BudgetError, WordError
 void stream_modules(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 

@@ -1,4 +1,4 @@
-// engine/geometry/bezier.h: cubic Béziers: points, parts, chords.
+// engine/geometry/bezier.h: points, parts and chords of cubic Béziers.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,6 +1,5 @@
 #include "engine/geometry/lattice.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -37,20 +36,16 @@ std::vector<int> cyclotomic(int k) {
 
 /// The denominator of a decimal in lowest terms: of 2.5 it is 2, of 0.2 it is 5; 0 if it is too large.
 std::int64_t decimal_denominator(double value) {
-    std::array<char, 64> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
-    const std::string_view text(buffer.data(), end.ec == std::errc() ? end.ptr : buffer.data());
-    if (text.empty()) return 0;
-    const std::size_t point = text.find('.');
-    if (point == std::string_view::npos) return std::fabs(value) < 0x1p40 ? 1 : 0;
-    std::int64_t denominator = 1;
-    for (std::size_t i = point + 1; i < text.size(); ++i) {
-        denominator *= 10;
-        if (denominator > largest_unit) return 0;
+    if (!(std::fabs(value) < 0x1p40)) return 0;
+    for (std::int64_t denominator = 1; denominator <= largest_unit; denominator *= 10) {
+        const double scaled = value * static_cast<double>(denominator);
+        if (std::fabs(scaled) > 0x1p40) return 0;
+        const std::int64_t numerator = std::llround(scaled);
+        if (static_cast<double>(numerator) / static_cast<double>(denominator) == value) {
+            return denominator / std::gcd(denominator, numerator);
+        }
     }
-    const double scaled = value * static_cast<double>(denominator);
-    if (std::fabs(scaled) > 0x1p40) return 0;
-    return denominator / std::gcd(denominator, std::llround(scaled));
+    return 0;
 }
 
 }  // namespace

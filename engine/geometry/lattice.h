@@ -1,4 +1,5 @@
-// engine/geometry/lattice.h: how the turtles of one grammar count their steps: exactly, where the angles allow it.
+// engine/geometry/lattice.h: the coordinates of turtles: whole numbers on a lattice if the angles allow it, otherwise
+// doubles.
 #pragma once
 
 #include "engine/language/grammar.h"

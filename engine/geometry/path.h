@@ -1,4 +1,4 @@
-// engine/geometry/path.h: what a turtle hands on: strokes of lines or Béziers, polygons, discs.
+// engine/geometry/path.h: receivers of a turtle's output: strokes of lines or Béziers, polygons, discs.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -39,10 +39,28 @@ public:
     virtual void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) = 0;
     /// A filled area bounded by Béziers: the point where its outline begins, then three control points for each
     /// curve, at least one curve; a straight line closes it if the last curve ends elsewhere. It may cross itself
-    /// (non-zero winding rule). Unless overridden, a polygon within 1/1000 of the larger side of its bounding box.
+    /// (non-zero winding rule). By default it is passed on as a polygon that deviates by at most 1/1000 of the larger
+    /// side of its bounding box.
     virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
     /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
+};
+
+/// Passes a drawing on to another sink; derived classes override what they change.
+class PathFilter : public PathSink {
+public:
+    explicit PathFilter(PathSink& sink) : sink_(sink) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
+    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+
+protected:
+    PathSink& sink_;
 };
 
 /// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
@@ -51,7 +69,7 @@ class OutlineSink {
 public:
     virtual ~OutlineSink() = default;
     virtual void begin_outline(glm::dvec2 at) = 0;
-    /// A vertex reached without drawing.
+    /// Adds a vertex reached without drawing.
     virtual void outline_vertex(glm::dvec2 at) = 0;
     /// `is_area`: it has at least three vertices.
     virtual void end_outline(const Pen& pen, bool is_area) = 0;

@@ -1,4 +1,4 @@
-// engine/geometry/point_tree.h: the nearest of many points, some of which may be taken away.
+// engine/geometry/point_tree.h: finds the nearest of many points; points can be removed.
 #pragma once
 
 #include "engine/base/monitor.h"

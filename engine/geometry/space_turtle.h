@@ -1,4 +1,4 @@
-// engine/geometry/space_turtle.h: from the symbols of a word to segments, polygons and spheres in space.
+// engine/geometry/space_turtle.h: turns the symbols of a word into segments, polygons and spheres in space.
 #pragma once
 
 #include "engine/derivation/derivation.h"

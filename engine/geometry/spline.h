@@ -1,4 +1,4 @@
-// engine/geometry/spline.h: strokes as uniform cubic B-splines, in exact Béziers.
+// engine/geometry/spline.h: converts strokes to uniform cubic B-splines as exact Béziers.
 #pragma once
 
 #include "engine/geometry/bezier.h"

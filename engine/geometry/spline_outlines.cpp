@@ -25,7 +25,7 @@ void SplineOutlines::control(glm::dvec2 point) {
     if (!last.is_point && last.stroke == current() && last.to + 1 == index) {
         last.to = index;
     } else if (outline.last == before) {
-        // The stroke begins, or continues, where the outline is.
+        // The stroke begins or continues at the outline's current point.
         if (last.is_point || last.from == last.to) outline.runs.pop_back();
         outline.runs.push_back({current(), index - 1, index});
     } else {
@@ -103,7 +103,7 @@ void SplineOutlines::settle() {
     forget_at_ = 1024;
 }
 
-/// Drops data that no outline needs any more.
+/// Drops data that no outline needs any longer.
 void SplineOutlines::forget() {
     std::uint64_t piece = pieces_;
     std::uint64_t stroke = current();
@@ -121,8 +121,8 @@ void SplineOutlines::forget() {
     forget_at_ = std::max<std::size_t>(1024, 2 * kept_.size());
 }
 
-/// Where on the stroke's curve a control point is, counted in Béziers. As long as a stroke continues, no control
-/// point that is asked for is near its end.
+/// Position of a control point along the stroke's curve, in Béziers. While a stroke continues, no requested control
+/// point is near its end.
 double SplineOutlines::parameter(const Stroke& stroke, std::size_t control) const {
     const auto k = static_cast<double>(control);
     const auto end = static_cast<double>(stroke.pieces);

@@ -1,4 +1,4 @@
-// engine/geometry/turtle.h: from the symbols of a word to strokes, polygons and discs in the plane.
+// engine/geometry/turtle.h: turns the symbols of a word into strokes, polygons and discs in the plane.
 #pragma once
 
 #include "engine/derivation/derivation.h"

@@ -1,5 +1,4 @@
-// engine/geometry/turtle_state.h: what every turtle keeps beside its place: pens, brackets, polygons that are not
-// closed yet.
+// engine/geometry/turtle_state.h: the state of a turtle besides its position: pen, open brackets, open polygons.
 #pragma once
 
 #include "engine/derivation/derivation.h"

@@ -1,9 +1,9 @@
 #include "engine/import/cpfg_expression.h"
 
+#include "engine/base/decimal.h"
 #include "engine/language/expression.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -14,7 +14,7 @@ constexpr std::size_t most_nesting = 256;                            // of an ex
 constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as written anew
 constexpr double degree = 0.017453292519943295;
 
-/// Counts one more for as long as it lives.
+/// Increments a counter during its lifetime.
 struct Level {
     explicit Level(std::size_t& counted) : count(counted) { ++count; }
     ~Level() { --count; }
@@ -52,13 +52,13 @@ void combine(Value& left, std::string_view sign, int level, const Value& right, 
 Value number(Reader& reader, std::size_t at) {
     const std::string_view text = reader.ahead();
     double value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc()) mistake(at, "this is no number that a double holds");
+    const auto [end, problem] = parse_number(text, value);
+    if (problem != std::errc()) mistake(at, "this number is out of range");
     reader.take(static_cast<std::size_t>(end - text.data()));
     return {fmt::format("{}", value)};
 }
 
-/// Functions of one argument and what they are called in patterns; empty for those that are written otherwise.
+/// Functions of one argument and their names in patterns; empty for those that need another notation.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> functions = {{{"sin", "sin"},
                                                                                       {"cos", "cos"},
                                                                                       {"tan", "tan"},
@@ -233,7 +233,7 @@ Value Expressions::operand(Reader& reader) {
         return value;
     }
     if (is_digit(byte) || byte == '.') return number(reader, at);
-    if (byte == '"' || byte == '&') lose(at, "strings and addresses are no numbers");
+    if (byte == '"' || byte == '&') lose(at, "strings and addresses are not numbers");
     const std::string name = identifier(reader);
     if (name.empty()) mistake(at, "expected a number, a name or '('");
     const char after = next(reader);
@@ -245,10 +245,10 @@ Value Expressions::operand(Reader& reader) {
         return {name};
     }
     if (name == "Z") {
-        report_.once("Z", at, "Z as the derivation length: it stays what the file says");
+        report_.once("Z", at, "Z as the derivation length: it keeps the value in the file");
         return {fmt::format("{}", steps)};
     }
-    lose(at, name == "Q" ? "Q, the number of the step, is not to be had" : fmt::format("'{}' is not defined", name));
+    lose(at, name == "Q" ? "Q, the number of the step, is not available" : fmt::format("'{}' is not defined", name));
 }
 
 Value Expressions::call(Reader& reader, const std::string& name, std::size_t at) {

@@ -1,4 +1,4 @@
-// engine/import/cpfg_expression.h: expressions of cpfg, written anew in the pattern language.
+// engine/import/cpfg_expression.h: translates expressions of cpfg into the pattern language.
 #pragma once
 
 #include "engine/import/cpfg_preprocessor.h"
@@ -15,41 +15,41 @@ constexpr std::size_t most_parameters = 64;  // of a module of a pattern
 /// An expression in the pattern language.
 struct Value {
     std::string text;
-    int precedence = 9;  ///< of its outermost operator, as in engine/language/expression.cpp; 9 for none
+    int precedence = 9;  ///< of its outermost operator, as in engine/language/expression.cpp; 9 without one
     bool is_random = false;
     bool is_enclosed = false;  ///< in parentheses, which are not written
 };
 
-/// The value in parentheses if its outermost operator binds less than `lowest`.
+/// Adds parentheses if the outermost operator of the value has a lower precedence than `lowest`.
 std::string in_parentheses(const Value& value, int lowest);
 
-/// Reads the expressions of one file. Powers associate to the left there, signs bind tighter, and angles are degrees.
-/// Defines that are numbers stay names.
+/// Reads the expressions of one file. In cpfg powers associate to the left, signs bind tighter, and angles are
+/// degrees. Defines with numeric values become defines of the pattern.
 class Expressions {
 public:
     Expressions(Defines& defines, Report& report) : defines_(defines), report_(report) {}
 
-    /// Reads as much as is an expression. @throws Fault
+    /// Reads the longest expression. @throws Fault
     Value read(Reader& reader) { return binary(reader, 1); }
     /// Reads the rest of a line as a whole number.
     long long whole_number(Reader& reader);
-    /// The next character of an expression that is no blank; 0 at the end.
+    /// The next character of an expression that is not a blank; 0 at the end.
     char next(Reader& reader) {
         return reader.peek([this](const std::string& name, Macro& macro) { return is_number(name, macro); });
     }
-    /// Reads an identifier; empty if none stands here.
+    /// Reads an identifier; empty if there is none.
     std::string identifier(Reader& reader);
 
     /// Makes `name` a define of the pattern.
     void define(const std::string& name, const Value& value);
-    /// What the pattern calls each define that is a number.
+    /// The texts of the pattern's defines by name.
     const std::map<std::string, std::string, std::less<>>& numbers() const { return number_texts_; }
-    /// The defines that the pattern needs: those in its expressions, and those in them.
+    /// The defines that the pattern's expressions use, directly or through other defines.
     std::set<std::string> used() const;
 
-    /// Forgets the parameters of the production before.
+    /// Forgets the parameters of the previous production.
     void forget_formals() { formals_.clear(); }
-    /// Adds a parameter of the production; false if it is one of them.
+    /// Adds a parameter of the production; false if it exists already.
     bool add_formal(const std::string& name) { return formals_.insert(name).second; }
 
     /// The derivation length, for the variable Z.

@@ -73,7 +73,7 @@ void drop_dead(std::vector<Rule>& rules, Report& report) {
     std::erase_if(rules, [&](const Rule& rule) {
         const std::string key = type_of(rule.left) + "<" + type_of(rule.predecessor) + ">" + type_of(rule.right);
         if (certain.contains(key) && !rule.weight) {
-            report.loss(rule.at, "a production that can never apply: one before it always does");
+            report.loss(rule.at, "a production that can never apply, because an earlier one always does");
             return true;
         }
         if (!rule.condition && !rule.weight) certain.insert(key);
@@ -94,7 +94,7 @@ public:
         const std::string drawing = interpretation();
         for (const char letter : system_.letters.called) {
             if (system_.letters.named.contains(letter)) {
-                report_.once("called", system_.at, "that productions apply to the letters of @ functions");
+                report_.once("called", system_.at, "productions that apply to the letters of @ functions");
             }
         }
         if (report_.failed()) return {};
@@ -147,15 +147,15 @@ private:
                                                      other.predecessor.begin() + static_cast<std::ptrdiff_t>(common));
                     if (type_of(ours) != type_of(theirs)) continue;
                     if (other.predecessor.size() > common) {
-                        report_.loss(rule.at, "that a production of several symbols before this one is tried first");
+                        report_.loss(rule.at, "the order of this production and an earlier one of several symbols");
                     } else if (!other.condition) {
-                        report_.loss(rule.at, "a production that can never apply: one before it always does");
+                        report_.loss(rule.at,
+                                     "a production that can never apply, because an earlier one always does");
                         is_dead = true;
                     } else {
                         const auto condition = renamed(*other.condition, theirs, ours);
                         if (!condition || other.condition->is_random) {
-                            report_.loss(rule.at,
-                                         "that a production without contexts before this one is tried first");
+                            report_.loss(rule.at, "the order of this production and an earlier one without contexts");
                             continue;
                         }
                         const std::string also = "!(" + *condition + ")";
@@ -180,7 +180,7 @@ private:
         if (!system_.seed) {
             for (Rule& rule : system_.rules) {
                 if (!rule.weight) continue;
-                report_.once("weight", rule.at, "probabilities, which cpfg does not look at either without 'seed:'");
+                report_.once("weight", rule.at, "probabilities, which cpfg also ignores without 'seed:'");
                 rule.weight.reset();
             }
             return;
@@ -192,9 +192,8 @@ private:
             const std::string predecessor = type_of(rule.predecessor);
             contexts[predecessor].insert(context_of(rule));
             if (contexts[predecessor].size() == 2) {
-                report_.once(
-                    "mixed" + predecessor, rule.at,
-                    "that with 'seed:' chance decides among all productions that match, whatever their contexts");
+                report_.once("mixed" + predecessor, rule.at,
+                             "random choice among all matching productions, whatever their contexts, with 'seed:'");
             }
             ++members[predecessor + "|" + context_of(rule)];
         }
@@ -223,7 +222,7 @@ private:
                 });
                 if (system_.homomorphism_depth > 1 && recurs) {
                     report_.once("depth", system_.homomorphism_depth_at,
-                                 "that the homomorphism is applied to its own successors; here it is applied once");
+                                 "a homomorphism that is applied to its own successors; here it is applied once");
                 }
             }
         }
@@ -262,7 +261,7 @@ private:
         const auto is_listed = [&](const std::string& letter) {
             const bool first = system_.listed.contains(letter[0]);
             if (letter.size() > 1 && first != system_.listed.contains(letter[1])) {
-                report_.once("@list", system_.at, "that contexts see one half of an @ function");
+                report_.once("@list", system_.at, "contexts that see one half of an @ function");
             }
             return first && (letter.size() == 1 || system_.listed.contains(letter[1]));
         };
@@ -283,8 +282,8 @@ private:
         if (!has(ignored, ',') && (!system_.considers || !brackets_seen)) {
             return ignored.empty() ? "" : line_of("ignore:" + ignored);
         }
-        if (has(seen, ',')) report_.loss(system_.at, "that contexts see ','");
-        if (!brackets_seen) report_.loss(system_.at, "that contexts pass through brackets");
+        if (has(seen, ',')) report_.loss(system_.at, "contexts that see ','");
+        if (!brackets_seen) report_.loss(system_.at, "contexts that pass through brackets");
         std::string considered;
         for (const char letter : seen) considered += letter == ',' ? ' ' : letter;
         return line_of("consider:" + considered);

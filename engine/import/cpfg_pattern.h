@@ -8,8 +8,8 @@
 
 namespace sikku::cpfg {
 
-/// The text of a pattern file; empty after an error. What it lacks goes to `report`.
-/// @param name  of the system
+/// Returns the text of a pattern file; empty after an error. Reports features that are lost.
+/// @param name  name of the system
 std::string write_pattern(System system, const View& view, const std::string& name, const SourcePointer& file,
                           Report& report);
 

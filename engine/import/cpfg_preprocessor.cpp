@@ -17,7 +17,7 @@ bool holds_for(std::string_view word, std::size_t at) {
     const auto [last, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (problem == std::errc() && last == word.data() + word.size()) return number != 0;
     if (!word.empty() && begins_identifier(word[0])) return false;  // what is not defined is 0
-    mistake(at, "this condition is not read: expected a number or a name");
+    mistake(at, "unknown condition: expected a number or a name");
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
     } else if (what == "undef") {
         defines_.macros.erase(std::string(word_at(at, end)));
     } else if (what == "include") {
-        report_.loss(begin, "what #include would bring");
+        report_.loss(begin, "the contents of #include");
     } else if (what.empty() ? !is_empty(at, end) : what != "pragma" && what != "line" && !is_digit(what[0])) {
         mistake(begin, "unknown preprocessor directive; a production cannot begin with '#'");
     }

@@ -1,5 +1,4 @@
-// engine/import/cpfg_preprocessor.h: the C preprocessor that a file of cpfg goes through: comments, conditions and
-// defines.
+// engine/import/cpfg_preprocessor.h: the C preprocessor of cpfg files: comments, conditions and defines.
 #pragma once
 
 #include "engine/import/cpfg_report.h"
@@ -134,25 +133,24 @@ private:
     std::deque<Frame> frames_;  // their texts stay where they are
 };
 
-/// Blanks comments; keeps the ends of lines. In words `//` is two rolls: younger preprocessors than those that these
-/// files were written for would take the rest of the line away. A comment stands at the beginning of a line or
-/// between blanks.
+/// Replaces comments by blanks; keeps line ends. Only at the beginning of a line or between blanks does `//` begin a
+/// comment: in words it is two rolls, which the preprocessors of the time did not remove.
 void blank_comments(std::string& text, Report& report);
 
-/// Obeys the lines that begin with '#'.
+/// Executes preprocessor directives.
 class Preprocessor {
 public:
-    /// @param text  of the file, without comments
+    /// @param text  text of the file, without comments
     Preprocessor(const std::string& text, Defines& defines, Report& report)
         : text_(text), defines_(defines), report_(report) {}
 
-    /// Are the lines here part of what cpfg reads?
+    /// True if cpfg would read the current line.
     bool is_active() const {
         return conditions_.empty() || (conditions_.back().holds && conditions_.back().was_active);
     }
-    /// Obeys one line, from its '#' to its end.
+    /// Executes one directive, from its '#' to the end of the line.
     void directive(std::size_t begin, std::size_t end);
-    /// Reports a condition that has no end.
+    /// Reports a condition without #endif.
     void finish();
 
 private:

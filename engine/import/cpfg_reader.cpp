@@ -126,9 +126,9 @@ private:
             if (!fault.is_loss) {
                 report_.error(fault.at, fault.message);
             } else if (faults_ > most_faults) {
-                report_.error(fault.at, "more than 10,000 productions cannot be carried over");
+                report_.error(fault.at, "more than 10,000 productions cannot be imported");
             } else if (section_ == Section::header) {
-                report_.error(fault.at, fault.message);  // the axiom or its like
+                report_.error(fault.at, fault.message);  // the axiom or another required part
             } else {
                 report_.loss(fault.at, fmt::format("this production: {}", fault.message));
             }
@@ -159,7 +159,7 @@ private:
         } else if (keyword == "homomorphism") {
             section_ = Section::homomorphism;
         } else if (keyword == "decomposition") {
-            report_.loss(begin, "the decomposition, which goes on within a step until nothing more applies");
+            report_.loss(begin, "the decomposition, which is repeated within a step until no production applies");
             section_ = Section::decomposition;
         } else if (section_ == Section::header) {
             item(keyword, begin, rest, rest_at);
@@ -176,7 +176,7 @@ private:
         }
     }
 
-    /// Other L-systems of the file are called by the first.
+    /// Reports further L-systems of the file, which the first one calls.
     void look_for_more(std::size_t at) {
         for (at = std::min(at + 1, text_.size()); at < text_.size(); at = line_end(at) + 1) {
             const std::string_view line = std::string_view(text_).substr(at, line_end(at) - at);
@@ -209,7 +209,7 @@ private:
             }
             if (reader.peek() != 0) mistake(reader.where(), "expected a symbol here");
         } else if (keyword == "ringlsystem") {
-            report_.loss(begin, "that the word is a ring: the end of the word is no neighbour of its beginning");
+            report_.loss(begin, "the ring of the word: here its end is not a neighbour of its beginning");
         } else if (keyword == "start:") {
             start(reader, begin);
         } else if (keyword.empty()) {
@@ -328,9 +328,8 @@ private:
             if (rule.predecessor.size() > 1) lose(rule.at, "a homomorphism replaces one symbol");
             for (std::vector<Formal>* context : {&rule.left, &rule.right}) {
                 for (const Formal& module : *context) {
-                    if (!module.names.empty()) lose(rule.at, "a homomorphism looks at no neighbours");
-                    report_.once("contexts", rule.at,
-                                 "the contexts of a homomorphism, at which cpfg does not look either");
+                    if (!module.names.empty()) lose(rule.at, "a homomorphism has no contexts");
+                    report_.once("contexts", rule.at, "the contexts of a homomorphism, which cpfg also ignores");
                 }
                 context->clear();
             }
@@ -360,11 +359,10 @@ private:
                 if (depth == 0) lose(at, "a right context that leaves its branch");
                 --depth;
                 if (!is_free)
-                    report_.once("]", at,
-                                 "that a branch in a right context ends where the context says; it may go on");
+                    report_.once("]", at, "right contexts that end with their branch; here the branch may be longer");
                 is_free = false;
             } else if (is_free) {
-                lose(at, "'=' somewhere else than at the end of a branch");
+                lose(at, "'=' that is not at the end of a branch");
             }
             if (module.letter == "[") ++depth;
             result.push_back(std::move(module));

@@ -8,7 +8,7 @@
 
 namespace sikku::cpfg {
 
-/// Reads the first L-system of a file, `text`. Errors and losses go to `report`.
+/// Reads the first L-system in the text of a file. Errors and losses go to `report`.
 System read_system(std::string text, const View& view, Report& report);
 
 }  // namespace sikku::cpfg

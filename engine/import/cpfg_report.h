@@ -1,4 +1,4 @@
-// engine/import/cpfg_report.h: what is wrong with a file of cpfg, and what its pattern lacks.
+// engine/import/cpfg_report.h: collects the errors of a cpfg file, and the features lost in its pattern.
 #pragma once
 
 #include "engine/import/import.h"
@@ -11,7 +11,7 @@
 
 namespace sikku::cpfg {
 
-/// Why a part of the file cannot be had. A loss costs that part, else the file has a mistake.
+/// Thrown where a part of the file cannot be imported: a loss drops that part, otherwise the file has an error.
 struct Fault {
     std::size_t at;
     std::string message;
@@ -50,7 +50,7 @@ public:
         failed_ = true;
     }
     void loss(std::size_t at, const std::string& what) { losses_.add(at, what); }
-    /// Reports a loss the first time only.
+    /// Reports a loss only once for each key.
     void once(const std::string& key, std::size_t at, const std::string& what) {
         if (told_.insert(key).second) losses_.add(at, what);
     }

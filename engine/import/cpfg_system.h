@@ -1,4 +1,4 @@
-// engine/import/cpfg_system.h: an L-system of cpfg, read and not yet written as a pattern.
+// engine/import/cpfg_system.h: an L-system as read from a cpfg file.
 #pragma once
 
 #include "engine/import/cpfg_expression.h"
@@ -30,25 +30,25 @@ struct Rule {
     bool has_context() const { return !left.empty() || !right.empty(); }
 };
 
-/// A key of the types of modules: their letters and numbers of parameters.
+/// A text that identifies the types of modules: their letters and numbers of parameters.
 std::string type_of(const std::vector<Formal>& modules);
 
 /// The letters of a system, as words and productions use them.
 struct Letters {
-    std::set<std::string> symbols;                          ///< of words, predecessors and contexts
-    std::set<std::pair<std::string, std::size_t>> modules;  ///< of the words that are derived, with their parameters
-    std::set<char> called;                                  ///< of functions, behind an '@'
-    std::set<char> named;                                   ///< by predecessors and contexts
-    std::map<char, std::string> surfaces;                   ///< the letters that stand for surfaces
-    bool sets_width = false;                                ///< a module states a width
+    std::set<std::string> symbols;                          ///< symbols of words, predecessors and contexts
+    std::set<std::pair<std::string, std::size_t>> modules;  ///< in derived words, with numbers of parameters
+    std::set<char> called;                                  ///< letters of functions, after an '@'
+    std::set<char> named;                                   ///< letters in predecessors and contexts
+    std::map<char, std::string> surfaces;                   ///< letters of the pattern for surfaces
+    bool sets_width = false;                                ///< true if a module sets a width
 };
 
 struct System {
-    std::size_t at = std::string::npos;  ///< the line `Lsystem:`; npos if there is none
+    std::size_t at = std::string::npos;  ///< position of the line `Lsystem:`; npos if there is none
     std::string label;
     long long steps = 0;
     std::optional<long long> seed;
-    std::set<char> listed;  ///< under `ignore:` or `consider:`
+    std::set<char> listed;  ///< letters listed under `ignore:` or `consider:`
     bool has_list = false;
     bool considers = false;
     std::optional<std::string> axiom;
@@ -57,7 +57,7 @@ struct System {
     long long homomorphism_depth = 1;
     std::size_t homomorphism_depth_at = 0;
     Letters letters;
-    std::map<std::string, std::string> defines;  ///< numbers that the expressions name
+    std::map<std::string, std::string> defines;  ///< defines that the expressions use
 };
 
 }  // namespace sikku::cpfg

@@ -14,7 +14,7 @@ namespace {
 void read_setting(const SourcePointer& file, std::string_view line, std::size_t at, View& view, Report& report) {
     const std::size_t colon = line.find(':');
     if (line.front() == '#' || colon == std::string_view::npos) {
-        if (line.front() == '#') report.losses().add(file, at, "what the preprocessor does in a view file");
+        if (line.front() == '#') report.losses().add(file, at, "preprocessor directives in a view file");
         return;
     }
     const std::string label = lower_case(line.substr(0, colon));

@@ -1,4 +1,4 @@
-// engine/import/cpfg_view.h: the view file of cpfg.
+// engine/import/cpfg_view.h: reads the view file of cpfg.
 #pragma once
 
 #include "engine/import/cpfg_report.h"
@@ -7,7 +7,7 @@
 
 namespace sikku::cpfg {
 
-/// What a view says, as keys of patterns; empty where it says nothing.
+/// The settings of a view as keys of patterns; empty if not set.
 struct View {
     std::string angle;
     std::string stroke;
@@ -15,7 +15,7 @@ struct View {
     double width_increment = 0;
 };
 
-/// Reads a view file; what patterns lack of it is a loss.
+/// Reads a view file. Settings without a counterpart in patterns are losses.
 View read_view(const SourcePointer& file, Report& report);
 
 }  // namespace sikku::cpfg

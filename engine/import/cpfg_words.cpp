@@ -19,7 +19,7 @@ void check_symbol(char byte, std::size_t at) {
     const auto code = static_cast<unsigned char>(byte);
     if (code >= 0x80 || code < 0x20 || code == 0x7F) mistake(at, "a symbol is one character of ASCII");
     if (byte == ':' || byte == '*' || byte == '(' || byte == ')' || byte == '<' || byte == '>') {
-        mistake(at, fmt::format("'{}' is no symbol", byte));
+        mistake(at, fmt::format("'{}' is not a symbol", byte));
     }
 }
 
@@ -54,7 +54,7 @@ std::string Words::symbol(Reader& reader) {
 std::string Words::surface(char byte) {
     std::string& letter = letters.surfaces[byte];
     if (letter.empty()) {
-        const std::size_t number = letters.surfaces.size() - 1;  // at most the commands of the turtle
+        const std::size_t number = letters.surfaces.size() - 1;  // fewer than the turtle has commands
         letter = {'\xCE', static_cast<char>(0x91 + number)};
         if (letter == "\xCE\x95") letter = "\xCE\xB1";  // capital epsilon is too much like the empty word
     }
@@ -64,12 +64,12 @@ std::string Words::surface(char byte) {
 
 void Words::note(char letter, std::size_t at) {
     if (letter == '~') report_.once("~", at, "surfaces");
-    if (letter == ';' || letter == ',') report_.once(";", at, "the colours, which stand in a map of their own");
+    if (letter == ';' || letter == ',') report_.once(";", at, "the colours, which are in a separate colour map");
     if (letter == '?' || letter == '$') report_.once("?", at, "queries and sub-L-systems");
     if (letter == '{') {
         report_.once("{", at,
-                     "which vertices polygons have: here the place of '{' and the ends of all steps, '.' and G being "
-                     "nothing special");
+                     "the vertices of polygons: here they are the position of '{' and the ends of all steps, without "
+                     "special rules for '.' and G");
     }
 }
 
@@ -95,7 +95,7 @@ std::string Words::word(Reader& reader, bool is_drawn) {
         }
         if (letter.size() == 1 && (letter == "!" || letter == "#") && arguments.empty()) {
             if (view_.width_increment != 0) {
-                report_.once("!", at, "that # and ! add to the width: here they multiply by 1.25 and 0.8");
+                report_.once("!", at, "steps of # and ! in pixels: here they multiply the width by 1.25 and 0.8");
             }
         }
         if ((letter == "{" || letter == "}") && !arguments.empty() && arguments[0] != "0") {
@@ -116,7 +116,7 @@ void Words::finish(std::string& result, const std::string& letter, std::vector<s
     if (letter == "/" || letter == "\\") return append(result, letter == "/" ? "\\" : "/", arguments);
     if ((letter == "!" || letter == "#") && arguments.empty()) {
         if (view_.width_increment == 0) return;
-        report_.once("!", at, "that # and ! add to the width: here they multiply by 1.25 and 0.8");
+        report_.once("!", at, "steps of # and ! in pixels: here they multiply the width by 1.25 and 0.8");
     }
     if (letter == "@o" || letter == "@c" || letter == "@O") {
         if (arguments.empty()) return report_.once("disc", at, "discs as wide as the line");

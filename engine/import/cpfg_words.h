@@ -1,4 +1,4 @@
-// engine/import/cpfg_words.h: words of cpfg, and the modules of its predecessors and contexts.
+// engine/import/cpfg_words.h: translates the words, predecessors and contexts of cpfg.
 #pragma once
 
 #include "engine/import/cpfg_system.h"
@@ -10,16 +10,16 @@
 
 namespace sikku::cpfg {
 
-/// Reads the words of one file, written anew in the pattern language. Collects their letters.
+/// Translates the words of one file into the pattern language. Collects their letters.
 class Words {
 public:
     Words(const View& view, Defines& defines, Expressions& expressions, Report& report)
         : view_(view), defines_(defines), expressions_(expressions), report_(report) {}
 
-    /// Reads a word. @param is_drawn  a homomorphism's successor: nothing is between it and the turtle
+    /// Reads a word. @param is_drawn  true for successors of a homomorphism, which the turtle reads unchanged
     /// @throws Fault
     std::string word(Reader& reader, bool is_drawn);
-    /// Reads up to '<', '>', ':' or an arrow; `*` is nothing. @throws Fault
+    /// Reads modules up to '<', '>', ':' or an arrow; ignores `*`. @throws Fault
     std::vector<Formal> formal_modules(Reader& reader);
 
     Letters letters;
@@ -40,7 +40,7 @@ private:
     bool after_tilde_ = false;
 };
 
-/// Is the reader at the arrow of a production?
+/// True if the reader is at the arrow of a production.
 bool is_arrow(const Reader& reader);
 /// @throws Fault if `byte` is not a symbol of cpfg
 void check_symbol(char byte, std::size_t at);

@@ -40,8 +40,7 @@ void Effects::find_reached(ImportLosses& losses) {
     has_own_steps_ = has('f') || has('g');
     has_other_steps_ = has('d') || has('m');
     if (has_own_steps_ && has_other_steps_) {
-        losses.add(entry_.first_of("dm"),
-                   "F and G go one way and D and M another, each with turns of its own; the turtle has one heading");
+        losses.add(entry_.first_of("dm"), "separate headings of F and G and of D and M; the turtle has one heading");
     }
     leads_to_steps_ = flags_of("fgdm");
     leads_to_turns_ = flags_of(turns());
@@ -87,7 +86,7 @@ Flags Effects::followed(const Flags& sensitive) const {
     return result;
 }
 
-/// Composes effects for more and more steps to go, until they settle.
+/// Composes effects for an increasing number of remaining steps, until they no longer change.
 void Effects::compose() {
     std::map<char, Effect> none;
     for (const auto& [letter, rule] : entry_.rules) {

@@ -1,5 +1,4 @@
-// engine/import/fractint_effects.h: what the letters of a Fractint entry lead to, and what going through them leaves
-// behind.
+// engine/import/fractint_effects.h: computes the effects of a Fractint entry's letters on the symbols after them.
 #pragma once
 
 #include "engine/import/fractint_entry.h"
@@ -22,25 +21,25 @@ struct Effect {
 /// Keeps a reference to the entry.
 class Effects {
 public:
-    /// What patterns lack of the entry goes to `losses`.
+    /// @param losses  receives the features that patterns do not support
     Effects(const Entry& entry, ImportLosses& losses);
 
-    /// Can the axiom lead to it?
+    /// True if the letter can be derived from the axiom.
     bool has(char letter) const { return reached_.test(index_of(letter)); }
     bool leads_to_steps(char letter) const { return leads_to_steps_.test(index_of(letter)); }
     bool leads_to_turns(char letter) const { return leads_to_turns_.test(index_of(letter)); }
-    /// Is it a turn of the headings that steps of the system take?
+    /// True if the letter turns the heading of the steps that the system uses.
     bool turns_count(char letter) const { return turns().find(letter) != std::string_view::npos; }
-    /// Does the turtle turn round on '|'?
+    /// True if '|' turns the turtle around.
     bool turns_around() const { return has_own_steps_ || !has_other_steps_; }
-    /// Are there steps whose length an @ changes?
+    /// True if an @ changes the length of any step.
     bool is_sized() const { return is_sized_; }
 
-    /// How many numbers of steps to go differ.
+    /// Number of levels (remaining steps) with different effects.
     std::size_t levels() const { return levels_.size(); }
-    /// Has the last level the effects of all that follow?
+    /// True if all further levels have the effects of the last one.
     bool is_settled() const { return is_settled_; }
-    /// Of each letter with a rule and `level` steps to go, as far as they bear upon what follows.
+    /// The effects of each letter with a rule and `level` remaining steps, as far as later symbols depend on them.
     const std::map<char, Effect>& at(std::size_t level) const { return levels_[level]; }
 
 private:

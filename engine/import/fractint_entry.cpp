@@ -1,5 +1,6 @@
 #include "engine/import/fractint_entry.h"
 
+#include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -67,7 +68,8 @@ private:
         at = skip(at);
         if (at < end && text[at] == '=') at = skip(at + 1);
         const std::size_t stop = word_end(at);
-        if (skip(stop) < end) fail(file_, diagnostics_, skip(stop), "text after the word: a word holds no blanks");
+        if (skip(stop) < end)
+            fail(file_, diagnostics_, skip(stop), "text after the word: a word cannot contain blanks");
         if (key == "axiom") {
             entry_.axiom = tokens(at, stop);
             return true;
@@ -86,7 +88,7 @@ private:
             fail(file_, diagnostics_, begin, fmt::format("a rule for the command '{}' is not allowed", key));
         }
         if (index_of(key[0]) >= 0x80 || index_of(key[0]) < 0x20) {
-            fail(file_, diagnostics_, begin, "a rule is for one character of ASCII");
+            fail(file_, diagnostics_, begin, "a rule must be for one ASCII character");
         }
         Tokens body = tokens(at, stop);
         // Rules for the same character follow one another.
@@ -98,7 +100,8 @@ private:
     Tokens tokens(std::size_t begin, std::size_t end) {
         const std::string& text = file_->text();
         word_bytes_ += end - begin;
-        if (word_bytes_ > most_word_bytes) fail(file_, diagnostics_, begin, "the words of an entry are at most 1 MB");
+        if (word_bytes_ > most_word_bytes)
+            fail(file_, diagnostics_, begin, "the words of an entry are longer than 1 MB");
         Tokens result;
         std::vector<std::size_t> open;
         for (std::size_t at = begin; at < end;) {
@@ -106,7 +109,7 @@ private:
             token.at = static_cast<std::uint32_t>(at);
             token.letter = lower_case(std::string_view(text).substr(at, 1))[0];
             if (index_of(token.letter) >= 0x80 || index_of(token.letter) < 0x20) {
-                fail(file_, diagnostics_, at, "words are made of ASCII characters");
+                fail(file_, diagnostics_, at, "words must consist of ASCII characters");
             }
             ++at;
             if (takes_number(token.letter)) read_number_of(token, at, end);
@@ -120,7 +123,7 @@ private:
             }
             result.push_back(token);
         }
-        if (!open.empty()) fail(file_, diagnostics_, open.back(), "this '[' is not closed in its line");
+        if (!open.empty()) fail(file_, diagnostics_, open.back(), "this '[' is not closed on its line");
         return result;
     }
 
@@ -139,9 +142,9 @@ private:
         while (at < end && ((text[at] >= '0' && text[at] <= '9') || text[at] == '.')) ++at;
         double number = 0;
         if (at > begin) {
-            const auto [last, error] = std::from_chars(text.data() + begin, text.data() + at, number);
+            const auto [last, error] = parse_number(std::string_view(text).substr(begin, at - begin), number);
             if (error != std::errc() || last != text.data() + at)
-                fail(file_, diagnostics_, begin, "this is no decimal number");
+                fail(file_, diagnostics_, begin, "this is not a decimal number");
         }
         if (token.letter == '@') {
             if (!(number > 0))

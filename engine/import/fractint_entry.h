@@ -1,4 +1,4 @@
-// engine/import/fractint_entry.h: an entry of a Fractint collection, read.
+// engine/import/fractint_entry.h: reads an entry of a Fractint collection.
 #pragma once
 
 #include "engine/import/import.h"
@@ -41,17 +41,17 @@ inline std::size_t index_of(char letter) {
 /// The first `wanted` in [begin, end), or `end`.
 std::size_t find_before(const std::string& text, char wanted, std::size_t begin, std::size_t end);
 
-/// The entry has an error, which was reported.
+/// Thrown after an error in an entry was reported.
 struct BadEntry {};
 
-/// Reports an error and gives the entry up.
+/// Reports an error and abandons the entry.
 [[noreturn]] inline void fail(const SourcePointer& file, Diagnostics& diagnostics, std::size_t at,
                               const std::string& message) {
     diagnostics.error({file, at, 1}, message);
     throw BadEntry();
 }
 
-/// Letters, as a set.
+/// A set of letters.
 using Flags = std::bitset<256>;
 inline Flags flags_of(std::string_view list) {
     Flags flags;
@@ -61,9 +61,9 @@ inline Flags flags_of(std::string_view list) {
 
 struct Entry {
     std::string name;
-    std::size_t at = 0;  ///< where it begins
+    std::size_t at = 0;  ///< beginning of the entry
     std::string comments;
-    int angle = 0;  ///< turns are 360 degrees divided by it
+    int angle = 0;  ///< turns are 360 degrees divided by this number
     Tokens axiom;
     std::map<char, Tokens> rules;
     std::vector<double> factors;  ///< the different numbers after @
@@ -73,11 +73,11 @@ struct Entry {
         const auto found = rules.find(letter);
         return found == rules.end() ? nullptr : &found->second;
     }
-    /// Where one of the letters is met first.
+    /// Position of the first of these letters.
     std::size_t first_of(std::string_view list) const;
 };
 
-/// Reads what stands between the braces of an entry. @throws BadEntry after an error, which is reported
+/// Reads the text between the braces of an entry. @throws BadEntry after reporting an error
 Entry read_entry(const SourcePointer& file, std::string name, std::size_t at, std::size_t begin, std::size_t end,
                  Diagnostics& diagnostics);
 

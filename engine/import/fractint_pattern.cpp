@@ -158,7 +158,7 @@ private:
         const std::size_t bytes = more.size() + 1;
         if (bytes > room_)
             fail(file_, diagnostics_, entry_.at,
-                 "the patterns of this collection are longer than 16 MB and twice the file");
+                 "the patterns of this collection exceed 16 MB plus twice the size of the file");
         room_ -= bytes;
         written_ += bytes;
         check_size(written_);
@@ -220,8 +220,7 @@ private:
     }
 
     void check_size(std::size_t bytes) {
-        if (bytes > most_pattern)
-            fail(file_, diagnostics_, entry_.at, "this system makes a pattern longer than 4 MB");
+        if (bytes > most_pattern) fail(file_, diagnostics_, entry_.at, "the pattern of this system exceeds 4 MB");
     }
 
     /// The axiom, then a line for each symbol that is reached and has a rule.
@@ -265,7 +264,7 @@ private:
         for (const char letter : std::string_view("sabeijklnopqrtuvwxyzh0123456789_")) {
             if (!used.test(index_of(letter))) return symbol({letter, 0.0, false});
         }
-        fail(file_, diagnostics_, entry_.at, "all letters are in use, and one more is needed to begin with");
+        fail(file_, diagnostics_, entry_.at, "all letters are in use, but the axiom needs one more");
     }
 
     std::string head(bool begins_late, bool is_cut_off) {
@@ -291,7 +290,7 @@ private:
             comment("Left out, as they do nothing:" + list);
         }
         if (effects_.has('<') || effects_.has('>')) {
-            losses_.add(entry_.first_of("<>"), "that stepping through the colours passes over colour 0");
+            losses_.add(entry_.first_of("<>"), "cycles of colours that skip colour 0");
         }
         if (is_cut_off) {
             comment(fmt::format("What @ and ! do depends on the steps left to go; there are tables for {} of them.",

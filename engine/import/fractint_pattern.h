@@ -7,9 +7,9 @@
 
 namespace sikku::fractint {
 
-/// The text of a pattern file.
+/// Returns the text of a pattern file.
 /// @param room  bytes that may still be written; what is written is taken from it
-/// @throws BadEntry after an error, which is reported
+/// @throws BadEntry after reporting an error
 std::string write_pattern(const Entry& entry, const Effects& effects, const SourcePointer& file,
                           Diagnostics& diagnostics, ImportLosses& losses, std::size_t& room);
 

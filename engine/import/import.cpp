@@ -66,13 +66,13 @@ void ImportLosses::keep(std::string text) {
 
 void ImportLosses::add(std::size_t at, const std::string& what) {
     keep(fmt::format("line {}: {}", line(at), what));
-    diagnostics_.warning({file_, at, 1}, what);
+    diagnostics_.warning({file_, at, 1}, "not supported: " + what);
 }
 
 void ImportLosses::add(const SourcePointer& file, std::size_t at, const std::string& what) {
     const int where = file->place(at).line;
     keep(fmt::format("{}, line {}: {}", import_base_name(file->name()), where, what));
-    diagnostics_.warning({file, at, 1}, what);
+    diagnostics_.warning({file, at, 1}, "not supported: " + what);
 }
 
 int ImportLosses::line(std::size_t at) {
@@ -116,7 +116,7 @@ std::string import_head(std::string_view title, std::string_view source, std::st
     std::string head = fmt::format("title: {}\nsource: {}\ndescription: {}", import_text(title, 120),
                                    import_text(source), import_text(description));
     if (!losses.empty()) {
-        head += " Not carried over: ";
+        head += " Not supported: ";
         const std::size_t told = std::min(losses.size(), most_told);
         for (std::size_t i = 0; i < told; ++i) head += (i > 0 ? "; " : "") + import_text(losses[i], 200);
         if (told < losses.size()) head += fmt::format("; and {} more", losses.size() - told);

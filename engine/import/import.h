@@ -1,4 +1,4 @@
-// engine/import/import.h: L-systems as other programs keep them, cpfg's and Fractint's, turned into pattern files.
+// engine/import/import.h: converts L-systems of cpfg and Fractint into pattern files.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// Whose file it is.
+/// The program that a file was written for.
 enum class ImportFormat { cpfg, fractint };
 
 /// A system that was found in a file, and the pattern made of it.
@@ -22,7 +22,7 @@ struct ImportedSystem {
     std::vector<std::string> losses;  ///< what the pattern lacks of it, each with its line; the pattern tells it, too
 };
 
-/// A longer text is not read.
+/// Maximum length of a text in bytes; longer ones are rejected.
 constexpr std::size_t most_import_bytes = std::size_t{64} << 20;
 
 /// Told by what stands in it: a line `Lsystem:`, or entries `NAME {`. Nullopt if it is neither. Cost: linear.
@@ -41,8 +41,8 @@ std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourceP
 /// The entries of a Fractint collection, at most 10,000; those called `comment` or nothing are none. The pattern
 /// draws what Fractint draws, of any order: `@` becomes a parameter of the steps, what `!` exchanges has symbols of
 /// its own, and tables tell the last steps apart where that matters. `derivation length:` is 2, as Fractint proposes.
-/// Errors and losses go to `diagnostics`; an error costs only its entry. An entry may expand to 4 MB, all together to
-/// 16 MB and twice the file. Cost: linear in the file for each of at most 20 different levels.
+/// Errors and losses go to `diagnostics`; an error drops only its entry. An entry may expand to 4 MB, all together to
+/// 16 MB plus twice the file. Cost: linear in the file for each of at most 20 different levels.
 /// Source: Fractint 20.04, section "L-Systems" of its documentation, lsys.c and lsysf.c.
 std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnostics& diagnostics);
 

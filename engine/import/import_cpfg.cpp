@@ -50,7 +50,7 @@ std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourceP
             return {};
         }
         if (const std::size_t nul = source->text().find('\0'); nul != std::string::npos) {
-            diagnostics.unreadable({source, nul, 1}, "a NUL byte: this is no file of cpfg");
+            diagnostics.unreadable({source, nul, 1}, "a NUL byte: this is not a cpfg file");
             return {};
         }
     }

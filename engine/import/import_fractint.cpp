@@ -30,7 +30,7 @@ std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnosti
         return systems;
     }
     if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
-        diagnostics.unreadable({file, nul, 1}, "a NUL byte: this is no collection of L-systems");
+        diagnostics.unreadable({file, nul, 1}, "a NUL byte: this is not a collection of L-systems");
         return systems;
     }
     ImportLosses losses(file, diagnostics);

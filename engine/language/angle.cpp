@@ -1,8 +1,8 @@
 #include "engine/language/angle.h"
 
+#include "engine/base/decimal.h"
 #include "engine/base/diagnostic.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::int64_t largest_term = most_angle_parts;  // of an exact angle
+constexpr std::int64_t largest_term = most_angle_parts;  // of the fraction of an exact angle
 
 std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denominator) {
     if (denominator <= 0 || denominator > largest_term) return std::nullopt;
@@ -63,10 +63,8 @@ std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::strin
 
 Angle angle_of_degrees(double degrees) {
     if (!std::isfinite(degrees)) return {degrees, std::nullopt};  // the turtle refuses it, with its place
-    std::array<char, 64> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees).ptr;
     Angle angle{std::fmod(degrees, 360.0), std::nullopt};
-    if (const auto fraction = decimal_fraction({buffer.data(), end})) {
+    if (const auto fraction = decimal_fraction(shortest_decimal(degrees))) {
         if (fraction->second <= largest_term / 360) angle.exact = reduced(fraction->first, fraction->second * 360);
     }
     return angle;

@@ -1,4 +1,4 @@
-// engine/language/angle.h: angles of turtles, exact where the file states them so.
+// engine/language/angle.h: angles of turtles, stored as exact fractions if possible.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Angle {
     std::optional<TurnFraction> exact;
 };
 
-/// Exact if the shortest decimal that reads back as `degrees` is a fraction of small terms.
+/// Converts degrees; exact if the shortest decimal that reads back as `degrees` is a fraction of small terms.
 Angle angle_of_degrees(double degrees);
 
 /// The k-th part of a turn. @param k  1 to most_angle_parts

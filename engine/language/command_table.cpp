@@ -7,26 +7,26 @@
 namespace sikku {
 namespace {
 
-/// What the first parameter of a module changes.
+/// The effect of a module's first parameter.
 enum class Parameter : std::uint8_t {
     none,
-    value,    ///< it is the value of the command
-    degrees,  ///< it is the angle, times `number`; without it the angle is the increment, times `number`
+    value,    ///< sets the value of the command
+    degrees,  ///< sets the angle, times `number`; without it the angle is the increment, times `number`
 };
 
 struct Row {
     std::string_view letter;
-    Action action;  ///< without a parameter
-    double number;  ///< the value without a parameter; of turns, 1 or -1
+    Action action;  ///< command without a parameter
+    double number;  ///< value without a parameter; 1 or -1 for turns
     Parameter parameter;
-    Action action_with;  ///< with a parameter
+    Action action_with;  ///< command with a parameter
 };
 
 constexpr auto rows = [] {
     using enum Action;
     using enum Parameter;
     return std::array<Row, 18>{{
-        {"+", turn, 1.0, degrees, turn},  // to the side that `turn:` names
+        {"+", turn, 1.0, degrees, turn},  // the direction depends on `turn:`
         {"-", turn, -1.0, degrees, turn},
         {"&", pitch, 1.0, degrees, pitch},
         {"^", pitch, -1.0, degrees, pitch},
@@ -47,7 +47,7 @@ constexpr auto rows = [] {
     }};
 }();
 
-/// Draws and moves take the length of the step, 1 without a parameter.
+/// A parameter of a draw or a move is the length of the step; the default is 1.
 constexpr Row draw_row{"", Action::draw, 1.0, Parameter::value, Action::draw};
 constexpr Row move_row{"", Action::move, 1.0, Parameter::value, Action::move};
 

@@ -1,4 +1,4 @@
-// engine/language/command_table.h: what a turtle does on which letter.
+// engine/language/command_table.h: maps letters to commands of the turtle.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -8,11 +8,11 @@
 
 namespace sikku {
 
-/// What a pattern says about the meaning of its letters.
+/// Settings of a pattern that change the meaning of letters.
 struct CommandSettings {
-    std::set<std::string> forward;  ///< letters that draw
-    std::set<std::string> move;     ///< letters that move
-    Angle increment;                ///< of turns without a parameter
+    std::set<std::string> forward;  ///< symbols that draw
+    std::set<std::string> move;     ///< symbols that move without drawing
+    Angle increment;                ///< angle of turns without a parameter
     bool plus_turns_left = false;
 };
 

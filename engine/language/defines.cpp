@@ -30,7 +30,8 @@ Defines::Defines(const Pattern& pattern, Diagnostics& diagnostics) {
                     const auto found = index.find(name);
                     if (found == index.end() || state[found->second] == State::done) continue;
                     if (state[found->second] == State::open) {
-                        diagnostics.error(define.name, fmt::format("'{}' is defined by itself", define.name.view()));
+                        diagnostics.error(define.name,
+                                          fmt::format("the definition of '{}' refers to itself", define.name.view()));
                         values_[name] = std::numeric_limits<double>::quiet_NaN();
                         continue;
                     }
@@ -66,7 +67,8 @@ bool is_expression_name(std::string_view text) {
 void Defines::evaluate(const Define& define, Diagnostics& diagnostics) {
     const std::string_view name = define.name.view();
     if (!is_expression_name(name)) {
-        return diagnostics.error(define.name, "a define's name is letters, digits and '_', no digit first");
+        return diagnostics.error(
+            define.name, "the name of a define must consist of letters, digits and '_', and not begin with a digit");
     }
     // A value that cannot be read is reported once, not at every use.
     values_[name] = constant(define.value, diagnostics).value_or(0.0);

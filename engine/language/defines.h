@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// The values of all `define NAME = EXPRESSION` of a pattern. They point into its source.
+/// The values of all `define NAME = EXPRESSION` lines of a pattern. Refers to its source.
 class Defines {
 public:
     /// Evaluates every define once, those it mentions first; a cycle is an error at each of its members.
@@ -33,7 +33,7 @@ private:
 /// The names in an expression, in order, functions included.
 std::vector<std::string_view> names_in(std::string_view text);
 
-/// Is `text` (not empty) a name of an expression?
+/// True if `text` (not empty) is a name that expressions can contain.
 bool is_expression_name(std::string_view text);
 
 }  // namespace sikku

@@ -79,7 +79,7 @@ std::string read_pattern(const PatternFile& file, const Monitor& monitor) {
 
 Document load(const std::string& pattern, const Overrides& overrides, const PatternLibrary& library) {
     const PatternFile found = find_pattern(pattern, library);
-    // Messages about the file name it as the caller did.
+    // Messages use the name that the caller gave.
     return parse(found.name, read_pattern({pattern, found.path}), overrides);
 }
 

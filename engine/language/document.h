@@ -1,4 +1,4 @@
-// engine/language/document.h: a pattern that was read, checked and compiled: what every interpreter starts from.
+// engine/language/document.h: patterns that were read, checked and compiled, ready for interpreters.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -16,19 +16,19 @@
 
 namespace sikku {
 
-/// Values that replace those of the file: first a variant of the file, then the settings in their order.
+/// Values that replace those of the file: first those of a variant, then the settings in their order.
 struct Overrides {
     std::string variant;  ///< empty: none
     std::vector<Setting> settings;
 };
 
-/// A pattern with everything that reading it produced. Immutable; copies share one content.
+/// A pattern with its compiled grammar and warnings. Immutable; copies share their contents.
 class Document {
 public:
-    /// Reads and compiles the text of a pattern file. Errors and warnings of the language go to `diagnostics`; with
-    /// errors the document is of no use but for its source. The values of keys that an interpreter owns (`stroke:`,
-    /// `tempo:`) are checked by that interpreter.
-    /// @param name  what messages call the text: a path, "-"
+    /// Reads and compiles the text of a pattern file. Errors and warnings of the language go to `diagnostics`; after
+    /// errors only the source of the document may be used. Interpreters check the values of their keys (`stroke:`,
+    /// `tempo:`).
+    /// @param name  name of the text in messages: a path, "-"
     static Document compile(std::string name, std::string text, const Overrides& overrides, Diagnostics& diagnostics);
 
     const Source& source() const { return *content_->pattern.source; }
@@ -36,9 +36,9 @@ public:
     const Pattern& pattern() const { return content_->pattern; }
     const Grammar& grammar() const { return *content_->grammar; }
     const std::shared_ptr<const Grammar>& shared_grammar() const { return content_->grammar; }
-    /// What was overridden when the document was made.
+    /// The overrides that the document was made with.
     const Overrides& overrides() const { return content_->overrides; }
-    /// Whether a setting replaced the value of that key. @param key  folded
+    /// True if a setting replaced the value of that key. @param key  folded
     bool has_override(std::string_view key) const;
     /// Warnings of the language, sorted by place.
     const std::vector<Diagnostic>& warnings() const { return content_->warnings; }
@@ -63,32 +63,33 @@ private:
 /// Compiles the text of a pattern. @throws PatternError with every error and its place
 Document parse(std::string name, std::string text, const Overrides& overrides = {});
 
-/// The file of a pattern, and what messages call it.
+/// The file of a pattern, and its name in messages.
 struct PatternFile {
     std::string name;
     std::filesystem::path path;
 };
 
-/// Neither a file nor a pattern of the library has that name.
+/// Thrown if neither a file nor a pattern of the library has a given name.
 class NotFound : public std::runtime_error {
 public:
     NotFound(const std::string& message, bool has_suggestion)
         : std::runtime_error(message), has_suggestion_(has_suggestion) {}
-    /// Does the message say what may have been meant?
+    /// True if the message suggests a similar name.
     bool has_suggestion() const { return has_suggestion_; }
 
 private:
     bool has_suggestion_;
 };
 
-/// Finds a pattern: a file by its path, or a pattern of the library by its name. What holds a `/` or ends in .lsys is
-/// a path, and need not exist. @throws NotFound, which names the nearest pattern
+/// Finds a pattern: a file by its path, or a pattern of the library by its name. A text that contains a `/` or ends
+/// in .lsys is a path, and is returned even if the file does not exist. @throws NotFound, which suggests the nearest
+/// pattern
 PatternFile find_pattern(const std::string& pattern, const PatternLibrary& library = PatternLibrary::bundled());
 
-/// Reads the text of a pattern file: at most one byte more than a pattern may have, which compiling then refuses.
+/// Reads the text of a pattern file: at most one byte more than the limit for patterns, which compiling then rejects.
 /// Waits for the writer of a named pipe. @throws std::runtime_error that names the file and the cause; Stopped
 std::string read_pattern(const PatternFile& file, const Monitor& monitor = {});
-/// The same from an open stream. @param name  for messages
+/// Reads the text from an open stream. @param name  for messages
 std::string read_pattern(std::FILE* stream, const std::string& name, const Monitor& monitor = {});
 
 /// Finds, reads and compiles a pattern. @throws NotFound; PatternError with every error and its place;

@@ -1,10 +1,11 @@
 #include "engine/language/expression.h"
 
+#include "engine/base/decimal.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace sikku {
@@ -171,8 +172,8 @@ private:
     bool number() {
         double value = 0;
         const std::size_t begin = at_;
-        const auto [end, error] = std::from_chars(view_.data() + at_, view_.data() + view_.size(), value);
-        if (error != std::errc()) return wrong(begin, "this is no number that a double holds");
+        const auto [end, error] = parse_number(view_.substr(at_), value);
+        if (error != std::errc()) return wrong(begin, "this number is out of range");
         at_ = static_cast<std::size_t>(end - view_.data());
         if (at_ < view_.size() && (continues_name(view_[at_]) || view_[at_] == '.')) {
             return wrong(at_, "expected the number to end here");
@@ -186,7 +187,7 @@ private:
         for (const Function& known : functions) {
             if (known.name == name) operation = known.operation;
         }
-        if (operation == Operation::open) return wrong(begin, fmt::format("there is no function '{}'", name));
+        if (operation == Operation::open) return wrong(begin, fmt::format("unknown function '{}'", name));
         if (operation == Operation::random && !draws_) return wrong(begin, "chance has no place here: 'random'");
         waiting_.push_back({Operation::open, at_++, operation});
         return true;

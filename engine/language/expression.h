@@ -1,4 +1,4 @@
-// engine/language/expression.h: arithmetic of pattern files, compiled once and evaluated often.
+// engine/language/expression.h: compiles and evaluates the expressions of pattern files.
 #pragma once
 
 #include "engine/base/chance.h"

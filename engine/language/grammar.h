@@ -1,5 +1,4 @@
-// engine/language/grammar.h: a checked L-system, ready to be derived: symbols as numbers, productions in tables, a
-// schedule.
+// engine/language/grammar.h: a compiled L-system: symbols as numbers, productions in tables, a schedule.
 #pragma once
 
 #include "engine/language/angle.h"
@@ -86,7 +85,7 @@ public:
     Table() = default;
     /// @param productions  in the order of the file
     /// @param symbols      number of symbols of the grammar
-    /// @param is_plain     what Grammar::is_plain() says
+    /// @param is_plain  result of Grammar::is_plain()
     Table(std::vector<Production> productions, std::size_t symbols, bool is_plain);
 
     /// True if every production replaces one symbol whatever its neighbours are.

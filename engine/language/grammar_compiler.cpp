@@ -14,7 +14,7 @@
 namespace sikku {
 namespace {
 
-// What tables repeat, together: a place for each symbol of the grammar.
+// Limit for all tables together: each has an entry for every symbol of the grammar.
 constexpr std::size_t most_places = std::size_t{1} << 22;
 
 }  // namespace
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// The symbols that `ignore:` or `consider:` lists.
+    /// Reads the symbols that `ignore:` or `consider:` lists.
     struct ContextList {
         std::set<std::string> letters;
         bool is_considered = false;
@@ -88,7 +88,7 @@ private:
         return otherwise;
     }
 
-    /// Sets the heading and returns what turns mean.
+    /// Sets the heading and returns the settings of commands.
     CommandSettings read_angles() {
         CommandSettings settings;
         const Key* factor = pattern_.find("angle factor");
@@ -265,9 +265,10 @@ private:
         const std::size_t symbols = grammar_.symbols_.size();
         const std::size_t tables = productions.tables.size();
         if (tables > 1 && tables * symbols > most_places) {
-            diagnostics_.error(pattern_.tables.front().name,
-                               fmt::format("{} tables of {} symbols are too many: at most {} together", tables,
-                                           symbols, most_places));
+            diagnostics_.error(
+                pattern_.tables.front().name,
+                fmt::format("{} tables of {} symbols are too many: expected at most {} entries in total", tables,
+                            symbols, most_places));
             return;
         }
         for (std::vector<Production>& table : productions.tables) {

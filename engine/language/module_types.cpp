@@ -32,7 +32,7 @@ void look_through(const SymbolNames& names, const Span& span, Take take) {
 }  // namespace
 
 ModuleTypes::ModuleTypes(const Pattern& pattern, const SymbolNames& names) {
-    std::unordered_set<std::string_view> formals;  // of the production that is looked at
+    std::unordered_set<std::string_view> formals;  // parameters of the current production
     const auto mentions = [&](const Span& text) { return text.view().find('(') != std::string_view::npos; };
     const auto is_computed = [&](const Span& part) {
         const auto mentioned = names_in(part.view());

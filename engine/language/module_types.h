@@ -1,4 +1,4 @@
-// engine/language/module_types.h: which modules of a pattern state their parameters for themselves.
+// engine/language/module_types.h: finds the modules whose parameters are variable.
 #pragma once
 
 #include "engine/language/word_scanner.h"
@@ -9,8 +9,8 @@
 
 namespace sikku {
 
-/// Types of modules, a letter with a number of parameters, that state their parameters for themselves: those that a
-/// predecessor or a context names the parameters of, and those that a word computes them for.
+/// Types of modules (a letter with a number of parameters) with variable parameters: a predecessor or a context names
+/// them, or a word computes them. Parameters of other modules are part of their symbol.
 class ModuleTypes {
 public:
     ModuleTypes(const Pattern& pattern, const SymbolNames& names);

@@ -123,7 +123,7 @@ private:
         return folded(text.substr(0, word.size())) == word && (text[word.size()] == ' ' || text[word.size()] == '\t');
     }
 
-    /// Is there room for one more? If not, the rest of the file is not read.
+    /// True if there is room for one more entry; otherwise the rest of the file is not read.
     bool has_room(const Span& where, std::size_t count, std::size_t most, std::string_view what) {
         if (count < most) return true;
         diagnostics_.unreadable(where, fmt::format("too many {}: a pattern has at most {}", what, most));
@@ -314,7 +314,7 @@ private:
     std::set<std::string, std::less<>> variant_names_;
 };
 
-/// Overrides values that a pattern states.
+/// Overrides values of a pattern.
 class Overrides {
 public:
     Overrides(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {

@@ -1,4 +1,4 @@
-// engine/language/pattern.h: a pattern file as plain data with places; nothing is interpreted yet.
+// engine/language/pattern.h: reads a pattern file into plain data with places, not yet interpreted.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -71,7 +71,7 @@ struct Pattern {
     std::string text(std::string_view name) const;
 };
 
-/// Longer pattern texts are refused.
+/// Maximum size of a pattern text in bytes.
 constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 
 /// Takes the text of a pattern file without parsing it. Refuses (as unreadable) more than 64 MB, NUL bytes, invalid
@@ -79,7 +79,7 @@ constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
-/// Refuses more than 64 MB, NUL bytes and invalid UTF-8. Cost: linear.
+/// Rejects more than 64 MB, NUL bytes and invalid UTF-8. Cost: linear.
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
@@ -87,7 +87,7 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
 void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
                      Diagnostics& diagnostics);
 
-/// Reports every key that language_keys() lacks, with the nearest one. Their values are checked by those that read
+/// Reports every key that is not in language_keys(), with the nearest one. Values are checked by those that read
 /// them.
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
 

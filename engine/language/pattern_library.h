@@ -1,4 +1,4 @@
-// engine/language/pattern_library.h: a folder of pattern files.
+// engine/language/pattern_library.h: lists a folder of pattern files.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,29 @@ namespace sikku {
 
 /// One pattern file of a library.
 struct LibraryPattern {
-    std::string name;  ///< of the file, without folder and ending
-    std::string kind;  ///< name of the folder that holds it: kolams, tilings, …
+    std::string name;  ///< name of the file without folder and extension
+    std::string kind;  ///< name of its folder: kolams, tilings, …
     std::filesystem::path file;
 };
 
 /// The pattern files (`*.lsys`) in a folder and its subfolders. Immutable; copies share the list.
 class PatternLibrary {
 public:
-    /// Lists `folder`; a folder that is missing or may not be read has no patterns.
+    /// Lists `folder`; a missing or unreadable folder gives no patterns.
     /// @throws std::runtime_error if too many files are open
     explicit PatternLibrary(const std::filesystem::path& folder);
 
-    /// The bundled patterns, listed once: those beside the running program, otherwise the installed ones.
+    /// The bundled patterns, listed on first use: those beside the running program, otherwise the installed ones.
     static const PatternLibrary& bundled();
 
     const std::filesystem::path& folder() const { return folder_; }
     /// Sorted by kind and name.
-    const std::vector<LibraryPattern>& patterns() const { return *patterns_; }
+    const std::vector<LibraryPattern>& patterns() const& { return *patterns_; }
+    /// For temporary libraries, as in a loop over their patterns: returns a copy.
+    std::vector<LibraryPattern> patterns() && { return *patterns_; }
     /// The pattern of that name, or null.
     const LibraryPattern* find(std::string_view name) const;
-    /// The gallery file of that name in the library, posters/NAME.toml, if no file has it; otherwise `name` itself.
+    /// The path of the bundled gallery file posters/NAME.toml, or `name` itself if a file has that name.
     std::string gallery_file(const std::string& name) const;
     /// What may have been meant by `name`, at most three: the nearest name, or those that begin with it.
     std::vector<std::string_view> similar(std::string_view name) const;

@@ -8,7 +8,7 @@
 namespace sikku {
 namespace {
 
-// What tables repeat, together: productions that all of them share.
+// Limit for all tables together: each repeats the productions that they share.
 constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
 
 /// Productions of equal predecessor and contexts.
@@ -79,7 +79,7 @@ private:
             const std::string& letter = reader_.symbols()[symbol].letter;
             if (letter != "[" && letter != "]") continue;
             if (!right) {
-                diagnostics_.error(text->part(text->view().find(letter)), "a left context holds no brackets");
+                diagnostics_.error(text->part(text->view().find(letter)), "a left context cannot contain brackets");
                 return std::nullopt;
             }
             if (letter == "]" && depth == 0) {
@@ -99,7 +99,7 @@ private:
                          Groups& groups, bool homomorphism) {
         for (const ProductionText& text : texts) {
             if (text.predecessor.view() == "*" || text.predecessor.view() == "\xCE\xB5") {
-                diagnostics_.error(text.predecessor, "the empty word is no predecessor");
+                diagnostics_.error(text.predecessor, "the empty word cannot be a predecessor");
                 continue;
             }
             reader_.begin_production();

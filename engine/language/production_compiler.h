@@ -11,12 +11,12 @@ namespace sikku {
 
 /// The productions of a pattern, in the order of the file.
 struct CompiledProductions {
-    /// One list for each table; one in all if the pattern has no tables.
+    /// One list for each table; a single list if the pattern has no tables.
     std::vector<std::vector<Production>> tables;
     std::optional<std::vector<Production>> interpretation;
-    /// A condition or a choice among successors is a matter of chance.
+    /// True if conditions or choices of successors are random.
     bool uses_chance = false;
-    /// In parametric systems, the symbols of predecessors and contexts and the first production that has each.
+    /// In parametric systems, the symbols of predecessors and contexts, each with its first production.
     std::map<Symbol, Span> looked_at;
 };
 

@@ -16,8 +16,8 @@ std::size_t skip_blanks(std::string_view text, std::size_t at) {
     return at;
 }
 
-/// Finds the count after the table's name, `* COUNT`, and moves `at` behind it; `1` without one, nullopt after an
-/// error.
+/// Reads the count after the name of a table, `* COUNT`, and moves `at` past it; `1` without a count, nullopt after
+/// an error.
 std::optional<Span> count_at(const Span& value, std::size_t& at, Diagnostics& diagnostics) {
     static const Source once("1", "1");
     const std::string_view text = value.view();
@@ -76,8 +76,8 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
             const std::string_view near = nearest(name, names);
             diagnostics.error(value.part(begin),
                               name.empty()   ? std::string("expected the name of a table")
-                              : near.empty() ? fmt::format("there is no table '{}'", name)
-                                             : fmt::format("there is no table '{}'; did you mean '{}'?", name, near));
+                              : near.empty() ? fmt::format("unknown table '{}'", name)
+                                             : fmt::format("unknown table '{}'; did you mean '{}'?", name, near));
             return std::nullopt;
         }
         const auto count = count_at(value, at, diagnostics);
@@ -105,7 +105,7 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
     const double n = static_cast<double>(steps);
     std::vector<ScheduleRun> last;
     std::vector<ScheduleRun> runs;
-    std::int64_t missing = steps;  // filled from the end, so that the last tables are always applied
+    std::int64_t missing = steps;  // counted from the end, so that the last tables are always applied
     double total = 0;
     for (const ScheduleItem& item : items) {
         const double count = std::floor(item.count.evaluate(std::span(&n, 1)));
@@ -125,7 +125,7 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
     }
     if (missing > 0) {
         if (problem) {
-            *problem = fmt::format("the schedule holds {} steps, the derivation length is {}", total, steps);
+            *problem = fmt::format("the schedule has {} steps, but the derivation length is {}", total, steps);
         }
         return std::nullopt;
     }

@@ -1,4 +1,4 @@
-// engine/language/schedule.h: which table applies in which step.
+// engine/language/schedule.h: reads the schedule, which selects the table for each step.
 #pragma once
 
 #include "engine/language/defines.h"
@@ -14,7 +14,7 @@ namespace sikku {
 /// An entry of the key `schedule:`.
 struct ScheduleItem {
     std::uint32_t table = 0;
-    Expression count;  ///< of the derivation length n
+    Expression count;  ///< function of the derivation length n
 };
 
 /// Reads the key `schedule:` of `pattern`; nullopt after an error in it.

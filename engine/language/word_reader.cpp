@@ -14,9 +14,9 @@ constexpr std::size_t most_parameters = 64;               // of a module that st
 
 /// The parameters of one module of a word.
 struct WordReader::Parameters {
-    std::vector<Expression> own;    ///< that it states for itself, in an axiom or a successor
-    std::vector<double> constants;  ///< of a symbol
-    std::uint32_t arity = 0;        ///< number of those that it states for itself
+    std::vector<Expression> own;    ///< variable parameters, in an axiom or a successor
+    std::vector<double> constants;  ///< constant parameters, which are part of the symbol
+    std::uint32_t arity = 0;        ///< number of variable parameters
 };
 
 Symbol WordReader::intern(std::string letter, bool is_name, std::vector<double> arguments, std::uint32_t arity) {
@@ -91,12 +91,12 @@ bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
     }
 }
 
-/// Reads the parameters of `letter`, which are next.
+/// Reads the parameters after `letter`.
 bool WordReader::read_parameters(WordScanner& scanner, const Span& span, std::string_view letter, WordPlace place,
                                  Parameters& read) {
     const std::size_t open = scanner.at();
     if (place == WordPlace::list) {
-        diagnostics_.error(span.part(open), "a list of symbols holds no parameters");
+        diagnostics_.error(span.part(open), "a list of symbols cannot contain parameters");
         return false;
     }
     std::vector<Span> parts;
@@ -162,7 +162,7 @@ bool WordReader::read_expressions(const std::vector<Span>& parts, std::vector<Ex
 
 std::optional<Word> WordReader::symbol_list(const Key& key) {
     if (const std::size_t comma = key.value.view().find(','); comma != std::string_view::npos) {
-        diagnostics_.error(key.value.part(comma), "symbols are listed as a word: blanks, no commas, between them");
+        diagnostics_.error(key.value.part(comma), "symbols are separated by blanks, not by commas");
         return std::nullopt;
     }
     return word(key.value, WordPlace::list);

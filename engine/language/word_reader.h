@@ -1,4 +1,4 @@
-// engine/language/word_reader.h: turns words of a pattern into symbols, which it numbers.
+// engine/language/word_reader.h: reads the words of a pattern and numbers their symbols.
 #pragma once
 
 #include "engine/language/defines.h"
@@ -15,11 +15,11 @@
 
 namespace sikku {
 
-/// Where a word stands, which decides what may be in it.
+/// The position of a word, which determines its syntax.
 enum class WordPlace { axiom_or_successor, predecessor, context, list };
 
-/// Reads the words and expressions of one pattern. Symbols are numbered in the order in which they are met. The names
-/// of the formal parameters that predecessors and contexts introduce hold until the next begin_production().
+/// Reads the words and expressions of one pattern. Symbols are numbered in the order of their first occurrence. The
+/// names of the formal parameters that predecessors and contexts introduce hold until the next begin_production().
 class WordReader {
 public:
     WordReader(const Pattern& pattern, const SymbolNames& names, const Defines& defines, Diagnostics& diagnostics)
@@ -27,22 +27,21 @@ public:
 
     /// Forgets formal parameters.
     void begin_production() { formals_.clear(); }
-    /// Reads a word; nullopt after the first error in it. The parameters of modules that state them for themselves go
-    /// to `arguments`.
+    /// Reads a word; nullopt after the first error in it. Variable parameters of modules go to `arguments`.
     std::optional<Word> word(const Span& span, WordPlace place, std::vector<Expression>* arguments = nullptr);
-    /// Reads a list of symbols, written as a word; a comma in it is most likely an error.
+    /// Reads a list of symbols, separated by blanks; reports commas as errors.
     std::optional<Word> symbol_list(const Key& key);
-    /// Compiles an expression of formal parameters and defines; nullopt after an error in it.
+    /// Compiles an expression with formal parameters and defines; nullopt after an error in it.
     std::optional<Expression> expression(const Span& text);
 
-    /// The symbols met so far.
+    /// The symbols read so far.
     std::vector<SymbolInfo>& symbols() { return symbols_; }
     std::vector<std::string>& letters() { return letters_; }
-    /// Are there modules that state their parameters for themselves?
+    /// True if there are modules with variable parameters.
     bool is_parametric() const { return !types_.empty(); }
-    /// Is a parameter in one of the words a matter of chance?
+    /// True if a parameter in one of the words is random.
     bool uses_chance() const { return uses_chance_; }
-    /// The symbol `%`, if an axiom or a successor holds it.
+    /// The symbol `%`, if an axiom or a successor contains it.
     std::optional<Symbol> cut() const { return cut_; }
 
 private:

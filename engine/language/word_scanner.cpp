@@ -88,7 +88,7 @@ std::string_view WordScanner::letter(bool blank_before) {
     if (byte == '@') {
         const std::size_t next = at_ + 1;
         if (next >= text_.size() || text_[next] == ' ' || text_[next] == '\t' || text_[next] == '(') {
-            return wrong("a lone '@' is no symbol: '@' goes with the character after it");
+            return wrong("a lone '@' is not a symbol: '@' goes with the character after it");
         }
         return taken(1 + code_point_length(text_[next]));
     }
@@ -97,11 +97,11 @@ std::string_view WordScanner::letter(bool blank_before) {
                                   : "'(' without a symbol before it");
     }
     if (byte == ')') return wrong("')' without '('");
-    if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is no symbol", byte));
-    if (byte == ':') return wrong("':' is no symbol");
+    if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is not a symbol", byte));
+    if (byte == ':') return wrong("':' is not a symbol");
     if (byte == '*') return wrong("'*' is the empty word and stands alone");
     if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F) {
-        return wrong(fmt::format("a control character (0x{:02x}) is no symbol", static_cast<unsigned char>(byte)));
+        return wrong(fmt::format("a control character (0x{:02x}) is not a symbol", static_cast<unsigned char>(byte)));
     }
     const std::size_t length = code_point_length(byte);
     const std::string_view point = text_.substr(at_, length);
@@ -111,11 +111,11 @@ std::string_view WordScanner::letter(bool blank_before) {
     static constexpr std::array<Lookalike, 4> lookalikes = {
         {{"\xE2\x88\x92", "-"}, {"\xE2\x88\xA7", "^"}, {"\xE2\x80\x99", "'"}, {"\xE2\x86\x92", "-->"}}};
     for (const Lookalike& pair : lookalikes) {
-        if (point == pair.sign) return wrong(fmt::format("'{}' is no symbol: write '{}'", pair.sign, pair.ascii));
+        if (point == pair.sign) return wrong(fmt::format("'{}' is not a symbol: write '{}'", pair.sign, pair.ascii));
     }
     // C1 controls are control characters too.
     if (length == 2 && byte == '\xC2' && static_cast<unsigned char>(point[1]) < 0xA0) {
-        return wrong("a control character is no symbol");
+        return wrong("a control character is not a symbol");
     }
     return taken(length);
 }

@@ -1,4 +1,4 @@
-// engine/language/word_scanner.h: cuts the text of a word into letters and parameters.
+// engine/language/word_scanner.h: divides the text of a word into letters and parameters.
 #pragma once
 
 #include "engine/language/pattern.h"
@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// The most symbols of a grammar.
+/// Maximum number of symbols of a grammar.
 constexpr std::size_t most_symbols = std::size_t{1} << 19;
 
 /// Names of several characters, listed under `symbols:`.
@@ -19,7 +19,7 @@ class SymbolNames {
 public:
     SymbolNames(const Pattern& pattern, Diagnostics& diagnostics);
 
-    /// Bytes of the longest name at the front of `text`, or 0.
+    /// Length in bytes of the longest name at the beginning of `text`, or 0.
     std::size_t length_at(std::string_view text) const {
         for (std::size_t length = std::min(longest_, text.size()); length > 0; --length) {
             if (names_.contains(text.substr(0, length))) return length;
@@ -34,26 +34,26 @@ private:
     std::size_t longest_ = 0;
 };
 
-/// Walks through one word.
+/// Scans one word.
 class WordScanner {
 public:
     /// @param diagnostics  null: errors are not reported
     WordScanner(const SymbolNames& names, const Span& span, Diagnostics* diagnostics)
         : names_(names), diagnostics_(diagnostics), span_(span), text_(span.view()) {}
 
-    /// Bytes before the next letter or parenthesis.
+    /// Offset of the next letter or parenthesis.
     std::size_t at() const { return at_; }
     /// Skips blanks and tabs; true if there were any.
     bool skip_blanks();
     bool at_end() const { return at_ >= text_.size(); }
-    /// Is a parenthesis next?
+    /// True if the next character is a parenthesis.
     bool at_parameters() const { return at_ < text_.size() && text_[at_] == '('; }
 
-    /// Reads the next letter, which may be a name; empty after an error. @param blank_before  what skip_blanks() said
+    /// Reads the next letter, which may be a name; empty after an error. @param blank_before  result of skip_blanks()
     std::string_view letter(bool blank_before);
-    /// Was the last letter a name of several characters?
+    /// True if the last letter was a name of several characters.
     bool is_name() const { return is_name_; }
-    /// Reads from the parenthesis at() to the one that closes it; false after an error.
+    /// Skips from the parenthesis at() to its closing one; false after an error.
     bool parameters(std::vector<Span>& parts);
 
 private:

@@ -1,4 +1,4 @@
-// engine/measure/clumps.h: the parts of a drawing with the little that joins them.
+// engine/measure/clumps.h: groups the parts of a drawing with the short pieces between them.
 #pragma once
 
 #include "engine/measure/parts.h"

@@ -1,5 +1,4 @@
-// engine/measure/extent.h: how long, how large, closed or not: what can be told of a pattern's word without drawing
-// it.
+// engine/measure/extent.h: measures a word without drawing it: length, counts, box, end.
 #pragma once
 
 #include "engine/geometry/space_turtle.h"
@@ -29,8 +28,8 @@ struct Measurement {
     bool derived = false;              ///< the word had to be walked, or was kept whole for contexts
 };
 
-/// From the fold where the system allows it, else (and always in three dimensions) by one pass over the word;
-/// contexts are resolved first.
+/// Measures by the fold if the system allows it, otherwise (and always in space) by one pass over the word. Contexts
+/// are resolved first.
 /// @param budget  most nodes of that pass; above it, a BudgetError
 /// @param watch   as in DerivationOptions
 /// @throws WordError for brackets that do not balance, steps that are not finite; BudgetError for words kept whole

@@ -1,4 +1,4 @@
-// engine/measure/fold.h: what a word does to a turtle, of any derivation length, composed instead of derived.
+// engine/measure/fold.h: computes the effect of a word on a turtle by composition, without deriving the word.
 #pragma once
 
 #include "engine/derivation/forecast.h"

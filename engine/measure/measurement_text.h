@@ -1,4 +1,4 @@
-// engine/measure/measurement_text.h: a measurement as text and as JSON.
+// engine/measure/measurement_text.h: formats a measurement as text and as JSON.
 #pragma once
 
 #include "engine/measure/extent.h"
@@ -7,9 +7,9 @@
 
 namespace sikku {
 
-/// One line of JSON. Numbers beyond double precision are strings of digits. @param title  of the pattern
+/// One line of JSON. Numbers beyond double precision are strings of digits. @param title  title of the pattern
 std::string measurement_json(const std::string& title, const Measurement& measurement);
-/// A line for each quantity.
+/// Text with one line for each quantity.
 std::string measurement_text(const std::string& title, const Measurement& measurement);
 
 }  // namespace sikku

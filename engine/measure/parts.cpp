@@ -144,7 +144,7 @@ bool Parts<Number>::find_headings(const Grammar& grammar, const std::vector<std:
     return true;
 }
 
-/// Sets the parts of level 0, which are single symbols.
+/// Computes the parts of level 0, which are single symbols.
 template <class Number>
 void Parts<Number>::place_symbols(const Grammar& grammar, const Lattice& lattice, const std::vector<char>& reached,
                                   bool moves_draw) {

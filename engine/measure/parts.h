@@ -1,4 +1,4 @@
-// engine/measure/parts.h: what every part of a drawing does and covers, without deriving it.
+// engine/measure/parts.h: computes the motion and the area of every part of a drawing, without deriving it.
 #pragma once
 
 #include "engine/base/numbers.h"

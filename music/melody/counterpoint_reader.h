@@ -1,4 +1,4 @@
-// music/melody/counterpoint_reader.h: a curve as two voices.
+// music/melody/counterpoint_reader.h: reads a curve as two voices.
 #pragma once
 
 #include "music/melody/reader.h"

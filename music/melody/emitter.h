@@ -1,4 +1,4 @@
-// music/melody/emitter.h: notes on their way from readers of words to a sink.
+// music/melody/emitter.h: passes notes from the readers of words to a sink.
 #pragma once
 
 #include "music/melody/mapping.h"
@@ -14,7 +14,7 @@
 
 namespace sikku::mapping {
 
-/// Stands for a height, a degree or a place that is not known yet.
+/// Represents a height, a degree or a position that is not known yet.
 constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
 
 /// Degrees become keys, and notes reach the sink: cut to the piece that is wanted, counted, a block at a time.

@@ -1,4 +1,4 @@
-// music/melody/mapping.h: from the symbols of a word to notes.
+// music/melody/mapping.h: turns the symbols of a word into notes.
 #pragma once
 
 #include "engine/derivation/derivation.h"
@@ -13,17 +13,17 @@
 namespace sikku {
 
 struct PlayOptions {
-    std::int64_t from = 0;        ///< ticks: what sounds before it is left out, and the score begins there
-    std::int64_t to = INT64_MAX;  ///< ticks: the score ends there; a note cut by an edge keeps its part
-    int most_voices = 15;         ///< that sound at once; more is a ScoreError
-    double budget = 200e6;        ///< most nodes of the derivation that are visited
+    std::int64_t from = 0;        ///< ticks: the score begins here, without earlier notes
+    std::int64_t to = INT64_MAX;  ///< ticks: the score ends here; notes at either end are cut
+    int most_voices = 15;         ///< maximum number of voices at the same time; more are a ScoreError
+    double budget = 200e6;        ///< maximum number of derivation nodes visited
     std::function<void(std::uint64_t symbols)> watch;  ///< as in DerivationOptions
 };
 
-/// What became of it.
+/// Report about a performance.
 struct PlayReport {
     std::uint64_t notes = 0;
-    std::uint64_t moved = 0;  ///< of them, those that were beyond the keys of MIDI
+    std::uint64_t moved = 0;  ///< notes that were beyond the keys of MIDI
     std::uint64_t lost = 0;   ///< notes shorter than a tick, or whose degree a key map leaves out
     int voices = 0;
     std::int64_t end = 0;   ///< ticks
@@ -32,24 +32,24 @@ struct PlayReport {
     double highest = 0.0;
 };
 
-/// Reads the word of `grammar` as `melody` says and hands its notes to `sink`, in one pass; two if the anchor has to
-/// be looked for and the fold does not tell it. What lies before options.from is passed over without being derived
-/// if the curve lies on the square grid and has neither brackets nor contexts; else it is walked. A branch begins
-/// where and when the turtle is.
+/// Reads the word of `grammar` as a melody and passes its notes to `sink`, in one pass, or in two if the anchor must
+/// be found and the fold does not determine it. The part before options.from is skipped without deriving it if the
+/// curve lies on the square grid and has neither brackets nor contexts; otherwise it is walked. A branch begins at
+/// the position and time of the turtle.
 /// Memory: O(steps), and the state of open brackets. Cost: O(symbols between from and to).
 /// @throws BudgetError, WordError, ScoreError; what `sink` throws
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.
 PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options);
 
-/// What can be told of a melody without playing it.
+/// Properties of a melody computed without playing it.
 struct MelodyCensus {
-    Integer notes = 0;  ///< of mapping runs
+    Integer notes = 0;  ///< number of notes, for `mapping: runs`
     Integer ticks = 0;
     Integer height = 0;  ///< degrees between the lowest and the highest note of the horizontal runs
 };
 
-/// By composition, of any order. Nullopt for other mappings than runs, for curves that are not on the square grid,
-/// brackets and contexts.
+/// Computes them by composition, for any derivation length. Nullopt for other mappings than runs, curves off the
+/// square grid, brackets and contexts.
 std::optional<MelodyCensus> census(const Grammar& grammar, const Melody& melody);
 
 }  // namespace sikku

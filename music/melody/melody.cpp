@@ -128,8 +128,8 @@ private:
                 const std::vector<std::string_view> near(similar.begin(), similar.end());
                 diagnostics_.error(name.empty() ? key->name_at : key->value,
                                    near.empty()
-                                       ? fmt::format("there is no scale '{}'; `sikku scales` lists them", name)
-                                       : fmt::format("there is no scale '{}'{}", name, did_you_mean(near)));
+                                       ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
+                                       : fmt::format("unknown scale '{}'{}", name, did_you_mean(near)));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {

@@ -1,5 +1,5 @@
-// music/melody/melody.h: how a pattern wants to be played: the keys scale, tonic, anchor, unit, vertical, … of its
-// file.
+// music/melody/melody.h: the settings of a melody, from the keys scale, tonic, anchor, unit, vertical, … of a
+// pattern.
 #pragma once
 
 #include "engine/language/pattern.h"
@@ -15,13 +15,13 @@
 
 namespace sikku {
 
-/// Which reading of the curve makes the melody.
+/// Reading of the curve as a melody.
 enum class Mapping {
     runs,          ///< a horizontal run is a note: pitch from y, duration from its length
     counterpoint,  ///< y and x are two voices; a note lasts while its coordinate stays the same
     symbols,       ///< the word itself: F a note, + and - a degree up and down, f a rest
 };
-/// Which y sounds the tonic; `piece`: that of the first note of the piece that is played.
+/// The y that sounds the tonic; `piece`: that of the first note played.
 enum class Anchor { first_note, piece, lowest_note, lowest_vertex, centre };
 /// What a vertical run is: nothing, a rest of its length, more of the note before it (or, at the beginning, after
 /// it), a note for each step, or a note in a voice of its own, with its pitch from x:
@@ -35,10 +35,10 @@ enum class Sloped { project, skip, refuse };
 /// What becomes of a note beyond the lowest and the highest key: moved by whole periods; mirrored at the last degree
 /// within; that degree; a mistake.
 enum class Range { fold, reflect, clamp, refuse };
-/// What decides how loud a note is.
+/// The property that determines how loud a note is.
 enum class Loudness { fixed, by_turn, by_depth, by_length };
 
-/// Where the scale of a file stands, with its tonic.
+/// Settings of a melody.
 struct Melody {
     Mapping mapping = Mapping::runs;
     Scale scale;                 ///< C major if the file names none
@@ -68,8 +68,8 @@ struct Melody {
 /// Gives the text of a file that `scale:` or `keyboard:` names, or throws.
 using FileReader = std::function<std::string(const std::string& path)>;
 
-/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, scales
-/// in files are not read.
+/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, files
+/// of scales are not read.
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics);
 
 /// Every note higher by `semitones`; whole ones move the tonic's name, and so key signature and spelling, too.

@@ -1,4 +1,4 @@
-// music/melody/melody_fold.h: what a melody amounts to, of any order, composed instead of played.
+// music/melody/melody_fold.h: computes the length and the range of a melody by composition, without playing it.
 #pragma once
 
 #include "engine/derivation/forecast.h"

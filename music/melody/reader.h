@@ -1,4 +1,4 @@
-// music/melody/reader.h: what all readers of words have in common.
+// music/melody/reader.h: the common base of the readers of words.
 #pragma once
 
 #include "music/melody/emitter.h"

@@ -1,4 +1,4 @@
-// music/melody/run_reader.h: the straight runs of a curve as notes.
+// music/melody/run_reader.h: reads the straight runs of a curve as notes.
 #pragma once
 
 #include "music/melody/reader.h"

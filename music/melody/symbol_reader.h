@@ -1,4 +1,4 @@
-// music/melody/symbol_reader.h: the word itself as notes.
+// music/melody/symbol_reader.h: reads the symbols of a word as notes.
 #pragma once
 
 #include "music/melody/reader.h"

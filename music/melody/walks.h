@@ -1,4 +1,5 @@
-// music/melody/walks.h: where a turtle is whose way becomes notes: on a square grid in whole numbers, or anywhere.
+// music/melody/walks.h: tracks the position of a turtle for readers: in whole numbers on a square grid, or in
+// doubles.
 #pragma once
 
 #include "engine/geometry/lattice.h"

@@ -153,7 +153,7 @@ public:
         Piece line;
         if (!lines_.next(line)) {
             error(lines_.end(),
-                  "this is no Scala scale: a description, the number of notes and the notes are missing");
+                  "this is not a Scala scale: a description, the number of notes and the notes are missing");
             return std::nullopt;
         }
         Piece description = line;
@@ -279,7 +279,7 @@ private:
         }
         if (numerator == 0 || denominator == 0) {
             error(lines_.span(word),
-                  fmt::format("the ratio {} is no pitch: both of its numbers are above 0", quoted(word)));
+                  fmt::format("the ratio {} is not a pitch: expected numbers above 0", quoted(word)));
             return false;
         }
         cents = 1200.0 * std::log2(numerator / denominator);
@@ -303,9 +303,8 @@ private:
             const Piece word = first_word(line);
             if (!is_decimal(word.text) && word.text.find_first_not_of("0123456789/") != std::string_view::npos)
                 continue;
-            diagnostics_.warning(
-                lines_.span(word),
-                fmt::format("there are more than {} notes; from here on they are not looked at", count));
+            diagnostics_.warning(lines_.span(word),
+                                 fmt::format("there are more than {} notes; the rest is ignored", count));
             return;
         }
     }
@@ -432,10 +431,10 @@ private:
             const Piece word = first_word(line);
             std::int64_t degree = 0;
             if (word.text != "x" && word.text != "X" && !read_whole(word.text, degree)) continue;
-            diagnostics_.warning(
-                lines_.span(word),
-                size == 0 ? std::string("the size of this map is 0; what follows its head is not looked at")
-                          : fmt::format("there are more than {} degrees; from here on they are not looked at", size));
+            diagnostics_.warning(lines_.span(word),
+                                 size == 0
+                                     ? std::string("the size of this map is 0; the rest of the file is ignored")
+                                     : fmt::format("there are more than {} degrees; the rest is ignored", size));
             return;
         }
     }

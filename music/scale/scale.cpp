@@ -149,7 +149,7 @@ class DataError : public std::logic_error {
 
 double number(std::string_view text) {
     double value = 0;
-    if (!read_number(text, value)) throw DataError(fmt::format("'{}' is no number", text));
+    if (!read_number(text, value)) throw DataError(fmt::format("'{}' is not a number", text));
     return value;
 }
 

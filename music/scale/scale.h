@@ -1,4 +1,4 @@
-// music/scale/scale.h: scales: those that come along, the melakarta by formula, and any that a Scala file tells.
+// music/scale/scale.h: scales: the bundled ones, the melakarta by formula, and those of Scala files.
 #pragma once
 
 #include "engine/base/diagnostic.h"

@@ -319,7 +319,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
         for (std::size_t i = 0; i < frames * channels; ++i) {
             const float size = std::abs(block[i]);
             // Also false for what is no number.
-            if (!(size < 1e6F)) throw failed("gave what is no sound; is it built with libsndfile?");
+            if (!(size < 1e6F)) throw failed("gave no readable sound; is it built with libsndfile?");
             rendering.peak = std::max(rendering.peak, size);
         }
         write_all(rendering.file.get(), bytes, frames * frame_bytes, output);

@@ -1,4 +1,4 @@
-// music/score/audio.h: what a MIDI file sounds like, through the synthesizer program FluidSynth.
+// music/score/audio.h: renders MIDI files as sound with the program FluidSynth.
 #pragma once
 
 #include <cstdint>

@@ -149,8 +149,8 @@ constexpr std::array<std::string_view, 128> instruments = {
     "gunshot",
 };
 
-/// Text that LilyPond sets in one line. Line and paragraph separators (U+2028, U+2029), which make it abort, and
-/// direction marks, which may make it hang, become blanks.
+/// Converts text to a single line for LilyPond. Line and paragraph separators (U+2028, U+2029), which make it abort,
+/// and direction marks, which may make it hang, become blanks.
 std::string one_line(std::string_view text) {
     constexpr std::array<std::string_view, 6> marks = {"\n", "\u2028", "\u2029", "\u200E", "\u200F", "\u061C"};
     const std::string whole = printable(text, std::string::npos);

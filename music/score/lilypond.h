@@ -1,4 +1,4 @@
-// music/score/lilypond.h: scores for LilyPond, which prints them best.
+// music/score/lilypond.h: writes scores for the engraver LilyPond.
 #pragma once
 
 #include "music/score/notation.h"

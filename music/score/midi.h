@@ -1,4 +1,4 @@
-// music/score/midi.h: scores as Standard MIDI Files.
+// music/score/midi.h: writes scores as Standard MIDI Files.
 #pragma once
 
 #include "music/score/score.h"

@@ -35,7 +35,7 @@ std::string name_of(int channel, int key) {
     return fmt::format("channel {}, key {}", channel + 1, key);
 }
 
-/// Sizes that the standard gives to meta events.
+/// Sizes of meta events in the standard.
 struct MetaForm {
     int type;
     std::size_t size;
@@ -166,12 +166,12 @@ private:
     /// False if nothing can be read after it.
     bool read_header() {
         if (size() == 0) {
-            fault(0, "this is no MIDI file: it is empty");
+            fault(0, "this is not a MIDI file: it is empty");
             return false;
         }
         if (!has(0, "MThd")) {
-            fault(0, has(0, "RIFF") ? "this is a RIFF file and no MIDI file, though one may be in it"
-                                    : "this is no MIDI file: it does not begin with MThd");
+            fault(0, has(0, "RIFF") ? "this is a RIFF file, not a MIDI file, though it may contain one"
+                                    : "this is not a MIDI file: it does not begin with MThd");
             return false;
         }
         if (size() < header_bytes) {
@@ -199,7 +199,7 @@ private:
         } else if (format == 0 && declared_ > 1) {
             fault(8, fmt::format("header: format 0 has one track, and not {}", declared_));
         }
-        if (declared_ == 0) fault(10, "header: it tells that there are no tracks");
+        if (declared_ == 0) fault(10, "header: it declares no tracks");
         check_division();
         at_ = chunk_head_bytes + length;
         return true;
@@ -240,7 +240,7 @@ private:
 
     void check_tracks() {
         if (found_ != declared_) {
-            fault(10, fmt::format("header: it tells {} track{}, but there {} {}", declared_,
+            fault(10, fmt::format("header: it declares {} track{}, but there {} {}", declared_,
                                   declared_ == 1 ? "" : "s", found_ == 1 ? "is" : "are", found_));
         }
         check_ends();
@@ -291,7 +291,7 @@ private:
     }
 
     void fault_length(const TrackState& track, std::string_view what) {
-        fault(track.head + 4, fmt::format("track {}: its length is told as {}, but {}", track.number,
+        fault(track.head + 4, fmt::format("track {}: its length is given as {}, but {}", track.number,
                                           bytes_of(big_endian(track.head + 4, 4)), what));
     }
 
@@ -411,7 +411,7 @@ private:
             if (event.status == 0) {
                 fault(track, event.at,
                       fmt::format("data byte {:02X} where the status of an event is needed; the rest of the track is "
-                                  "not looked at",
+                                  "ignored",
                                   bytes_[event.at]));
                 track.is_readable = false;
                 track.ended = true;  // as far as it can be read

@@ -1,4 +1,4 @@
-// music/score/midi_texts.h: reads back from a MIDI file what a score was made from.
+// music/score/midi_texts.h: reads the pattern and the recipe of a score from a MIDI file.
 #pragma once
 
 #include <cstdint>

@@ -309,7 +309,7 @@ void NoteCollector::notes(std::span<const Note> notes) {
     if (notes.size() > most_ - notes_.size()) {
         throw ScoreError(
             fmt::format("a picture or a page holds at most {} notes, and this melody has more; "
-                        "--bars takes a part of it",
+                        "limit the bars or seconds",
                         most_));
     }
     notes_.insert(notes_.end(), notes.begin(), notes.end());

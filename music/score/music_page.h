@@ -1,5 +1,5 @@
-// music/score/music_page.h: a melody to look at: the curve coloured by its notes beside a piano roll, as an SVG to
-// print and as a page that plays.
+// music/score/music_page.h: draws a melody, its curve coloured by notes beside a piano roll, as an SVG or as a page
+// that plays.
 #pragma once
 
 #include "music/score/score.h"

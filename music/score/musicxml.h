@@ -1,4 +1,4 @@
-// music/score/musicxml.h: scores as MusicXML, which every program that engraves music reads.
+// music/score/musicxml.h: writes scores as MusicXML, for notation programs.
 #pragma once
 
 #include "music/score/notation.h"

@@ -1,4 +1,4 @@
-// music/score/notation.h: from notes to what stands in a bar: printable lengths, ties, rests, staves, signs.
+// music/score/notation.h: arranges notes in bars: printable lengths, ties, rests, staves, signs.
 #pragma once
 
 #include "music/score/score.h"

@@ -1,4 +1,4 @@
-// music/score/score.h: notes, and what a score tells beside them; every reader of a melody and every writer of a file
+// music/score/score.h: notes, and the other contents of a score; every reader of a melody and every writer of a file
 // meets here.
 #pragma once
 

@@ -1,4 +1,4 @@
-// music/score/spelling.h: by which letter and sign a pitch class is written, key signatures, names of notes.
+// music/score/spelling.h: spells pitch classes with letters and signs; key signatures, names of notes.
 #pragma once
 
 #include "music/scale/scale.h"

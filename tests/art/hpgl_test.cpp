@@ -13,7 +13,7 @@ struct Plot {
     std::vector<int> pens;                         ///< of each stroke
     std::size_t longest = 0;                       ///< instruction
 };
-/// @param page  as it lies in the plotter: wider than high
+/// @param page  page in the plotter's orientation: wider than high
 Plot read_hpgl(const std::string& text, const Page& page) {
     Plot plot;
     int pen = 0;
@@ -77,13 +77,13 @@ protected:
             [&](const Print& is, OutputFile& file) { return write_hpgl(is, options_, file); },
             [&](PathSink& sink) { plan.draw(sink); });
         const std::string whole = contents(folder_ / "plot.hpgl");
-        // Without the recipe, which is the last.
+        // Omits the recipe at the end.
         return whole.substr(0, std::min(whole.size(), whole.find("CO\"")));
     }
     void expect_faithful(const Print& print, const PlotPlan& plan) {
         Plot plot = read_hpgl(text(plan, print), lying(print.page));
         if (print.page.height > print.page.width) {
-            // Turned back by hand: the top of the page is at the left of the plotter.
+            // Turned back: the top of the page is at the left of the plotter.
             for (auto& stroke : plot.strokes) {
                 for (glm::dvec2& at : stroke) at = {at.y, print.page.height - at.x};
             }
@@ -148,7 +148,7 @@ std::unique_ptr<PlotPlan> corner(const Print& print) {
         sink.end_stroke(false);
     });
 }
-/// One step is a millimetre; (0, 0) is 297 mm below the top of the page.
+/// A step is a millimetre long; (0, 0) is 297 mm below the top of the page.
 Print sheet_print(const Page& page) {
     Print print = plain_print();
     print.page = page;
@@ -177,7 +177,7 @@ TEST_F(Hpgl, UprightPagesAreTurnedOntoTheLongSide) {
     const glm::dvec2 origin = hpgl_origin(lying.page, options_);
     EXPECT_NEAR(origin.x, 297 / 2.0 - 5603 * 0.025, 1e-9);
     EXPECT_NEAR(origin.y, 210 / 2.0 - 4121 * 0.025, 1e-9);
-    // Limits of another plotter: the page in their middle.
+    // The page is centred within the limits of another plotter.
     options_.paper = parse_hpgl_paper("400x300mm", 96);
     expect_points(lying, "PU2860,2600;\nPD6860,2600,6860,4600;\n");
     options_.paper = parse_hpgl_paper("400x300mm,centre", 96);
@@ -203,7 +203,7 @@ TEST_F(Hpgl, WhatThePlotterDoesNotReachIsRefused) {
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(
             error.what(),
-            "the drawing leaves the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); a margin of 15.0mm "
+            "the drawing exceeds the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); a margin of 15.0mm "
             "keeps it inside");
     }
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});

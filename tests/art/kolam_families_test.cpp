@@ -1,4 +1,5 @@
-// tests/art/kolam_families_test.cpp: the kolams of polynomial growth against mirror curves traced around their dots.
+// tests/art/kolam_families_test.cpp: compares kolams of polynomial growth with mirror curves traced around their
+// dots.
 #include "engine/measure/extent.h"
 #include "engine/measure/fold.h"
 #include "tests/files.h"

@@ -1,5 +1,5 @@
-// tests/art/matrix_test.cpp: every feature of prints with every kind of output: it is visible there, or refused for a
-// reason. docs/matrix.md is the same table.
+// tests/art/matrix_test.cpp: every feature of prints is visible in every kind of output, or refused with a reason.
+// docs/matrix.md contains the same table.
 #include "art/print_cell.h"
 #include "art/prints.h"
 #include "art/sheet/sheet.h"
@@ -41,11 +41,11 @@ const std::string solid =
 
 using Values = std::map<std::string, std::string>;
 
-/// What is asked of a print, beside what it is compared with.
+/// A feature: the settings of a print, and the settings it is compared with.
 struct Feature {
     std::string name;
     std::string pattern;
-    Values keys;    ///< of the pattern
+    Values keys;    ///< keys of the pattern
     Values values;  ///< options
     Values without;
     Values without_keys{};
@@ -86,7 +86,7 @@ std::vector<Feature> features() {
             {"frames", kolam, {}, {{"generations", "0:2"}, {"frames", "true"}}, {}}};
 }
 
-/// What a print is made into.
+/// A kind of output.
 struct Target {
     std::string name;
     std::string format;
@@ -114,8 +114,8 @@ std::vector<Target> targets() {
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Where a feature changes nothing, rightly: HP-GL and G-code are plots in any case, and an output that is a sheet of
-/// generations is compared with itself.
+/// Combinations where a feature rightly changes nothing: HP-GL and G-code are always plots, and a sheet of generations
+/// is compared with itself.
 const std::set<std::string> unchanged = {"plotter on HP-GL",
                                          "plotter on G-code",
                                          "sheet of generations on GIF",
@@ -133,7 +133,7 @@ void erase_between(std::string& text, const std::string& begin, const std::strin
     }
 }
 
-/// What is drawn, without the texts that say how it was made.
+/// The drawing in an output, without texts about how it was made.
 std::string drawing_of(const std::string& name, std::string bytes, const ScratchFolder& folder) {
     const std::string format = name.substr(name.rfind('.') + 1);
     if (format == "svg") {
@@ -156,9 +156,11 @@ std::string drawing_of(const std::string& name, std::string bytes, const Scratch
         return bytes;
     }
     if (format == "png" || format == "tif" || format == "jpg" || format == "exr") {
-        const std::string file = (folder.path() / ("picture." + format)).string();
+        // OpenImageIO remembers what it knows of a name.
+        static int number = 0;
+        const std::string file = (folder.path() / (std::to_string(++number) + "." + format)).string();
         std::ofstream(file, std::ios::binary) << bytes;
-        // Size, channels, bits and pixels; not the texts.
+        // Compares size, channels, bits and pixels, but not the texts.
         OIIO::ImageBuf picture(file);
         EXPECT_TRUE(picture.read(0, 0, true)) << picture.geterror();
         const OIIO::ImageSpec& spec = picture.spec();
@@ -220,7 +222,7 @@ protected:
         draw_sheet({print_cell(drawn, read_draw_settings(values))}, sheet, "poster.svg", destination);
     }
 
-    /// The table's entry: `yes`, `no change`, or a reason.
+    /// The entry of the table: `yes`, `no change`, or a reason.
     std::string outcome(const Feature& feature, const Target& target) const {
         try {
             const Outputs with = make(feature, target, true);
@@ -240,10 +242,10 @@ protected:
 std::string table(const std::vector<std::vector<std::string>>& outcomes) {
     std::string text =
         "# Features and outputs\n\n"
-        "Every feature of prints with every kind of output. `yes`: it is drawn. `=`: it belongs to the file of a\n"
-        "print, and the drawing is the same without it. A number: it is refused, for the reason below the table.\n"
-        "`poster` is a cell of a poster or contact sheet, `sheet` a sheet of generations, `tile` a sheet of a print\n"
-        "that is cut, and `frame` one of several generations in files of their own.\n\n|  |";
+        "This table shows which feature of prints works with which output. `yes`: the feature is drawn. `=`: it\n"
+        "has no effect on the drawing. A number: it is refused, for the reason below the table.\n"
+        "`poster` is a cell of a poster or contact sheet, `sheet` a sheet of generations, `tile` one sheet of a\n"
+        "tiled print, and `frame` one of several generations in separate files.\n\n|  |";
     for (const Target& target : targets()) text += " " + target.name + " |";
     text += "\n|---|";
     for (std::size_t i = 0; i < targets().size(); ++i) text += "---|";

@@ -1,4 +1,4 @@
-// Shapes, wide strokes and colours as a pen draws them: hatching, spirals, passes, fewer pens.
+// tests/art/plot_fills_test.cpp: fills, wide strokes and colours of plots: hatching, spirals, passes, merged pens.
 #include "art/plotter/passes.h"
 #include "art/plotter/pens.h"
 #include "art/plotter/shading.h"
@@ -15,7 +15,7 @@ using Points = std::vector<glm::dvec2>;
 using reference::Line;
 using reference::Recorder;
 
-/// Winding number by angles: an independent way to what the hatching does with crossings.
+/// Winding number computed from angles, independently of the crossings that hatching uses.
 bool is_inside(const Points& polygon, glm::dvec2 point) {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -37,7 +37,7 @@ double distance_to(glm::dvec2 point, const Points& line) {
     return least;
 }
 
-/// Strokes of lines and curves as points.
+/// Records strokes of lines and curves as points.
 class Flat : public PathSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen&) override { lines_drawn.push_back({start}); }
@@ -52,7 +52,7 @@ public:
         }
         lines_drawn.back().insert(lines_drawn.back().end(), samples.points.begin() + 1, samples.points.end());
     }
-    void change_pen(const Pen&) override { ADD_FAILURE() << "pens change between strokes"; }
+    void change_pen(const Pen&) override { ADD_FAILURE() << "pens must change between strokes"; }
     void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override { ADD_FAILURE() << "a pen does not fill"; }
     void disc(glm::dvec2, double, const Pen&) override { ADD_FAILURE() << "a pen does not fill"; }
@@ -65,11 +65,11 @@ std::vector<Points> drawn(const PlotPlan& plan) {
     return flat.lines_drawn;
 }
 
-/// A picture of ink: which points of a grid lie under the pen.
+/// A raster of ink: the points of a grid that the pen covers.
 struct Ink {
     std::size_t wanted = 0, missing = 0, outside = 0;
 };
-/// @param wanted  is a point to be covered (1), to be left free (-1), or either (0)
+/// @param wanted  whether a point must be covered (1), must stay free (-1), or either (0)
 template <typename Wanted>
 Ink ink_of(const std::vector<Points>& lines, double pen, const Box& box, double spacing, const Wanted& wanted) {
     const glm::dvec2 size = (box.high - box.low) / spacing;
@@ -127,7 +127,7 @@ TEST(Shading, HatchLinesLieInsideAndAreEvenlySpaced) {
         for (const Points& line : hatch_lines(polygon, along, spacing, inset)) {
             ASSERT_EQ(line.size() % 2, 0u);
             for (std::size_t i = 0; i < line.size(); i += 2) {
-                // On one of the evenly spaced lines, whatever the polygon.
+                // All polygons share the same evenly spaced lines.
                 const double height = glm::dot(line[i], across) / spacing - 0.5;
                 EXPECT_NEAR(height, std::round(height), 1e-6);
                 EXPECT_NEAR(glm::dot(line[i + 1] - line[i], across), 0, 1e-9);
@@ -140,7 +140,7 @@ TEST(Shading, HatchLinesLieInsideAndAreEvenlySpaced) {
                 EXPECT_NEAR(std::fabs(glm::dot(line[i] - line[i - 1], across)), spacing, 1e-9);
             }
         }
-        // All of the area: the length of the lines times their spacing, but for the insets.
+        // The length of the lines times their spacing is the area, except for the insets.
         double area = 0;
         for (double x = -0.1; x < 41; x += 0.4) {
             for (double y = -0.1; y < 41; y += 0.4) area += is_inside(polygon, {x, y}) ? 0.16 : 0;
@@ -156,7 +156,7 @@ TEST(Shading, AConvexShapeIsOneZigzag) {
         circle.push_back(20.0 * glm::dvec2(std::cos(0.0314159 * i), std::sin(0.0314159 * i)));
     EXPECT_EQ(hatch_lines(circle, {0.8, 0.6}, 0.5, 0.2).size(), 1u);
     EXPECT_EQ(hatch_lines(Points{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {1, 0}, 0.5, 0.2).size(), 1u);
-    // Two legs and what joins them.
+    // Two legs and the part between them.
     const Points arch = {{0, 0}, {40, 0}, {40, 30}, {30, 30}, {30, 5}, {10, 5}, {10, 30}, {0, 30}};
     EXPECT_LE(hatch_lines(arch, {1, 0}, 0.5, 0.2).size(), 3u);
     EXPECT_THROW(hatch_lines(arch, {1, 0}, 1e-6, 0), std::runtime_error);
@@ -181,7 +181,7 @@ TEST(Shading, SpiralsCoverDiscs) {
             EXPECT_GT(ink.wanted, 3u);
             EXPECT_EQ(ink.missing, 0u) << pen << " " << radius;
             EXPECT_EQ(ink.outside, 0u) << pen << " " << radius;
-            // No more ink than there is area, but for the first and the last turn.
+            // The ink does not exceed the area, except for the first and the last turn.
             const double area = std::numbers::pi * radius * radius / pen;
             EXPECT_LE(plan->report().after.drawn, 1.2 * area + 10 * radius);
         }
@@ -203,7 +203,7 @@ TEST(Passes, CoverAStrokeAndNothingElse) {
                                    }
                                },
                                {.pen_width = pen});
-    // To and fro along the open one, rings along the closed one.
+    // Back and forth along the open stroke, rings along the closed one.
     EXPECT_EQ(pass_offsets(3.0, pen).size(), 8u);
     EXPECT_EQ(plan->report().after.lifts, 1u + 8u);
     const auto lines = drawn(*plan);
@@ -262,7 +262,7 @@ TEST(Passes, ThinStrokesAndDots) {
 
 TEST(Fills, OutlinesAreDrawnWhereNoLineIs) {
     Print print = plain_print();
-    print.style.fill = Colour{0, 0, 255, 255};  // colour index 2 as a line
+    print.style.fill = Colour{0, 0, 255, 255};  // equals line colour index 2
     const Points square = {{10, 10}, {40, 10}, {40, 40}, {10, 40}};
     const auto plan = arranged(print, [&](PathSink& sink) {
         sink.begin_stroke(square[0], Pen{.colour = 1});
@@ -315,7 +315,7 @@ TEST(Pens, AreMergedIntoTheNearest) {
     EXPECT_EQ(merge_pens(colours, 5), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
     EXPECT_EQ(merge_pens(colours, 3), (std::vector<std::size_t>{1, 1, 2, 2, 4}));
     EXPECT_EQ(merge_pens(colours, 1), (std::vector<std::size_t>{1, 1, 1, 1, 1}));
-    // No other choice of two is better.
+    // No other choice of two pens has a lower cost.
     const auto cost = [&](std::size_t a, std::size_t b) {
         double sum = 0;
         for (const PenColour& colour : colours) {
@@ -375,7 +375,7 @@ TEST(Home, IsPartOfTheTravel) {
     EXPECT_NEAR(plan->report().before.travelled, 55, 1e-9);
     EXPECT_EQ(plan->travels().size(), 2u);
     EXPECT_TRUE(plan->report().returns);
-    // From another corner.
+    // Starts from another corner.
     EXPECT_NEAR(arranged(print, stroke, {.start = {0, 60}})->report().after.travelled,
                 glm::distance({30., 40.}, glm::dvec2(0, 60)), 1e-9);
 }

@@ -1,4 +1,4 @@
-// Drawings in space as a pen draws them: what is in front hides what is behind.
+// tests/art/plot_scene_test.cpp: plots of drawings in space, with hidden lines removed.
 #include "art/drawing/plot_scene.h"
 #include "art/space/hidden_lines.h"
 #include "tests/reference.h"
@@ -17,7 +17,7 @@ using reference::Recorder;
 
 constexpr Colour red{255, 0, 0, 255}, green{0, 255, 0, 255}, blue{0, 0, 255, 255};
 
-/// A step is a millimetre, stems are one wide.
+/// A step is a millimetre long, stems are a millimetre wide.
 Print flat_print() {
     Print print;
     print.page = {200, 200, 0};
@@ -38,7 +38,7 @@ Recorder plotted(const std::string& axiom, const Print& print, const PlotOptions
     return recorder;
 }
 
-/// Ink of a colour at a place.
+/// True if there is ink of a colour at a position.
 bool is_drawn(const Recorder& recorder, glm::dvec2 at, int colour, double radius = 0.01) {
     for (const Line& line : recorder.strokes) {
         const std::size_t stride = (line.points.size() - 1) / line.pens.size();
@@ -57,7 +57,7 @@ bool is_drawn(const Recorder& recorder, glm::dvec2 at, int colour, double radius
 const std::string square = "[f(10)+f(10)|{f(20)-f(20)-f(20)-f(20)}]";
 const std::string behind = "[&(90)f(5)^(90);" + square + "]";
 const std::string front = "[^(90)f(5)&(90);" + square + "]";
-/// From (0, -30) to (0, 30).
+/// A line from (0, -30) to (0, 30).
 const std::string stem = "[f(30)|F(60)]";
 
 TEST(PlotScene, ALeafHidesTheStemBehindIt) {
@@ -151,12 +151,12 @@ TEST(PlotScene, EdgesAreDrawnOnce) {
     EXPECT_NEAR(length, 70, 1e-4);
 }
 
-// --- against the obvious way -------------------------------------------------------------------------------------
+// --- comparison with a brute-force method ------------------------------------------------------------------------
 
 struct Triangle {
     std::array<glm::dvec3, 3> corners;
 };
-/// How far inside a triangle a point lies (below 0: outside), and the triangle's depth there.
+/// Distance of a point inside a triangle from its edges (negative outside), and the triangle's depth there.
 std::pair<double, double> depth_at(const Triangle& triangle, glm::dvec2 at) {
     const auto& [a, b, c] = triangle.corners;
     const auto cross = [](glm::dvec2 p, glm::dvec2 q) { return p.x * q.y - p.y * q.x; };
@@ -230,7 +230,7 @@ TEST(HiddenLines, BallsHideWhatIsInsideAndBehind) {
     EXPECT_NEAR(length({-10, 0, 0}, {10, 0, 0}), 10, 1e-3) << "through";
     EXPECT_NEAR(length({-10, 0, 4}, {10, 0, 4}), 14, 1e-3) << "through, above the middle";
     EXPECT_NEAR(length({-10, 6, -7}, {10, 6, -7}), 20, 1e-3) << "beside";
-    // A gap, and a rest, too short to lift the pen for.
+    // A gap and a remaining part that are too short to lift the pen.
     EXPECT_EQ(hidden.visible(std::array{glm::dvec3(-10, 0, -7), glm::dvec3(10, 0, -7)}, 1, 11.0).size(), 1u);
     EXPECT_EQ(hidden.visible(std::array{glm::dvec3(-6, 0, -7), glm::dvec3(10, 0, -7)}, 1, 2.0).size(), 1u);
 }

@@ -252,7 +252,7 @@ TEST(Plot, TilingsAreDrawnOnce) {
                 return slots[static_cast<std::size_t>(tiling.print.style.index(pen))];
             };
             std::set<std::tuple<int, std::pair<long, long>, std::pair<long, long>>> expected;
-            std::set<std::pair<std::pair<long, long>, std::pair<long, long>>> edges;  // in any pen
+            std::set<std::pair<std::pair<long, long>, std::pair<long, long>>> edges;  // edges drawn with any pen
             std::uint64_t count = 0;
             const auto add = [&](const Pen& pen, glm::dvec2 a, glm::dvec2 b, bool is_outline) {
                 const auto edge = std::pair(std::min(place(a), place(b)), std::max(place(a), place(b)));

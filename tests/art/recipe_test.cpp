@@ -1,4 +1,4 @@
-// tests/art/recipe_test.cpp: formats whose texts are comments give their pattern back.
+// tests/art/recipe_test.cpp: patterns can be read back from the comments of plots, models and GIF files.
 #include "art/print/recipe_comments.h"
 #include "art/prints.h"
 #include "art/provenance/provenance.h"

@@ -1,10 +1,12 @@
 #include "art/sheet/sheet.h"
 
 #include "art/print/lettering.h"
+#include "art/prints.h"
 #include "engine/derivation/derivation.h"
 #include "tests/print_tools.h"
 
 #include <algorithm>
+#include <fstream>
 #include <pugixml.hpp>
 #include <regex>
 
@@ -354,6 +356,33 @@ TEST_F(Sheets, GenerationsAreRowsWithHeadings) {
     };
     EXPECT_NEAR(extent("same.svg", "Koch, n = 0"), extent("same.svg", "Koch, n = 3"), 2.0);
     EXPECT_GT(extent("rows.svg", "Koch, n = 0"), 5 * extent("rows.svg", "Koch, n = 3"));
+}
+
+TEST_F(Sheets, OfGenerationsFillThePageAndKeepDotsAndBorders) {
+    NEEDS("rsvg-convert");
+    const Document document = parse("kolam.lsys",
+                                    "axiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nangle increment: 90\n"
+                                    "stroke: 0.2 step #f2b632\nground: #8c3b2a\n");
+    const auto drawn = [&](const std::string& name, OptionValues values) {
+        values.insert(values.end(), {{"generations", "0:3"}, {"size", "120x120mm"}});
+        std::ofstream(folder_ / name) << draw(document, "svg", values);
+        return svg_pixels(name);
+    };
+    const auto share = [](const Pixels& pixels, Colour colour) {
+        std::int64_t found = 0;
+        for (int y = 0; y < pixels.height; ++y) {
+            for (int x = 0; x < pixels.width; ++x) found += near(pixels.at(x, y), colour) ? 1 : 0;
+        }
+        return static_cast<double>(found) / pixels.width / pixels.height;
+    };
+    const Colour ground{0x8c, 0x3b, 0x2a, 255}, white{0xff, 0xff, 0xff, 255};
+    const Pixels plain = drawn("plain.svg", {});
+    EXPECT_GT(share(plain, ground), 0.45);
+    EXPECT_LT(share(plain, white), 1e-3);
+    const Pixels dotted = drawn("dotted.svg", {{"dots", "5mm white"}});
+    EXPECT_GT(share(dotted, white), 2e-3);
+    const Pixels framed = drawn("framed.svg", {{"border", "kaavi"}});
+    EXPECT_LT(share(framed, ground), share(plain, ground));
 }
 
 TEST_F(Sheets, CaptionsTellWhatAPatternIs) {

@@ -1,4 +1,4 @@
-// tests/art/tiles_test.cpp: prints over many sheets.
+// tests/art/tiles_test.cpp: prints cut into sheets.
 #include "art/print/tiles.h"
 
 #include "art/print/clip.h"
@@ -21,7 +21,7 @@ namespace {
 constexpr Page a1{594.0, 841.0, 10.0};
 constexpr Page a4{210.0, 297.0, 5.0};
 
-/// The strokes of marks, without their halos and letters: two points of ink each.
+/// Records the strokes of marks without halos and letters: two points for each stroke.
 class Marks : public PathSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
@@ -49,7 +49,7 @@ TEST(Tiles, AreAsFewAsHoldThePrint) {
     EXPECT_EQ(tiling.columns, 3);
     EXPECT_EQ(tiling.rows, 3);
     EXPECT_EQ(tiling_of({210.0, 297.0, 5.0}, {a4, 10.0}).tiles.size(), 1u);
-    // A print that lies on its side is cut into sheets on their side.
+    // Landscape prints are cut into landscape sheets.
     const Tiling wide = tiling_of({570.0, 200.0, 5.0}, {a4, 10.0});
     EXPECT_EQ(wide.tiles.size(), 2u);
     EXPECT_EQ(wide.sheet.width, 297.0);
@@ -70,7 +70,7 @@ TEST(Tiles, NeighboursShareTheOverlapAndNoMore) {
             EXPECT_NEAR(tile.cut.left + tile.cut.width, next.cut.left, 1e-9) << "cut along one line";
             EXPECT_EQ(tile.cut.top, next.cut.top);
         }
-        // All that lies within the margins of the print is on some sheet.
+        // The sheets cover the whole area within the margins of the print.
         EXPECT_LE(left, a1.margin + 1e-9);
         EXPECT_GE(right, a1.width - a1.margin - 1e-9);
     }
@@ -79,7 +79,7 @@ TEST(Tiles, NeighboursShareTheOverlapAndNoMore) {
 TEST(Tiles, MarksOfNeighboursLieOnEachOther) {
     for (const double overlap : {0.0, 4.0, 10.0}) {
         const Tiling tiling = tiling_of(a1, {a4, overlap});
-        // Where crosses are on the print, with the number of sheets that have them.
+        // Positions of crosses on the print, with the number of sheets that have them.
         std::map<std::pair<long, long>, int> crosses;
         for (const Tile& tile : tiling.tiles) {
             Marks marks;
@@ -88,7 +88,7 @@ TEST(Tiles, MarksOfNeighboursLieOnEachOther) {
             ASSERT_EQ(marks.list.size(), 8u);
             const glm::dvec2 corner = tile_corner(tiling, tile);
             for (std::size_t i = 0; i + 1 < marks.list.size(); i += 2) {
-                // A level line and an upright one; both run along what is cut.
+                // Each cross has a horizontal and a vertical line along the cuts.
                 const glm::dvec2 at = glm::dvec2(marks.list[i + 1].first.x, marks.list[i].first.y) + corner;
                 own.emplace(std::lround(at.x * 1000), std::lround(at.y * 1000));
             }
@@ -133,7 +133,7 @@ TEST(Tiles, ClippingKeepsWhatMayBeSeen) {
     clip.polygon(near, {});
     clip.polygon(far, {});
     EXPECT_EQ(count.areas, 1);
-    // Leaves and comes back: two strokes.
+    // The stroke leaves the sheet and returns: two strokes.
     clip.begin_stroke({5.0, 5.0}, {});
     const std::vector<glm::dvec2> way = {{20.0, 5.0}, {20.0, 8.0}, {5.0, 8.0}};
     clip.lines(way);

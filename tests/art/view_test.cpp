@@ -1,4 +1,4 @@
-// tests/art/view_test.cpp: what is seen of drawings too large to be read: edge for edge against another form of the
+// tests/art/view_test.cpp: visible parts of drawings too large to be read, edge for edge against another form of the
 // curve, and pixel for pixel against drawings read in full.
 #include "art/drawing/view.h"
 

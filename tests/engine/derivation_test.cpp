@@ -247,7 +247,7 @@ TEST(Limits, AMillionStepsOfLinearGrowth) {
 }
 
 TEST(Limits, UnitChainsCollapseHoweverManyThereAre) {
-    const std::clock_t begin = std::clock();  // processor time: the machine may be busy
+    const std::clock_t begin = std::clock();  // processor time, because the machine may be busy
     struct TooSlow {};
     DerivationOptions options;
     options.watch = [&](std::uint64_t) {

@@ -128,8 +128,8 @@ TEST(Expression, MistakesNameTheirPlace) {
     expect_mistake("()", 2, "expected a number");
     expect_mistake("c + 1", 1, "'c' is not defined");
     expect_mistake("1 + A", 5, "'A' is not defined");  // names are case-sensitive
-    expect_mistake("sine(1)", 1, "no function 'sine'");
-    expect_mistake("a(1)", 1, "no function 'a'");
+    expect_mistake("sine(1)", 1, "unknown function 'sine'");
+    expect_mistake("a(1)", 1, "unknown function 'a'");
     expect_mistake("sin(1, 2)", 4, "takes 1 argument, not 2");
     expect_mistake("max(1)", 4, "takes 2 arguments, not 1");
     expect_mistake("max(1, )", 8, "expected a number");
@@ -144,7 +144,7 @@ TEST(Expression, MistakesNameTheirPlace) {
     expect_mistake("2a", 2, "number to end");
     expect_mistake("1.2.3", 4, "number to end");
     expect_mistake("0x10", 2, "number to end");
-    expect_mistake("1e400", 1, "no number");
+    expect_mistake("1e400", 1, "number is out of range");
     expect_mistake("\xCE\xB1 + \xCE\xB2", 5, "is not defined");
 }
 

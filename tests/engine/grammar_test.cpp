@@ -69,9 +69,9 @@ TEST(Words, CharactersThatAreNoSymbols) {
     expect_mistakes("axiom: F)\n", {{{1, 9}, "')' without '('"}});
     expect_mistakes("axiom: (2)F\n", {{{1, 8}, "'('"}});
     expect_mistakes("axiom: F (2)\n", {{{1, 10}, "without a blank"}});
-    expect_mistakes("axiom: F<G\n", {{{1, 9}, "'<' is no symbol"}});
-    expect_mistakes("axiom: F>G\n", {{{1, 9}, "'>' is no symbol"}});
-    expect_mistakes("axiom: F:G\n", {{{1, 9}, "':' is no symbol"}});
+    expect_mistakes("axiom: F<G\n", {{{1, 9}, "'<' is not a symbol"}});
+    expect_mistakes("axiom: F>G\n", {{{1, 9}, "'>' is not a symbol"}});
+    expect_mistakes("axiom: F:G\n", {{{1, 9}, "':' is not a symbol"}});
     expect_mistakes("axiom: F*G\n", {{{1, 9}, "'*' is the empty word"}});
     expect_mistakes("axiom: F\x01\n", {{{1, 9}, "control character"}});
     expect_mistakes("axiom: F\x7FG\n", {{{1, 9}, "control character"}});
@@ -118,8 +118,8 @@ TEST(Words, TheEmptyWordHasThreeSpellings) {
         const std::string text = "axiom: FGF\nderivation length: 1\nF --> ";
         EXPECT_EQ(derived_text(text + nothing + "\n"), "G") << nothing;
     }
-    expect_mistakes("axiom: F\n* --> F\n", {{{2, 1}, "no predecessor"}});
-    expect_mistakes("axiom: F\n\xCE\xB5 --> F\n", {{{2, 1}, "no predecessor"}});
+    expect_mistakes("axiom: F\n* --> F\n", {{{2, 1}, "cannot be a predecessor"}});
+    expect_mistakes("axiom: F\n\xCE\xB5 --> F\n", {{{2, 1}, "cannot be a predecessor"}});
     expect_mistakes("axiom: F\nF --> F*\n", {{{2, 8}, "stands alone"}});
 }
 
@@ -290,7 +290,7 @@ TEST(Keys, SymbolsThatMoveAreReplaced) {
         EXPECT_EQ(command(word, 0, keys).action, action) << word;
     }
     EXPECT_EQ(command("F", 0, "forward:\n").action, Action::pass);
-    expect_mistakes("axiom: F\nforward: F,G\n", {{{2, 11}, "no commas"}});
+    expect_mistakes("axiom: F\nforward: F,G\n", {{{2, 11}, "not by commas"}});
     expect_mistakes("axiom: F\nforward: FG\nmove: gG\n", {{{3, 7}, "both 'forward:' and 'move:'"}});
 }
 
@@ -330,8 +330,8 @@ TEST(Keys, TurtleSymbolsMeanWhatTheLanguageSays) {
 
 TEST(Keys, IgnoreAndConsiderExcludeEachOther) {
     expect_mistakes("axiom: F\nignore: +\nconsider: F\n", {{{3, 1}, "exclude each other"}});
-    expect_mistakes("axiom: F\nignore: +, -\n", {{{2, 10}, "no commas"}});
-    expect_mistakes("axiom: F\nconsider: A,B\n", {{{2, 12}, "no commas"}});
+    expect_mistakes("axiom: F\nignore: +, -\n", {{{2, 10}, "not by commas"}});
+    expect_mistakes("axiom: F\nconsider: A,B\n", {{{2, 12}, "not by commas"}});
     const Grammar ignoring = grammar_of("axiom: F + - F(2) [ ]\nignore: + F\n");
     const Grammar considering = grammar_of("axiom: F + - F(2) [ ]\nconsider: + F\n");
     const std::vector<bool> ignored = {true, true, false, true, false, false};
@@ -358,16 +358,16 @@ TEST(Defines, AreEvaluatedInAnyOrder) {
 
 TEST(Defines, MistakesAreToldOnce) {
     expect_mistakes("axiom: A(a, a)\ndefine a = 1 +\n", {{{2, 15}, "expected a number"}});
-    expect_mistakes("axiom: A\ndefine 1a = 1\n", {{{2, 8}, "no digit first"}});
+    expect_mistakes("axiom: A\ndefine 1a = 1\n", {{{2, 8}, "not begin with a digit"}});
     expect_mistakes("axiom: A\ndefine a-b = 1\n", {{{2, 8}, "letters, digits"}});
     expect_mistakes("axiom: A\ndefine a = b\n", {{{2, 12}, "'b' is not defined"}});
-    expect_mistakes("axiom: A\ndefine a = a + 1\n", {{{2, 8}, "defined by itself"}});
+    expect_mistakes("axiom: A\ndefine a = a + 1\n", {{{2, 8}, "refers to itself"}});
     for (const char* cycle : {"define a = b\ndefine b = a\n", "define a = b\ndefine b = c\ndefine c = a\n",
                               "define a = b + c\ndefine b = 1\ndefine c = a + b\n"}) {
         const auto found = diagnostics_of("axiom: A\n" + std::string(cycle));
         ASSERT_FALSE(found.empty());
         for (const Diagnostic& diagnostic : found) {
-            EXPECT_NE(diagnostic.message.find("defined by itself"), std::string::npos) << diagnostic.text();
+            EXPECT_NE(diagnostic.message.find("refers to itself"), std::string::npos) << diagnostic.text();
             EXPECT_EQ(diagnostic.where.column, 8);
         }
     }
@@ -417,8 +417,8 @@ TEST(Schedule, IsCutAtTheFront) {
 
 TEST(Schedule, ShorterThanTheDerivationIsAnError) {
     const std::string tables = "table a:\nF --> FA\ntable b:\nF --> FB\n";
-    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*2 b\n" + tables, {{{3, 11}, "holds 3 steps"}});
-    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*(n-5) b*3\n" + tables, {{{3, 11}, "holds 3 steps"}});
+    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*2 b\n" + tables, {{{3, 11}, "has 3 steps"}});
+    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*(n-5) b*3\n" + tables, {{{3, 11}, "has 3 steps"}});
     expect_mistakes("axiom: F\nderivation length: 1\nschedule: a*(0/0)\n" + tables, {{{3, 11}, "not a number"}});
     const Grammar grammar = grammar_of("axiom: F\nderivation length: 3\nschedule: a*2 b\n" + tables);
     EXPECT_FALSE(grammar.with_steps(4));
@@ -431,7 +431,7 @@ TEST(Schedule, MistakesNameTheirPlace) {
         expect_mistakes("axiom: F\nschedule: " + schedule + "\n" + tables, {{{2, column}, essence}});
     };
     expect("grow*2 grwo", 18, "did you mean 'grow'?");
-    expect("grow*2 zzzzzz", 18, "no table 'zzzzzz'");
+    expect("grow*2 zzzzzz", 18, "unknown table 'zzzzzz'");
     expect("grow*", 16, "expected a whole number");
     expect("grow*-1", 16, "expected a whole number");
     expect("grow*1.5", 16, "expected a whole number");

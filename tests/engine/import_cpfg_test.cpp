@@ -1,5 +1,5 @@
-// tests/engine/import_cpfg_test.cpp: systems of cpfg against an interpreter of their own and against bundled
-// patterns.
+// tests/engine/import_cpfg_test.cpp: compares imported systems of cpfg with an independent interpreter and with
+// bundled patterns.
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"
@@ -391,11 +391,11 @@ TEST(ImportCpfg, LossesAreTold) {
         has(losses(head + "A(x) : {x=1;} 1 {\nx=2;\n} --> B(x)\nendlsystem\n"), "the C statements of a production"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\ndecomposition\nB --> (\nendlsystem\n"), "line 4: the decomposition"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nhomomorphism\nmaximum depth: 3\nB --> BC\nendlsystem\n"),
-                    "line 5: that the homomorphism is applied to its own successors"));
+                    "line 5: a homomorphism that is applied to its own successors"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nendlsystem\nLsystem: 2\n"), "line 5: the sub-L-systems"));
     EXPECT_TRUE(
-        has(losses("#include <stdio.h>\n" + head + "A(x) --> B\nendlsystem\n"), "line 1: what #include would bring"));
-    EXPECT_TRUE(has(losses("Lsystem: 1\nring Lsystem\nAxiom: F\nendlsystem\n"), "line 2: that the word is a ring"));
+        has(losses("#include <stdio.h>\n" + head + "A(x) --> B\nendlsystem\n"), "line 1: the contents of #include"));
+    EXPECT_TRUE(has(losses("Lsystem: 1\nring Lsystem\nAxiom: F\nendlsystem\n"), "line 2: the ring of the word"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nStartEach: {\n a=1;\n}\nAxiom: F\nendlsystem\n"),
                     "line 2: the C statements of 'starteach:'"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA --> C\nA > B --> D\nendlsystem\n"),
@@ -403,7 +403,7 @@ TEST(ImportCpfg, LossesAreTold) {
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: AB\nA > =]B --> D\nendlsystem\n"),
                     "line 3: this production: a right context"));
     EXPECT_TRUE(has(losses("Lsystem: 1\nAxiom: [AB]\nA > [B]C --> D\nendlsystem\n"),
-                    "that a branch in a right context ends"));
+                    "right contexts that end with their branch"));
     // Constants that are set once, when all begins, are defines.
     const ImportedSystem start = cpfg(
         "#define SI 1.5\nLsystem: 0\nStart: {c=SI+2*0.25;n = c;}\nderivation length: 1\nAxiom: A\nA --> F(c)F(n+1)\n"
@@ -440,8 +440,8 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect(head + "A(x) : x = 1 --> B\nendlsystem\n", {{{3, 10}, "expected '=='"}});
     expect(head + "A(x) : --> B(x+)\nendlsystem\n", {{{3, 16}, "expected a number, a name or '('"}});
     expect(head + "A(x) : (x --> B\n\nA(y) --> B)\nendlsystem\n",
-           {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is no symbol"}});
-    expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "no number that a double holds"}});
+           {{{3, 11}, "expected ')'"}, {{5, 11}, "')' is not a symbol"}});
+    expect(head + "A(x) --> B(1e999)\nendlsystem\n", {{{3, 12}, "number is out of range"}});
     expect(head + "A(x) --> B : 1 2\nendlsystem\n", {{{3, 16}, "expected the end of the line"}});
     expect("/* no end\n", {{{1, 1}, "this comment has no end"}, {{1, 1}, "there is no line 'Lsystem:'"}});
     // The preprocessor.

@@ -1,5 +1,5 @@
-// tests/engine/import_test.cpp: systems of Fractint against an interpreter of their own; the program on files of both
-// kinds.
+// tests/engine/import_test.cpp: compares imported systems of Fractint with an independent interpreter; runs the
+// program on files of both kinds.
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"
@@ -291,14 +291,14 @@ TEST(ImportFractint, Colours) {
     for (int order = 0; order < 4; ++order) expect_same_picture(erased, pattern, order, true);
     const auto stepped = fractint("A {\nangle 6\naxiom F<1F>2F\n}\n");
     ASSERT_EQ(stepped[0].losses.size(), 1U);
-    EXPECT_TRUE(has(stepped[0].losses[0], "line 3: that stepping through the colours passes over colour 0"));
-    EXPECT_TRUE(has(stepped[0].pattern, "Not carried over: line 3: that stepping"));
+    EXPECT_TRUE(has(stepped[0].losses[0], "line 3: cycles of colours that skip colour 0"));
+    EXPECT_TRUE(has(stepped[0].pattern, "Not supported: line 3: cycles"));
 }
 
 TEST(ImportFractint, OneHeadingForTwoIsTold) {
     const auto systems = fractint("A {\nangle 6\naxiom F+D\\20\n}\n");
     ASSERT_EQ(systems[0].losses.size(), 1U);
-    EXPECT_TRUE(has(systems[0].losses[0], "line 3: F and G go one way and D and M another"));
+    EXPECT_TRUE(has(systems[0].losses[0], "line 3: separate headings of F and G and of D and M"));
     // Turns of the heading that no step takes do nothing in either program.
     for (const char* entry :
          {"A {\nangle 6\naxiom F+F\\20F/3F\nF=F+F\\5F\n}\n", "A {\nangle 6\naxiom D+D\\20|DM/3D\nD=D\\5M-D\n}\n"}) {
@@ -382,7 +382,7 @@ TEST(ImportFractint, MistakesAreTold) {
     expect("A {\naxiom F\nangle 8\nFF=F\n}\n", {{{4, 1}, "expected 'Angle n', 'Axiom word' or a rule"}});
     expect("A {\naxiom F[+F\nangle 8\n}\n", {{{2, 8}, "this '[' is not closed"}});
     expect("A {\naxiom F@F\nangle 8\n}\n", {{{2, 8}, "a number above 0 after '@'"}});
-    expect("A {\naxiom F@1.2.3F\nangle 8\n}\n", {{{2, 9}, "no decimal number"}});
+    expect("A {\naxiom F@1.2.3F\nangle 8\n}\n", {{{2, 9}, "not a decimal number"}});
     expect("A {\naxiom F\xC3\xA4\nangle 8\n}\n", {{{2, 8}, "ASCII"}});
     expect("A {\naxiom F\nangle 8\n", {{{1, 3}, "the entry 'A' has no end: expected '}'"}});
     expect("A {\n}\nB {\naxiom F\n}\n", {{{1, 1}, "no axiom"}, {{3, 1}, "no angle"}});

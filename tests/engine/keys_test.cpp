@@ -33,7 +33,7 @@ TEST(Keys, AreTheRowsOfTheManual) {
     }
 }
 
-/// A value that no key but a free text takes is an error of the owner alone.
+/// A value that only free-text keys accept is an error in every other key, reported by its owner alone.
 TEST(Keys, AreReadByTheirOwner) {
     for (const KeyInfo& key : language_keys()) {
         SCOPED_TRACE(key.name);

@@ -486,7 +486,7 @@ TEST(ModuleMistakes, HaveTheirPlaces) {
     expect_mistakes("axiom: A(1)\nA(x) < A(x) --> A(1)\n", {{{2, 10}, "named twice"}});
     expect_mistakes("axiom: A(1,2)\nA(x,x) --> A(1,2)\n", {{{2, 5}, "named twice"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(y)\n", {{{2, 12}, "'y' is not defined"}});
-    expect_mistakes("axiom: A(1)\nA(x) --> A(sine(x))\n", {{{2, 12}, "no function 'sine'"}});
+    expect_mistakes("axiom: A(1)\nA(x) --> A(sine(x))\n", {{{2, 12}, "unknown function 'sine'"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(max(x))\n", {{{2, 15}, "takes 2 arguments"}});
     expect_mistakes("axiom: A(1)\nA() --> A(1)\n", {{{2, 3}, "expected a parameter"}});
     expect_mistakes("axiom: A(1)\nA(x --> A(1)\n", {{{2, 1}, "expected"}});
@@ -502,10 +502,10 @@ TEST(ModuleMistakes, HaveTheirPlaces) {
     expect_mistakes("axiom: A\nA --> B : 1e308\nA --> C : 1e308\n", {{{2, 11}, "no finite sum"}});
     expect_mistakes("axiom: A\nA > [B --> C\n", {{{2, 5}, "not closed"}});
     expect_mistakes("axiom: A\nA > B]C --> C\n", {{{2, 5}, "without '['"}});
-    expect_mistakes("axiom: A\n[B] < A --> C\n", {{{2, 1}, "left context holds no brackets"}});
+    expect_mistakes("axiom: A\n[B] < A --> C\n", {{{2, 1}, "left context cannot contain brackets"}});
     expect_mistakes("axiom: A\nA% --> C\n", {{{2, 2}, "gone before"}});
     expect_mistakes("axiom: A%(3)\n", {{{1, 10}, "no parameters"}});
-    expect_mistakes("axiom: A\nignore: F(1)\n", {{{2, 10}, "no parameters"}});
+    expect_mistakes("axiom: A\nignore: F(1)\n", {{{2, 10}, "cannot contain parameters"}});
     expect_mistakes("axiom: A\ndefine a = random(0, 1)\n", {{{2, 12}, "chance has no place here"}});
     expect_mistakes("axiom: A\nseed: -1\n", {{{2, 7}, "whole number"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(x)\nA(y) --> A(y)\n", {{{3, 1}, "can never apply"}});

@@ -194,7 +194,7 @@ TEST(OutputFile, CommitSynchronisesTheDescriptorThatWasWritten) {
     if (child == 0) {
         OutputFile file(folder / "a");
         file.write("whole");
-        // No other file can be opened any more.
+        // No further file can be opened.
         const rlimit none{0, 0};
         if (::setrlimit(RLIMIT_NOFILE, &none) != 0) ::_exit(3);
         ::_exit(complaint([&] { file.commit(); }).empty() ? 0 : 4);

@@ -1,4 +1,4 @@
-// tests/engine/parts_test.cpp: what parts do and cover, against the fold and against walking the word.
+// tests/engine/parts_test.cpp: compares the motion and area of parts with the fold and with walking the word.
 #include "engine/measure/parts.h"
 
 #include "engine/derivation/derivation.h"

@@ -70,7 +70,7 @@ def left_behind():
 
 
 def stop(arguments, delay):
-    """Whether a command stopped after `delay` seconds behaves correctly. One that was just about to end may succeed."""
+    """True if a command stopped after `delay` seconds behaves correctly. A command that was about to end may succeed."""
     before = set(os.listdir("."))
     process = subprocess.Popen([program, "-q", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     time.sleep(delay)

@@ -1,5 +1,5 @@
-// tests/fuzz/file_targets.h: checks by the fuzzers on untrusted files; tests/corpus_test.cpp does the same with the
-// corpus.
+// tests/fuzz/file_targets.h: checks of the fuzzers for untrusted files; tests/program/corpus_test.cpp runs them on
+// the corpus.
 #pragma once
 
 #include "art/provenance/provenance.h"

@@ -13,13 +13,13 @@
 
 namespace sikku {
 
-/// Reads up to the list of jobs, with bundled patterns only. A mistake is a GalleryError; jobs have files of their
-/// own below the gallery's folder, and read back from their texts as the same jobs.
+/// Expands a gallery file into a list of jobs, with bundled patterns only. Errors are GalleryErrors; jobs have
+/// distinct files below the gallery's folder, and their texts are read back as the same jobs.
 inline void try_gallery(GalleryRequest request) {
     static const GalleryKeys keys({&prints(), &scores()});
     constexpr std::size_t most_read_back = 50;
     request.bundled_only = true;
-    request.most_jobs = 20'000;  // a million take 11 s under sanitizers, longer than a fuzzer may wait
+    request.most_jobs = 20'000;  // a million jobs take 11 s under sanitizers, too long for a fuzzer
     try {
         const std::vector<GalleryJob> jobs = gallery_jobs(request, keys);
         require(static_cast<double>(jobs.size()) <= request.most_jobs, "more jobs than are allowed");

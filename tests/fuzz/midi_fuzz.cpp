@@ -1,4 +1,4 @@
-// tests/fuzz/midi_fuzz.cpp: checks MIDI files and reads back what they were made from.
+// tests/fuzz/midi_fuzz.cpp: checks MIDI files and reads the patterns in them.
 #include "tests/fuzz/file_targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,6 @@
 #!/bin/sh
-# Installs a build into an empty folder, then builds and runs other projects against it, among them every program of
-# docs/library.md.
-# Usage: run.sh CMAKE BUILD_FOLDER
+# Installs a build into an empty folder, then builds and runs other projects against it, including every program of
+# docs/library.md. Usage: run.sh CMAKE BUILD_FOLDER
 set -eu
 cmake=$1
 build=$2
@@ -20,7 +19,7 @@ awk -v folder="$work/programs" '/^```cpp$/ { file = folder "/program-" ++count "
 cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
 generator=$(sed -n 's/^CMAKE_GENERATOR:[A-Z]*=//p' "$build/CMakeCache.txt")
 sanitize=$(sed -n 's/^SIKKU_SANITIZE:[A-Z]*=//p' "$build/CMakeCache.txt")
-# Programs beside the installed one find its patterns and its image module, wherever the package was moved.
+# Programs beside the installed one find its patterns and its image module, even if the package was moved.
 quietly "$cmake" -G "$generator" -S "$here" -B "$work/build" -DPROGRAMS="$work/programs" \
     -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$work/prefix/bin" \
     -DCMAKE_CXX_COMPILER="$cxx" ${sanitize:+-DCMAKE_CXX_FLAGS="-fsanitize=$sanitize"}

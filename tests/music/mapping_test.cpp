@@ -1,4 +1,4 @@
-// tests/music/mapping_test.cpp: curves as notes, against sequences worked out by hand and by another road.
+// tests/music/mapping_test.cpp: compares the notes of curves with sequences computed by hand and by another method.
 #include "music/melody/mapping.h"
 
 #include "music/melody/melody_fold.h"

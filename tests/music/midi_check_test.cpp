@@ -78,22 +78,22 @@ TEST(MidiCheck, TheNineteenClassicFaults) {
         {"4 length too long",
          with_byte(good, melody_at + 7, 100),
          {{45,
-           "track 2: its length is told as 100 bytes, but its end-of-track, and with it the file, comes after 22"}}},
+           "track 2: its length is given as 100 bytes, but its end-of-track, and with it the file, comes after 22"}}},
         {"4 length too long, a track follows",
          with_byte(good, 21, 19 + 10),
-         {{18, "track 1: its length is told as 29 bytes, but its end-of-track comes after 19"}}},
+         {{18, "track 1: its length is given as 29 bytes, but its end-of-track comes after 19"}}},
         {"4 length too long by two tracks",
          with_byte(good, 20, 1),
-         {{18, "track 1: its length is told as 275 bytes, but its end-of-track comes after 19"}}},
+         {{18, "track 1: its length is given as 275 bytes, but its end-of-track comes after 19"}}},
         {"5 length too short",
          with_byte(good, melody_at + 7, 20),
-         {{45, "track 2: its length is told as 20 bytes, but its events go on after that"}}},
+         {{45, "track 2: its length is given as 20 bytes, but its events go on after that"}}},
         {"5 length too short, within an event",
          with_byte(good, melody_at + 7, 7),
-         {{45, "track 2: its length is told as 7 bytes"}}},
+         {{45, "track 2: its length is given as 7 bytes"}}},
         {"5 length too short, a track follows",
          with_byte(good, 21, 9),
-         {{18, "track 1: its length is told as 9 bytes, but its events go on"}}},
+         {{18, "track 1: its length is given as 9 bytes, but its events go on"}}},
         {"6 running status after meta",
          melody("00 90 3C 50  00 FF 01 01 61  83 60 3C 00  00 3E 50  10 3E 00  00 FF 2F 00"),
          {{60, "track 2, tick 480: data byte 3C where the status of an event is needed: running status ends"}}},
@@ -105,8 +105,8 @@ TEST(MidiCheck, TheNineteenClassicFaults) {
          {{55, "track 2, tick 480: a note-on of channel 1, key 60 before the note-off of the same tick"}}},
         {"8 header says 3 tracks, has 2",
          with_byte(good, 11, 3),
-         {{10, "header: it tells 3 tracks, but there are 2"}}},
-        {"8 header says 1 track, has 2", with_byte(good, 11, 1), {{10, "it tells 1 track, but there are 2"}}},
+         {{10, "header: it declares 3 tracks, but there are 2"}}},
+        {"8 header says 1 track, has 2", with_byte(good, 11, 1), {{10, "it declares 1 track, but there are 2"}}},
         {"9 data byte > 7F", with_byte(good, 52, 0x90), {{52, "track 2, tick 0: data byte 90 is above 7F"}}},
         {"10 two end-of-tracks",
          melody(one_note + "00 FF 2F 00  00 FF 2F 00"),
@@ -168,8 +168,8 @@ TEST(MidiCheck, HeadersAndChunks) {
     const std::string good = good_file();
     const std::string rest = good.substr(14);
     const std::vector<Case> cases = {
-        {"empty", "", {{0, "this is no MIDI file: it is empty"}}},
-        {"text", "axiom: F\n", {{0, "this is no MIDI file: it does not begin with MThd"}}},
+        {"empty", "", {{0, "this is not a MIDI file: it is empty"}}},
+        {"text", "axiom: F\n", {{0, "this is not a MIDI file: it does not begin with MThd"}}},
         {"RIFF", "RIFF\x10", {{0, "this is a RIFF file"}}},
         {"four bytes", "MThd", {{4, "header: the file ends within it"}}},
         {"thirteen bytes", good.substr(0, 13), {{13, "header: the file ends within it"}}},
@@ -177,8 +177,8 @@ TEST(MidiCheck, HeadersAndChunks) {
         {"huge header", with_byte(good, 4, 0xFF), {{4, "but the file ends after 63"}}},
         {"format 2", with_byte(good, 9, 2), {{8, "format 2"}}},
         {"format 3", with_byte(good, 9, 3), {{8, "format 3, but there are only 0, 1 and 2"}}},
-        {"no tracks", header, {{10, "it tells 2 tracks, but there are 0"}}},
-        {"no tracks, as told", with_byte(header, 11, 0), {{10, "header: it tells that there are no tracks"}}},
+        {"no tracks", header, {{10, "it declares 2 tracks, but there are 0"}}},
+        {"no tracks, as told", with_byte(header, 11, 0), {{10, "header: it declares no tracks"}}},
         {"SMPTE of 24 frames", with_byte(with_byte(good, 12, 0xE8), 13, 100), {}},
         {"SMPTE of 29.97 frames", with_byte(with_byte(good, 12, 0xE3), 13, 100), {}},
         {"SMPTE of 26 frames", with_byte(with_byte(good, 12, 0xE6), 13, 100), {{12, "26 SMPTE frames a second"}}},
@@ -190,7 +190,7 @@ TEST(MidiCheck, HeadersAndChunks) {
          {{41, "after track 1: 5 bytes that form no chunk"}}},
         {"bytes after the header", header + "\xFF" + good.substr(14), {{14, "after the header: 1 byte that"}}},
         {"half a chunk head", good + "MTrk", {{71, "4 bytes that form no chunk"}}},
-        {"two files", good + good, {{10, "tells 2 tracks, but there are 4"}, {71, "a second header"}}},
+        {"two files", good + good, {{10, "declares 2 tracks, but there are 4"}, {71, "a second header"}}},
         {"an empty track", header + conductor + midi_chunk("MTrk", ""), {{49, "it has no end-of-track"}}}};
     for (const Case& expected : cases) expect_faults(expected);
 }
@@ -222,7 +222,7 @@ TEST(MidiCheck, Events) {
          {}},
         {"data without status",
          melody("00 3C 50" + end),
-         {{at(1), "data byte 3C where the status of an event is needed; the rest of the track is not looked at"}}},
+         {{at(1), "data byte 3C where the status of an event is needed; the rest of the track is ignored"}}},
         {"undefined status bytes",
          melody("00 F1 10 00 F2 10 20 00 F3 01 00 F4 00 F5 00 F6 00 F8 00 FE" + end),
          {{at(1), "status byte F1, which no"},
@@ -265,7 +265,7 @@ TEST(MidiCheck, TellsAllFaultsByPlaceAndAtMostFifty) {
     expect_faults(
         {"several",
          with_byte(with_byte(melody("00 90 3C 50 10 81 3C 40 00 FF 59 02 09 00 00 FF 2F 00"), 11, 7), 26, 0),
-         {{10, "tells 7"}, {50, "does not end"}, {54, "does not sound"}, {61, "9 fifths"}}});
+         {{10, "declares 7"}, {50, "does not end"}, {54, "does not sound"}, {61, "9 fifths"}}});
     std::string many;
     for (int i = 0; i < 1000; ++i) many += "00 80 3C 40 ";
     const auto faults = check_midi(melody(many + "00 FF 2F 00"));
@@ -392,13 +392,13 @@ TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
     EXPECT_EQ(outcome.output + outcome.errors, "");
     outcome = run({"check", bad, good});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_EQ(outcome.output, bad + ": byte 10: header: it tells 3 tracks, but there are 2\n");
+    EXPECT_EQ(outcome.output, bad + ": byte 10: header: it declares 3 tracks, but there are 2\n");
     EXPECT_EQ(outcome.errors, "");
     std::string many;
     for (int i = 0; i < 60; ++i) many += "00 80 3C 40 ";
     outcome = run({"check", folder.write("many.mid", melody(many + "00 FF 2F 00"))});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.output, "no more than 50 faults are told"));
+    EXPECT_TRUE(has(outcome.output, "only the first 50 faults are listed"));
     outcome = run({"check", folder.file("none.mid")});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_TRUE(has(outcome.errors, "none.mid: No such file or directory"));

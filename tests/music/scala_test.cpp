@@ -1,4 +1,4 @@
-// tests/music/scala_test.cpp: scales and key maps in the files of Scala.
+// tests/music/scala_test.cpp: scales and key maps in Scala files.
 #include "music/scale/scale.h"
 
 #include <gtest/gtest.h>
@@ -190,9 +190,9 @@ TEST(Scl, IsNamedAfterItsFile) {
 
 TEST(Scl, TellsEachMistakeAtItsPlace) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"", "1:1 this is no Scala scale: a description, the number of notes and the notes are missing\n"},
+        {"", "1:1 this is not a Scala scale: a description, the number of notes and the notes are missing\n"},
         {"! only\n! comments\n",
-         "3:1 this is no Scala scale: a description, the number of notes and the notes are missing\n"},
+         "3:1 this is not a Scala scale: a description, the number of notes and the notes are missing\n"},
         {"Name\n", "2:1 after the description the number of notes is missing\n"},
         {"Name\n\n2/1\n", "2:1 the second line has to be the number of notes\n"},
         {"Name\n two\n2/1\n", "2:2 the second line has to be the number of notes, not 'two'\n"},
@@ -220,9 +220,9 @@ TEST(Scl, TellsEachMistakeAtItsPlace) {
         {"Name\n2\n3 / 2\n2/1\n", "3:1 a ratio is written without blanks: 3/2\n"},
         {"Name\n2\n3 /2\n2/1\n", "3:1 a ratio is written without blanks: 3/2\n"},
         {"Name\n2\n3/ 2\n2/1\n", "3:1 a ratio is written without blanks: 3/2\n"},
-        {"Name\n2\n0/3\n2/1\n", "3:1 the ratio '0/3' is no pitch: both of its numbers are above 0\n"},
-        {"Name\n2\n3/0\n2/1\n", "3:1 the ratio '3/0' is no pitch: both of its numbers are above 0\n"},
-        {"Name\n2\n0\n2/1\n", "3:1 the ratio '0' is no pitch: both of its numbers are above 0\n"},
+        {"Name\n2\n0/3\n2/1\n", "3:1 the ratio '0/3' is not a pitch: expected numbers above 0\n"},
+        {"Name\n2\n3/0\n2/1\n", "3:1 the ratio '3/0' is not a pitch: expected numbers above 0\n"},
+        {"Name\n2\n0\n2/1\n", "3:1 the ratio '0' is not a pitch: expected numbers above 0\n"},
         {"Name\n2\n-3/2\n2/1\n", "3:1 '-3/2' is a ratio below 0; negative cents are written with a point: -5.0\n"},
         {"Name\n2\n-5\n2/1\n", "3:1 '-5' is a ratio below 0; negative cents are written with a point: -5.0\n"},
         {"Name\n2\n3/-2\n2/1\n", "3:1 '3/-2' is neither cents, as 701.955, nor a ratio, as 3/2\n"},
@@ -238,7 +238,7 @@ TEST(Scl, TellsEachMistakeAtItsPlace) {
         // All at once, in any line end.
         {"Name\r\n4\r\nx\r\n3/2\r\n \t0/1\r\n",
          "3:1 'x' is neither cents, as 701.955, nor a ratio, as 3/2\n"
-         "5:3 the ratio '0/1' is no pitch: both of its numbers are above 0\n"
+         "5:3 the ratio '0/1' is not a pitch: expected numbers above 0\n"
          "6:1 1 of the 4 notes are missing\n"},
         {"S\xC3\xA9kar\n2\n\xE9t\xE9\n2/1\n", "3:1 'été' is neither cents, as 701.955, nor a ratio, as 3/2\n"},
     };
@@ -252,7 +252,7 @@ TEST(Scl, TellsEachMistakeAtItsPlace) {
 TEST(Scl, WarnsOfMoreNotesThanItTellsOf) {
     const auto read = scl("Name\n1\n3/2\n2/1\n5/1\n");
     ASSERT_TRUE(read.value);
-    EXPECT_EQ(read.told(), "4:1 warning: there are more than 1 notes; from here on they are not looked at\n");
+    EXPECT_EQ(read.told(), "4:1 warning: there are more than 1 notes; the rest is ignored\n");
     EXPECT_EQ(scl("Name\n1\n2/1\n[info]\nwritten by me\n\x1A").told(), "");
 }
 
@@ -397,9 +397,9 @@ TEST(Kbm, TellsEachMistakeAtItsPlace) {
     for (const auto& [text, expected] : cases) EXPECT_EQ(kbm(text).told(), expected) << text;
     EXPECT_EQ(kbm(std::string("0\n\0", 3)).told(), "2:1 this is not a Scala key map: it holds a NUL byte\n");
     EXPECT_EQ(kbm("1\n" + head + "0\n0\n1\n").told(),
-              "9:1 warning: there are more than 1 degrees; from here on they are not looked at\n");
+              "9:1 warning: there are more than 1 degrees; the rest is ignored\n");
     EXPECT_EQ(kbm("0\n" + head + "0\n0\n1\n").told(),
-              "8:1 warning: the size of this map is 0; what follows its head is not looked at\n");
+              "8:1 warning: the size of this map is 0; the rest of the file is ignored\n");
 }
 
 TEST(MappedKey, IsTheKeyItselfInTwelveEqualSteps) {

@@ -1,5 +1,4 @@
-// tests/music/scale_test.cpp: the scales that come along, the melakarta, how a melody takes its degrees, `sikku
-// scales`.
+// tests/music/scale_test.cpp: the bundled scales, the melakarta, the degrees of melodies, `sikku scales`.
 #include "music/scale/scale.h"
 
 #include "tests/program.h"
@@ -667,7 +666,7 @@ TEST(ScalesCommand, LooksForWords) {
     const Outcome missed = run({"scales", "dorain"});
     EXPECT_EQ(missed.status, 2);
     EXPECT_EQ(missed.output, "");
-    EXPECT_TRUE(has(missed.errors, "there is no scale 'dorain'; did you mean 'dorian'"));
+    EXPECT_TRUE(has(missed.errors, "unknown scale 'dorain'; did you mean 'dorian'"));
     EXPECT_TRUE(has(run({"scales", "wholly unlike"}).errors, "`sikku scales` lists the bundled scales"));
     EXPECT_TRUE(has(run({"scales", "major", "--tonic", "H"}).errors, "--tonic H"));
 }

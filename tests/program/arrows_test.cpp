@@ -1,5 +1,5 @@
-// tests/program/arrows_test.cpp: which room may include what. art and music never see each other, the engine sees
-// neither.
+// tests/program/arrows_test.cpp: checks the includes of each room. art and music never include each other; the engine
+// includes neither.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -37,22 +37,23 @@ std::vector<Include> includes_of(const std::string& folder) {
     return found;
 }
 
-/// The room of a file: its folder. A file directly in `art` or `music` is the public floor of that folder.
+/// The room of a file, which is its folder. Files directly in `art` or `music` are the public interface of the
+/// library.
 std::string room_of(const std::string& file) {
     return std::filesystem::path(file).parent_path().string();
 }
 
-/// A room and all that it may include from: rooms, in order from the bottom, and libraries.
+/// A room, and the rooms and libraries that it may include from.
 struct Room {
     std::string name;
-    std::string rooms;      ///< of the project
-    std::string libraries;  ///< beside the standard library, fmt, and GLM's vectors
+    std::string rooms;      ///< rooms of the project
+    std::string libraries;  ///< libraries other than the standard library, fmt, and GLM's vectors
 };
 
-/// The one table of arrows. Each room sees only rooms above it in this list, so there are no cycles.
+/// All permitted includes. Each room includes only from rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "boost tbb posix"},
+        {"engine/base", "", "boost fast_float tbb posix"},
         {"engine/language", "engine/base", ""},
         {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
@@ -93,9 +94,9 @@ bool allows(const std::string& rooms, const std::string& room) {
 /// The library that a header in angle brackets belongs to; empty for the standard library.
 std::string library_of(const std::string& name) {
     static const std::map<std::string, std::string> folders = {
-        {"boost", "boost"},   {"fmt", "fmt"},          {"glm", "glm"},   {"oneapi", "tbb"},
-        {"tbb", "tbb"},       {"OpenImageIO", "oiio"}, {"CLI", "cli11"}, {"toml++", "toml"},
-        {"nlohmann", "json"}, {"sys", "posix"},        {"embedded", ""}};
+        {"boost", "boost"},           {"fmt", "fmt"},   {"glm", "glm"},     {"oneapi", "tbb"},    {"tbb", "tbb"},
+        {"OpenImageIO", "oiio"},      {"CLI", "cli11"}, {"toml++", "toml"}, {"nlohmann", "json"}, {"sys", "posix"},
+        {"fast_float", "fast_float"}, {"embedded", ""}};
     static const std::map<std::string, std::string> files = {
         {"zlib.h", "zlib"},     {"lcms2.h", "lcms"},   {"fcntl.h", "posix"}, {"unistd.h", "posix"},
         {"dlfcn.h", "posix"},   {"signal.h", "posix"}, {"spawn.h", "posix"}, {"poll.h", "posix"},
@@ -115,7 +116,7 @@ TEST(Arrows, EachRoomSeesOnlyRoomsBelowIt) {
         const auto list = includes_of(room.name);
         EXPECT_FALSE(list.empty()) << room.name;
         for (const auto& [file, name, quoted] : list) {
-            if (room_of(file) != room.name) continue;  // of a room below this folder
+            if (room_of(file) != room.name) continue;  // belongs to a room in a subfolder
             if (!quoted || room_of(name) == room.name || !std::filesystem::path(name).has_parent_path()) continue;
             EXPECT_TRUE(known.contains(room_of(name))) << file << " includes " << name << ", which is above it";
             EXPECT_TRUE(allows(room.rooms, room_of(name))) << file << " includes " << name;
@@ -139,7 +140,7 @@ TEST(Arrows, EachRoomUsesOnlyItsLibraries) {
     }
 }
 
-/// fmt is not part of the interface of the engine: users of the library need not have it.
+/// fmt is not part of the interface of the engine: users of the library need not install it.
 TEST(Arrows, HeadersOfTheEngineDoWithoutFmt) {
     const std::string lists = contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "engine/CMakeLists.txt");
     for (const auto& [file, name, quoted] : includes_of("engine")) {

@@ -1,4 +1,4 @@
-// tests/program/bad_input_test.cpp: whatever is handed to the program, it answers or refuses, soon, in little memory.
+// tests/program/bad_input_test.cpp: the program accepts or refuses any input quickly and in little memory.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -180,7 +180,7 @@ TEST(BadInput, LineEndsAndMarks) {
 TEST(BadInput, SymbolsBeyondAscii) {
     const Outcome outcome = piped("axiom: FåF日本\nå --> F😀\n", {"-n", "1"}, "derive");
     EXPECT_EQ(outcome.output, "FF😀F日本\n") << outcome.errors;
-    expect_mistake("axiom: F−F", "-:1:9: '−' is no symbol: write '-'");
+    expect_mistake("axiom: F−F", "-:1:9: '−' is not a symbol: write '-'");
     expect_mistake("axiom: åF→F", "-:1:10: ");
     expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is not the arrow of a production; expected '-->'");
     expect_mistake("axiom: F\nF -> FF", "-:2:3: '->' is not the arrow of a production; expected '-->'");
@@ -245,7 +245,7 @@ TEST(BadInput, KeysAndValues) {
     expect_mistake("axiom: F\nforward: F\nmove: F", "-:3:7: 'F' is listed under both");
     expect_mistake("axiom: F\ntable a:\ntable b:", "-:3:7: several tables need a 'schedule:'");
     expect_mistake("axiom: X\nderivation length: 5\ntable a:\nX --> F\ntable b:\nX --> f\nschedule: a b\n",
-                   "-:7:11: the schedule holds 2 steps, the derivation length is 5");
+                   "-:7:11: the schedule has 2 steps, but the derivation length is 5");
 }
 
 TEST(BadInput, Brackets) {
@@ -318,7 +318,7 @@ TEST(BadInput, ManyTablesVariantsDefinesKeys) {
     expect_answer(tables + schedule, "\"symbols\": 1");
     expect_answer(variants, "\"symbols\": 1");
     expect_answer(defines + "define a30000 = 1\n", "\"length\": 30001.0");
-    expect_mistake(defines + "define a30000 = a0\n", "is defined by itself");
+    expect_mistake(defines + "define a30000 = a0\n", "refers to itself");
     expect_mistake(keys, "too many keys");
 }
 
@@ -347,7 +347,7 @@ TEST(BadInput, ScheduleOfManyItems) {
     const std::string head = "axiom: X\nderivation length: 100000\ntable a:\nX --> XF\ntable b:\nX --> fX\n";
     expect_answer(head + "schedule: " + repeated("a b ", 50'000), "\"drawn\": 50000");
     expect_answer(head + "schedule: " + repeated("a*(n/n) b*1 ", 50'000), "\"drawn\": 50000");
-    expect_mistake(head + "schedule: " + repeated("a b ", 49'999), "the schedule holds 99998 steps");
+    expect_mistake(head + "schedule: " + repeated("a b ", 49'999), "the schedule has 99998 steps");
     expect_mistake(head + "schedule: a*(0/0) b*(n)", "not a number");
     expect_answer(head + "schedule: a*(-5) b*(1e300)", "\"drawn\": 0");
     const std::string units = "axiom: F\ntable a:\nF --> F\nschedule: a*n\n";
@@ -355,8 +355,8 @@ TEST(BadInput, ScheduleOfManyItems) {
 }
 
 TEST(BadInput, CyclicDefines) {
-    expect_mistake("define a = b\ndefine b = c\ndefine c = a\naxiom: F(a)\n", "is defined by itself");
-    expect_mistake("define a = a\naxiom: F(a)\n", "-:1:8: 'a' is defined by itself");
+    expect_mistake("define a = b\ndefine b = c\ndefine c = a\naxiom: F(a)\n", "refers to itself");
+    expect_mistake("define a = a\naxiom: F(a)\n", "-:1:8: the definition of 'a' refers to itself");
 }
 
 TEST(BadInput, DeepExpressions) {
@@ -379,8 +379,8 @@ TEST(BadInput, LongTokens) {
     expect_mistake(token + ": 3\naxiom: F\n", "-:1:1: unknown key");
     expect_mistake(token + "\naxiom: F\n", "-:1:1: ");
     expect_mistake("axiom: F(" + token + ")\n", "is not defined");
-    expect_mistake("axiom: F(" + token + "(1))\n", "there is no function");
-    expect_mistake("axiom: F\nschedule: " + token, "there is no table");
+    expect_mistake("axiom: F(" + token + "(1))\n", "unknown function");
+    expect_mistake("axiom: F\nschedule: " + token, "unknown table");
     expect_mistake("axiom: F\nline: " + token, "-:2:7: ");
     expect_mistake("axiom: F\nstroke: " + token, "-:2:9: ");
     expect_mistake("axiom: F\npalette: " + token, "-:2:10: ");
@@ -449,7 +449,7 @@ TEST(BadInput, ParametersOfEverySize) {
                              "[[[F]]]",
                              "f"}) {
         for (const char* more :
-             {"", "\nline: spline", "\nangle factor: 7", "\nangle increment: 12.345", "\nstroke: 0.2 step"}) {
+             {"", "\nline: spline\nangle factor: 7", "\nangle increment: 12.345\nstroke: 0.2 step"}) {
             const std::string text = "axiom: " + (word + std::string(more));
             SCOPED_TRACE(text);
             const Outcome told = piped(text, {"--json"});

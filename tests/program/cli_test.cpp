@@ -1,4 +1,4 @@
-// tests/program/cli_test.cpp: the program as its user meets it: commands, exit statuses, outputs, signals.
+// tests/program/cli_test.cpp: the program as seen by its users: commands, exit statuses, outputs, signals.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -211,12 +211,13 @@ TEST(Program, UnknownCommandsAreNamed) {
 }
 
 TEST(Program, NamesNearToKnownOnesAreSuggested) {
+    expect_failure(run({"-q"}), 2, "expected a command; `sikku --help` lists them");
     expect_failure(run({"measure", "hilbrt"}), 2, "did you mean 'hilbert'");
     expect_failure(run({"measure", "snake-kolan"}), 2, "did you mean 'snake-kolam'");
     expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
     expect_failure(run({"measure", "-"}, {.input = "axim: F"}), 2, "did you mean 'axiom'");
     expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
-    expect_failure(run({"patterns", "plant"}), 2, "there are no patterns 'plant'; did you mean 'plants'?");
+    expect_failure(run({"patterns", "plant"}), 2, "unknown kind of patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
     expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2,
                    "there are: curves, kolams, melodies, plants, tilings, words");
@@ -484,6 +485,10 @@ TEST(Program, ShowPrintsThePatternAlsoOfAPrint) {
     EXPECT_TRUE(has(run({"show", folder.file("missing.pdf")}).errors, "No such file"));
     EXPECT_EQ(run({"show", folder.write("other.svg", "<svg/>")}).status, 1);
     expect_failure(run({"show", folder.write("other.pdf", "%PDF-1.4\n")}), 1, "this PDF file contains no pattern");
+    ASSERT_EQ(run({"play", "hilbert", "-n", "2", "-o", folder.file("page.html")}).status, 0);
+    expect_failure(run({"show", folder.file("page.html")}), 1, "this HTML file contains no pattern");
+    ASSERT_EQ(run({"play", "hilbert", "-n", "2", "-o", folder.file("score.musicxml")}).status, 0);
+    expect_failure(run({"show", folder.file("score.musicxml")}), 1, "this MusicXML file contains no pattern");
     // Any text comes back as it was, beyond ASCII and with the line ends of others.
     const std::string words = "title: கோலம் (1) \\ \"x\"\r\naxiom: F(1)\\F \\\r\n+F\r\n";
     for (const char* name : {"words.svg", "words.pdf", "words.png"}) {

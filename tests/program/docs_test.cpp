@@ -1,4 +1,4 @@
-// tests/program/docs_test.cpp: what the manual says of files, rooms and commands.
+// tests/program/docs_test.cpp: checks the manual: files, links, rooms, commands.
 #include "music/melody/melody.h"
 #include "tests/files.h"
 #include "tests/program.h"
@@ -70,7 +70,7 @@ TEST(Docs, TheReadmeIsShort) {
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 150);
 }
 
-/// If it fails: `sikku manual markdown > docs/commands.md`.
+/// If this fails, run `sikku manual markdown > docs/commands.md`.
 TEST(Docs, CommandsAreAsTheProgramPrintsThem) {
     const Outcome manual = run({"manual", "markdown"});
     EXPECT_EQ(manual.status, 0) << manual.errors;

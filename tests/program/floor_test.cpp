@@ -1,4 +1,4 @@
-// tests/program/floor_test.cpp: documents, interpreters and their tables, as a caller of the libraries uses them.
+// tests/program/floor_test.cpp: uses documents, interpreters and their tables like a caller of the libraries.
 #include "art/draw_settings.h"
 #include "art/gallery/gallery.h"
 #include "art/gallery/jobs.h"
@@ -118,7 +118,7 @@ TEST(Floor, NoMessageOfALibraryNamesTheCommandLine) {
     EXPECT_THROW(scores().check("doc", {}), SettingError);
 }
 
-/// Prints with one more option, added to the table and nowhere else.
+/// An interpreter of prints with one more option, which is added only to the table.
 class ExtendedPrints : public Interpreter {
 public:
     ExtendedPrints() {

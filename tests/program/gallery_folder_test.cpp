@@ -1,4 +1,4 @@
-// tests/program/gallery_folder_test.cpp: galleries in untrusted folders: nothing is written, removed or read outside
+// tests/program/gallery_folder_test.cpp: galleries in untrusted folders never write, remove or read files outside
 // them.
 #include "engine/base/output_file.h"
 #include "tests/gallery.h"
@@ -76,7 +76,7 @@ TEST_F(GalleryFolderTest, RecordsThatAreNotFiles) {
 }
 
 TEST_F(GalleryFolderTest, FoldersThatAreLinks) {
-    // A hostile archive: a claim makes hilbert.svg and its temporary files the gallery's own.
+    // A hostile archive claims hilbert.svg and its temporary files as the gallery's own.
     fs::create_directory_symlink("../home", folder / "out/curves");
     folder.write("out/gallery.jsonl",
                  "{\"claim\":\"curves/precious.svg\"}\n{\"claim\":\"curves/../../home/precious.svg\"}\n");

@@ -1,5 +1,5 @@
-// tests/program/gallery_runs_test.cpp: several runs in one folder at a time, and runs that are killed again and
-// again.
+// tests/program/gallery_runs_test.cpp: several runs in one folder at the same time, and runs that are killed
+// repeatedly.
 #include "tests/gallery.h"
 
 #include <fcntl.h>

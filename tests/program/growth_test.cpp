@@ -1,4 +1,4 @@
-// tests/program/growth_test.cpp: generations one after the other, views and models, by running the program.
+// tests/program/growth_test.cpp: runs the program to make animations, views and models.
 #include "art/drawing/growth.h"
 #include "tests/program.h"
 #include "tests/tools.h"
@@ -168,7 +168,8 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
                    "--set:1:6: drawings that pitch, roll or bend have straight lines");
     expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 2, "drawings in the plane");
-    expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2, "more shades than there are inks");
+    expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2,
+                   "more shades of light than there are inks");
     expect_refused(draw({"bush.lsys", "-n", "30"}, "x.png"), 1, "budget");
     expect_refused(draw({"bush.lsys", "-n", "14"}, "x.glb"), 1, "up to n = ");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "x.svg"));
@@ -207,7 +208,7 @@ TEST_F(Growth, BadGenerationsAreRefused) {
                    "100 million");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "applies only to a .gif");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.obj"), 2, "a model has no page");
-    expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "nothing to draw in any");
+    expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "none of these generations draws");
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});
 }
 

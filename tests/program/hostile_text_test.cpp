@@ -1,4 +1,4 @@
-// tests/program/hostile_text_test.cpp: one title that tries to be a command, in every language that the program
+// tests/program/hostile_text_test.cpp: a title that imitates commands is harmless in every language that the program
 // writes.
 #include "art/plotter/gcode.h"
 #include "engine/base/diagnostic.h"
@@ -67,7 +67,7 @@ TEST_F(HostileTitle, InGcodeIsAnInactiveComment) {
 }
 
 TEST_F(HostileTitle, InHpglIsNowhere) {
-    // Nothing of the pattern's text is written but the recipe at the end, in base64.
+    // The pattern's text is written only in base64, in the recipe at the end.
     const std::string plot = made("draw", "x.hpgl");
     const std::size_t end = plot.find("CO\"sikku:");
     ASSERT_NE(end, std::string::npos);

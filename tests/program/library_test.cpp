@@ -1,4 +1,4 @@
-// tests/program/library_test.cpp: prints and scores in memory, as a program that links the libraries makes them.
+// tests/program/library_test.cpp: makes prints and scores in memory like a program that links the libraries.
 #include "art/prints.h"
 #include "music/scores.h"
 

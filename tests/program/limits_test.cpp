@@ -1,5 +1,5 @@
-// tests/program/limits_test.cpp: work is counted before anything is expanded: excessive requests are rejected quickly
-// in little memory, and long work stops on request.
+// tests/program/limits_test.cpp: excessive requests are rejected quickly and in little memory, because work is
+// counted before anything is expanded; long work stops on request.
 #include "engine/derivation/derivation.h"
 #include "engine/import/import.h"
 #include "tests/program.h"
@@ -179,10 +179,10 @@ TEST(Limits, FractintEntriesThatGrow) {
         EXPECT_LT(outcome.seconds, sanitized ? 100 : 20);
         EXPECT_LT(outcome.peak, most_kilobytes);
         EXPECT_TRUE(has(outcome.errors + outcome.output,
-                        words.back() == "--list" ? "has mistakes" : "longer than 16 MB and twice the file"));
+                        words.back() == "--list" ? "has errors" : "exceed 16 MB plus twice the size"));
     }
     const std::string large = folder.write("large.l", fractint_bomb(1, 100'000));
-    expect_refused(run({"import", large}), "a pattern longer than 4 MB");
+    expect_refused(run({"import", large}), "exceeds 4 MB");
 }
 
 // --- galleries --------------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// tests/program/low_limits_test.cpp: with few threads, little memory, few files or small files there is a message and
-// no leftover files: no abort, no hang.
+// tests/program/low_limits_test.cpp: under low limits on threads, memory and files the program reports an error and
+// leaves no files behind; it neither aborts nor hangs.
 #include "engine/base/threads.h"
 #include "tests/program.h"
 

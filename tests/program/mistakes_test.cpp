@@ -71,7 +71,7 @@ TEST_F(Mistakes, ValuesOfOptions) {
     const std::vector<Mistake> mistakes = {
         {{"draw", "borchert-honda", "--variant", "zz", "-o", "m.svg"}, "--variant zz: no such variant; there are "},
         {{"play", "hilbert", "--scale", "dorain"},
-         "--scale dorain: there is no scale 'dorain'; did you mean 'dorian'"},
+         "--scale dorain: unknown scale 'dorain'; did you mean 'dorian'"},
         {{"play", "hilbert", "--seed", "x"}, "--seed x: expected"},
         {{"draw", "bush-3d", "--view", "90", "-o", "m.svg"}, "--view 90: expected AZIMUTH,ELEVATION"},
         {{"draw", "mine.lsys", "--stroke", "0.3mm rd", "-o", "m.svg"}, "--stroke 0.3mm rd: 'rd' is not a colour"},

@@ -1,4 +1,4 @@
-// tests/program/play_test.cpp: `sikku play` from outside: what it writes, and what it refuses.
+// tests/program/play_test.cpp: the outputs and errors of `sikku play`.
 #include "tests/files.h"
 #include "tests/midi_reader.h"
 #include "tests/program.h"
@@ -150,7 +150,7 @@ TEST(Play, Mistakes) {
         EXPECT_EQ(outcome.status, status) << outcome.errors;
         EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
     };
-    refused(hilbert, {"--scale", "majr"}, 2, "there is no scale 'majr'; did you mean 'major'");
+    refused(hilbert, {"--scale", "majr"}, 2, "unknown scale 'majr'; did you mean 'major'");
     refused(hilbert, {"--tempo", "0"}, 2, "quarter notes a minute");
     refused(hilbert, {"--tempo", "nan"}, 2, "quarter notes a minute");
     refused(hilbert, {"--meter", "4/0"}, 2, "expected a meter");
@@ -165,14 +165,14 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--instrument", "129"}, 2, "1 to 128");
     refused(hilbert, {"--anchor", "lowest"}, 2, "expected first note, piece");
     refused(hilbert, {"--range", "refuse", "-n", "8"}, 2, "beyond the keys 0 to 127");
-    refused(hilbert, {"--scale", "no.scl"}, 2, "cannot be read");
-    refused(hilbert, {"-n", "40"}, 1, "over 4 GiB");
+    refused(hilbert, {"--scale", "no.scl"}, 2, "No such file or directory");
+    refused(hilbert, {"-n", "40"}, 1, "4 GiB");
     refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
     refused(hilbert, {"-n", "11"}, 2, "limit the bars", "x.musicxml");
     refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
     refused(hilbert, {"--from-bar", "1000"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--range", "fold C5-C4"}, 2, "the lowest and the highest note");
-    refused(hilbert, {"--scale", ""}, 2, "there is no scale ''");
+    refused(hilbert, {"--scale", ""}, 2, "unknown scale ''");
     refused(hilbert, {"--keyboard", "/dev/zero"}, 2, "over 1 MB");
     refused(hilbert, {"-n", "10"}, 2, "6 hours 45 minutes", "x.wav");
     refused(hilbert, {}, 2, "unknown extension", "x.ogg");
@@ -181,7 +181,7 @@ TEST(Play, Mistakes) {
     std::string branches = "heading: 0\naxiom: ";
     for (int i = 0; i < 20; ++i) branches += "[FFFF]";
     refused(branches + "\n", {}, 2, "too many voices");
-    refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: there is no scale");
+    refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: unknown scale");
 }
 
 TEST(Play, ScalesOfFiles) {

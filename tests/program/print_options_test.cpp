@@ -1,4 +1,4 @@
-// tests/program/print_options_test.cpp: dots, borders, animation, tiles and plots, by running the program.
+// tests/program/print_options_test.cpp: runs the program to draw dots, borders, animations, tiles and plots.
 #include "art/print/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
@@ -235,7 +235,7 @@ TEST_F(PrintOptions, PlotsDrawNothingTwice) {
 
 TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"--pen-speed", "0", "--plotter"}, "speeds are between 0.001 and"},
+        {{"--pen-speed", "0", "--plotter"}, "speeds must be between 0.001 and"},
         {{"--pen-speed", "nan", "--plotter"}, "--pen-speed nan: expected a number"},
         {{"--split", "0mm", "--plotter"}, "a length above 0"},
         {{"--split", "1m"}, "--split"},
@@ -253,9 +253,9 @@ TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
         {{"--generations", "x"}, "such as 0:4"},
         {{"--tile", "A9"}, "--tile A9"},
         {{"--tile", "A4", "--overlap", "200mm"}, "no room for an overlap"},
-        {{"--tile", "A4", "--plotter"}, "sheets cut lines off"},
-        {{"--border", "kaavi", "--window", "0,0,5,5"}, "a window shows a part"},
-        {{"--plotter", "--window", "0,0,5,5"}, "a window cuts lines off"},
+        {{"--tile", "A4", "--plotter"}, "tiles would cut the strokes"},
+        {{"--border", "kaavi", "--window", "0,0,5,5"}, "a window shows only part"},
+        {{"--plotter", "--window", "0,0,5,5"}, "a window would cut the strokes"},
     };
     for (const auto& [arguments, message] : cases) {
         std::vector<std::string> all = {"snake-kolam"};

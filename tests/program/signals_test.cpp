@@ -1,4 +1,4 @@
-// tests/program/signals_test.cpp: what ctrl-C, SIGTERM and SIGHUP do to long work, and that nothing is left behind.
+// tests/program/signals_test.cpp: ctrl-C, SIGTERM and SIGHUP stop long work and leave no files behind.
 #include "art/kolam/kolam.h"
 #include "art/plotter/plot.h"
 #include "engine/base/monitor.h"

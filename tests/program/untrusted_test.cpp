@@ -1,4 +1,5 @@
-// tests/program/untrusted_test.cpp: files that cost far more than their size promises are read once, or refused.
+// tests/program/untrusted_test.cpp: files that would cost far more than their size suggests are read once, or
+// refused.
 #include "tests/files.h"
 #include "tests/program.h"
 
@@ -12,7 +13,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_seconds = 8;  // of processor time; what these tests are about takes much longer
+constexpr double most_seconds = 8;  // of processor time; the faults tested here take much longer
 constexpr long most_kilobytes = 200'000;
 
 void expect_cheap(const Outcome& outcome, long kilobytes = most_kilobytes) {
@@ -45,7 +46,7 @@ TEST(Untrusted, TextsThatATiffRepeatsAreReadOnce) {
     expect_cheap(outcome);
 }
 
-/// Piece by piece: the memory of the test would count as that of the program.
+/// Writes piece by piece: the memory of the test would count as that of the program.
 std::string write_pieces(const ScratchFolder& folder, const std::string& name, const std::string& head,
                          const std::string& piece, int count, const std::function<std::string(std::size_t)>& tail) {
     std::ofstream file(folder / name, std::ios::binary);
@@ -109,7 +110,7 @@ TEST(Untrusted, TitlesOfAPdfAreSkippedUpTo64MB) {
 
 TEST(Untrusted, CutTemporaryNamesAreNotRemoved) {
     const ScratchFolder folder;
-    // Both names are cut to the same 200 bytes; the other file may be in the making by anybody.
+    // Both names are cut to the same 200 bytes; another run may be making the other file.
     const std::string long_name = std::string(220, 'a');
     const std::string cut = "." + std::string(200, 'a') + ".abc234.tmp";
     folder.write("gallery.jsonl", "{\"claim\":\"" + long_name + ".svg\"}\n{\"claim\":\"short.svg\"}\n");
@@ -124,7 +125,7 @@ TEST(Untrusted, CutTemporaryNamesAreNotRemoved) {
 
 TEST(Untrusted, AProfileIsHashedOnceInARun) {
     const ScratchFolder folder;
-    // It is hashed for every job before the first one finds that it is not a profile.
+    // Every job hashes the file before the first one finds that it is not a profile.
     folder.write("inks.icc", std::string(16 << 20, 'x'));
     folder.write("g.toml",
                  "pattern = 'koch-island'\nformat = 'tif'\nsize = '10x10mm'\ndpi = 10\ncmyk = 'inks.icc'\n"
@@ -132,7 +133,7 @@ TEST(Untrusted, AProfileIsHashedOnceInARun) {
     const Outcome outcome = run({"-q", "gallery", "--file", folder.file("g.toml"), "-o", folder.file("out")});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.errors.find("not an ICC profile"), std::string::npos) << outcome.errors;
-    expect_cheap(outcome, 400'000);  // the module for pictures takes 140 MB by itself
+    expect_cheap(outcome, 400'000);  // the module for pictures alone takes 140 MB
 }
 
 TEST(Untrusted, RecordsWithoutLinesAreNotReadWhole) {
