@@ -106,8 +106,8 @@ private:
         diagnostics_.error(text_.part(at), message);
         return std::nullopt;
     }
-    bool wrong(std::size_t at, std::string message) {
-        fail(at, std::move(message));
+    bool wrong(std::size_t at, const std::string& message) {
+        fail(at, message);
         return false;
     }
 
