@@ -57,6 +57,8 @@ bool is_option(std::string_view name) {
                        [&](const Interpreter* one) { return find_option(one->options(), name) != nullptr; });
 }
 
+}  // namespace
+
 std::string with_dashes(const std::string& message) {
     std::string text;
     for (std::size_t at = 0; at < message.size();) {
@@ -72,7 +74,26 @@ std::string with_dashes(const std::string& message) {
     return text;
 }
 
-}  // namespace
+std::string with_force(std::string message) {
+    constexpr std::string_view quoted = "'force'";
+    const std::size_t at = message.find(quoted);
+    return at == std::string::npos ? message : message.replace(at, quoted.size(), "--force");
+}
+
+std::string diagnostic_message(const Diagnostic& diagnostic) {
+    const bool is_option = diagnostic.where.line == 0 && !diagnostic.file.starts_with('-');
+    return (is_option ? "--" : "") + diagnostic.text();
+}
+
+std::string pattern_message(const PatternError& error) {
+    const auto& list = error.diagnostics();
+    if (std::all_of(list.begin(), list.end(), [](const Diagnostic& one) { return one.where.line > 0; })) {
+        return error.what();
+    }
+    std::string text;
+    for (const Diagnostic& one : list) text += (text.empty() ? "" : "\n") + diagnostic_message(one);
+    return text;
+}
 
 std::string option_message(const SettingError& error) {
     const std::string message = with_dashes(error.what());

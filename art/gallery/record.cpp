@@ -172,9 +172,8 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
     const GalleryLocks::Turn turn(locks_, false);
     const RecordText own = read_record(read_from(descriptor_, 0));
     if (!own.is_ours && !replaces) {
-        throw std::runtime_error(
-            fmt::format("'{}' already exists and was not made by a gallery; only a forced run replaces it",
-                        folder_.shown(name_)));
+        throw std::runtime_error(fmt::format("'{}' already exists and was not made by a gallery; 'force' replaces it",
+                                             folder_.shown(name_)));
     }
     // What is appended begins on a line of its own.
     if (own.is_cut) append("\n", false);

@@ -345,7 +345,7 @@ TEST(Program, FileIsOverriddenByVariantBySetByN) {
     EXPECT_EQ(n_and_length({"--variant", "v", "--set", "derivation length=3"}), "3 2.0");
     EXPECT_EQ(n_and_length({"--variant", "v", "--set", "r=5", "--set", "Derivation  Length=3"}), "3 5.0");
     EXPECT_EQ(n_and_length({"-n", "4", "--variant", "v", "--set", "derivation length=3"}), "4 2.0");
-    expect_failure(run({"measure", "-", "--variant", "w"}, {.input = text}), 2, "variant:1:1");
+    expect_failure(run({"measure", "-", "--variant", "w"}, {.input = text}), 2, "--variant w: no such variant");
     EXPECT_EQ(measured({"hilbert", "-n", "2", "--set", "axiom=F=F", "--set", "ignore=="})["n"].text, "2");
 }
 

@@ -150,7 +150,7 @@ TEST(Play, Mistakes) {
         EXPECT_EQ(outcome.status, status) << outcome.errors;
         EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
     };
-    refused(hilbert, {"--scale", "majr"}, 2, "unknown scale 'majr'; near it are major");
+    refused(hilbert, {"--scale", "majr"}, 2, "unknown scale 'majr'; did you mean 'major'");
     refused(hilbert, {"--tempo", "0"}, 2, "quarter notes a minute");
     refused(hilbert, {"--tempo", "nan"}, 2, "quarter notes a minute");
     refused(hilbert, {"--meter", "4/0"}, 2, "expected a meter");
@@ -163,7 +163,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--tonic", "99999 Hz"}, 2, "beyond what MIDI can write");
     refused(hilbert, {"--instrument", "kazooo"}, 2, "instrument");
     refused(hilbert, {"--instrument", "129"}, 2, "1 to 128");
-    refused(hilbert, {"--anchor", "lowest"}, 2, "'anchor:' is one of");
+    refused(hilbert, {"--anchor", "lowest"}, 2, "expected first note, piece");
     refused(hilbert, {"--range", "refuse", "-n", "8"}, 2, "beyond the keys 0 to 127");
     refused(hilbert, {"--scale", "no.scl"}, 2, "No such file or directory");
     refused(hilbert, {"-n", "40"}, 1, "4 GiB");

@@ -241,7 +241,7 @@ TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
         {{"--split", "1m"}, "--split"},
         {{"--travel"}, "needs --plotter"},
         {{"--profile", "marlin", "--plotter"}, "expected grbl or z"},
-        {{"--dots", "gold gold"}, "is too much: 'dots:'"},
+        {{"--dots", "gold gold"}, "unexpected 'gold'"},
         {{"--dots", "0mm"}, "a dot of width 0"},
         {{"--dot-spacing", "-3mm"}, "above 0"},
         {{"--dot-spacing", "3mm", "--step", "1mm"}, "cannot be combined with --step: both set the step length"},
