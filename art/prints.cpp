@@ -145,8 +145,10 @@ private:
         diagnostics.throw_if_errors();
     }
 
-    void make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
-    void make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
+    void make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                    Made& made);
+    void make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                     Made& made);
     void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options);
     void make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                     Made& made);
@@ -158,14 +160,14 @@ private:
     DrawOptions drawing_;
 };
 
-void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                            Made& made) {
     const ModelReport report = draw_model(document_.grammar(), print_, options, format_, name, destination);
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
 /// Makes an animation of several generations, or a file for each.
-void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                             Made& made) {
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = *settings_.generations;

@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only for want of memory, before anything is done
 int main(int argc, char** argv) {
     sikku::catch_signals();
     const int status = run(argc, argv);

@@ -15,7 +15,7 @@ void TableOptions::add(CLI::App& command, std::span<const OptionInfo* const> tab
         auto one = std::make_unique<One>();
         one->info = info;
         std::string names = "--" + name;
-        if (info->letter != 0) names = std::string("-") + info->letter + "," + names;
+        if (info->letter != 0) names = fmt::format("-{},{}", info->letter, names);
         if (info->kind == OptionKind::flag) {
             if (info->is_on) names += ",!--no-" + name;
             one->option = command.add_flag(names, one->flag, std::string(info->help));
@@ -96,7 +96,7 @@ std::string pattern_message(const PatternError& error) {
 }
 
 std::string option_message(const SettingError& error) {
-    const std::string message = with_dashes(error.what());
+    std::string message = with_dashes(error.what());
     if (error.option().empty()) return message;
     const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
     return fmt::format("--{}{}: {}", error.option(), value, message);

@@ -291,7 +291,7 @@ void GalleryRecord::remove_left() {
                 left_.insert(*file);
                 continue;
             }
-            folder_.remove(below.empty() ? name : below + "/" + name);
+            folder_.remove((std::filesystem::path(below) / name).string());
             locks_.release(*file);
         }
     }

@@ -87,7 +87,7 @@ std::string growth_of(const Grammar& grammar) {
 }
 
 std::string angle_of(const Pattern& pattern) {
-    const std::string increment = pattern.text("angle increment");
+    std::string increment = pattern.text("angle increment");
     if (!increment.empty()) return increment;
     const std::string factor = pattern.text("angle factor");
     int parts = 0;
@@ -164,6 +164,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 std::vector<std::string> sheet_files(const SheetRequest& request) {
     std::vector<std::string> files;
+    files.reserve(sheet_formats.size());
     for (const std::string_view format : sheet_formats) files.push_back(fmt::format("{}.{}", request.name, format));
     return files;
 }

@@ -128,7 +128,7 @@ private:
     }
     void undo(std::size_t choice, bool crossing) {
         const auto& joints = plan_.choices[choice].joints[crossing];
-        for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) part(*joint);
+        for (std::size_t i = joints.size(); i-- > 0;) part(joints[i]);
         if (crossing) toggle(choice);
     }
     void toggle(std::size_t choice) {

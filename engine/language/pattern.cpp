@@ -291,13 +291,13 @@ private:
         if (!has_room(whole, productions_++, most_productions, "productions")) return;
         switch (section_) {
             case Section::common:
-                pattern_.common.push_back(std::move(result));
+                pattern_.common.push_back(result);
                 break;
             case Section::table:
-                pattern_.tables.back().productions.push_back(std::move(result));
+                pattern_.tables.back().productions.push_back(result);
                 break;
             case Section::interpret:
-                pattern_.interpret.push_back(std::move(result));
+                pattern_.interpret.push_back(result);
                 break;
         }
     }

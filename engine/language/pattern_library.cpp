@@ -15,7 +15,7 @@ std::filesystem::path bundled_folder() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error) {
-        const auto folder = (program.parent_path() / SIKKU_PATTERNS_RELATIVE).lexically_normal();
+        auto folder = (program.parent_path() / SIKKU_PATTERNS_RELATIVE).lexically_normal();
         if (std::filesystem::is_directory(folder, error)) return folder;
     }
     return SIKKU_PATTERNS_INSTALLED;
