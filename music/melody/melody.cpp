@@ -127,9 +127,8 @@ private:
                 const std::vector<std::string> similar = similar_scales(name);
                 const std::vector<std::string_view> near(similar.begin(), similar.end());
                 diagnostics_.error(name.empty() ? key->name_at : key->value,
-                                   near.empty()
-                                       ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
-                                       : fmt::format("unknown scale '{}'{}", name, did_you_mean(near)));
+                                   near.empty() ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
+                                                : fmt::format("unknown scale '{}'{}", name, did_you_mean(near)));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {
@@ -291,9 +290,9 @@ private:
         std::string_view near = nearest(wanted, names);
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
             for (std::size_t at = 0; at < folded[i].size();) {
-                const std::size_t end = std::min(folded[i].find(' ', at), folded[i].size());
-                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, end - at)}).empty()) near = folded[i];
-                at = end + 1;
+                const std::size_t blank = std::min(folded[i].find(' ', at), folded[i].size());
+                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, blank - at)}).empty()) near = folded[i];
+                at = blank + 1;
             }
         }
         const std::string problem =
