@@ -61,9 +61,9 @@ void check_option(const OptionInfo& option, const std::string& given) {
     const bool has_least = option.least > -1e300;
     const bool has_most = option.most < 1e300;
     if (number >= option.least && number <= option.most) return;
-    if (has_least && has_most) refuse(fmt::format("expected {:g} to {:g}", option.least, option.most));
-    refuse(has_least ? fmt::format("expected {:g} or more", option.least)
-                     : fmt::format("expected at most {:g}", option.most));
+    if (has_least && has_most) refuse(fmt::format("expected {} to {}", option.least, option.most));
+    refuse(has_least ? fmt::format("expected {} or more", option.least)
+                     : fmt::format("expected at most {}", option.most));
 }
 
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values) {

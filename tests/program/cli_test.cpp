@@ -159,8 +159,7 @@ TEST(Program, EveryCommandHasHelpWithExamples) {
 }
 
 TEST(Program, WrongUsageIsTwo) {
-    const std::vector<std::vector<std::string>> wrong = {{},
-                                                         {"paint", "hilbert"},
+    const std::vector<std::vector<std::string>> wrong = {{"paint", "hilbert"},
                                                          {"measure"},
                                                          {"measure", "hilbert", "more"},
                                                          {"measure", "hilbert", "--nonsense"},
@@ -189,11 +188,13 @@ TEST(Program, WrongUsageIsTwo) {
         EXPECT_EQ(outcome.output, "") << line;
     }
     EXPECT_TRUE(folder.names().empty());
+    // Without a command, the help.
+    EXPECT_EQ(run({}).status, 2);
+    EXPECT_EQ(run({}).output, run({"--help"}).output);
 }
 
 TEST(Program, EveryMessageSaysWhoSpeaks) {
-    for (const auto& arguments : std::vector<std::vector<std::string>>{{},
-                                                                       {"--nonsense"},
+    for (const auto& arguments : std::vector<std::vector<std::string>>{{"--nonsense"},
                                                                        {"measure"},
                                                                        {"measure", "hilbert", "--nonsense"},
                                                                        {"measure", "nosuch"},
@@ -211,7 +212,7 @@ TEST(Program, UnknownCommandsAreNamed) {
 }
 
 TEST(Program, NamesNearToKnownOnesAreSuggested) {
-    expect_failure(run({"-q"}), 2, "expected a command; `sikku --help` lists them");
+    expect_failure(run({"-q"}), 2, "a command is missing; `sikku --help` lists them");
     expect_failure(run({"measure", "hilbrt"}), 2, "did you mean 'hilbert'");
     expect_failure(run({"measure", "snake-kolan"}), 2, "did you mean 'snake-kolam'");
     expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
@@ -744,8 +745,9 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
-    EXPECT_EQ(completed({"sikku", "draw", "--s"}), (std::set<std::string>{"--screen", "--seed", "--set", "--size",
-                                                                          "--split", "--spot", "--step", "--steps"}));
+    EXPECT_EQ(completed({"sikku", "draw", "--s"}),
+              (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--stroke", "--split", "--spot",
+                                     "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));

@@ -156,8 +156,8 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--meter", "4/0"}, 2, "expected a meter");
     refused(hilbert, {"--meter", "0/4"}, 2, "expected a meter");
     refused(hilbert, {"--meter", "4"}, 2, "expected a meter");
-    refused(hilbert, {"--unit", "0"}, 2, "the value of a step");
-    refused(hilbert, {"--unit", "1/7"}, 2, "the value of a step");
+    refused(hilbert, {"--unit", "0"}, 2, "expected a note value");
+    refused(hilbert, {"--unit", "1/7"}, 2, "expected a note value");
     refused(hilbert, {"--tonic", "H9"}, 2, "expected a note such as C4");
     refused(hilbert, {"--tonic", "C12"}, 2, "expected a note such as C4");
     refused(hilbert, {"--tonic", "99999 Hz"}, 2, "beyond what MIDI can write");
