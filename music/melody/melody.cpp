@@ -291,9 +291,9 @@ private:
         std::string_view near = nearest(wanted, names);
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
             for (std::size_t at = 0; at < folded[i].size();) {
-                const std::size_t end = std::min(folded[i].find(' ', at), folded[i].size());
-                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, end - at)}).empty()) near = folded[i];
-                at = end + 1;
+                const std::size_t space = std::min(folded[i].find(' ', at), folded[i].size());
+                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, space - at)}).empty()) near = folded[i];
+                at = space + 1;
             }
         }
         const std::string problem =
