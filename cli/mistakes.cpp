@@ -57,7 +57,7 @@ std::string missing(const CLI::App& app, const CLI::App& command) {
         const std::string name = option->get_name();
         if (!option->get_positional()) return fmt::format("{} {} is missing{}", name, option->get_type_name(), how);
         for (const CLI::Option* taker : command.get_options()) {
-            if (!has_optional_value(*taker) || taker->count() == 0 || taker->results().front().empty()) continue;
+            if (!has_optional_value(*taker) || taker->results().empty() || taker->results().front().empty()) continue;
             return fmt::format("{0} is missing: '{1}' was read as the value of {2}; put {0} first, or write {2}=…",
                                name, printable(taker->results().front(), 80), taker->get_name());
         }
