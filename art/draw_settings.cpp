@@ -3,6 +3,7 @@
 #include "art/raster/raster.h"
 #include "art/style/length.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/keys.h"
 #include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <initializer_list>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -179,7 +181,7 @@ constexpr const char* plotters = "Plotters";
 constexpr const char* presses = "Press";
 constexpr const char* pictures = "Pictures";
 
-const std::array table = {
+const std::array own_rows = {
     Option<S>{{.name = "size",
                .help = "page size: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm (A4)",
                .value = "SIZE"},
@@ -206,7 +208,11 @@ const std::array table = {
                        "derivation length",
                .value = "X0,Y0,X1,Y1"},
               set_window},
-    Option<S>{{.name = "rotate", .help = "rotation in degrees anticlockwise (0)", .value = "DEGREES", .kind = number},
+    Option<S>{{.name = "rotate",
+               .help = "rotation in degrees anticlockwise (0)",
+               .value = "DEGREES",
+               .unit = "deg",
+               .kind = number},
               [](S& s, Text t) { s.rotate = to_number(t); }},
     Option<S>{{.name = "mirror", .help = "mirror left and right, before rotating", .kind = flag},
               [](S& s, Text t) { s.mirror = is_true(t); }},
@@ -218,8 +224,8 @@ const std::array table = {
                .is_key = true},
               [](S& s, Text t) { s.view = t; }},
     Option<S>{{.name = "dots",
-               .help = "draw the dots of a kolam, in a size and colour such as 2mm white; or only the dots, to "
-                       "practise on",
+               .help = "draw the dots of a kolam, in a size and colour such as 2mm white; or only the dots, for "
+                       "practising",
                .value = "[SIZE COLOUR|only]",
                .group = kolams,
                .sets_more = true,
@@ -230,11 +236,10 @@ const std::array table = {
                .value = "LENGTH",
                .group = kolams},
               set_dot_spacing},
-    Option<S>{{.name = "border", .help = "kaavi: a frame of red earth lines", .value = "kaavi", .group = kolams},
+    Option<S>{{.name = "border", .help = "draw a frame of red earth lines", .value = "kaavi", .group = kolams},
               [](S& s, Text t) { set_word("border", "kaavi", t, s.border); }},
-    Option<S>{
-        {.name = "colour-by", .help = "strand: each line in its own colour", .value = "strand", .group = kolams},
-        [](S& s, Text t) { set_word("colour-by", "strand", t, s.colours_strokes); }},
+    Option<S>{{.name = "colour-by", .help = "draw each line in its own colour", .value = "strand", .group = kolams},
+              [](S& s, Text t) { set_word("colour-by", "strand", t, s.colours_strokes); }},
     Option<S>{{.name = "generations",
                .help = "derivation lengths A to B: side by side on one sheet, or one after the other in a .gif",
                .value = "A:B",
@@ -251,6 +256,7 @@ const std::array table = {
                .help = "seconds per generation of a .gif, 0.01 to 600 (0.5)",
                .value = "SECONDS",
                .group = kolams,
+               .unit = "s",
                .kind = number,
                .least = 0.01,
                .most = 600,
@@ -260,6 +266,7 @@ const std::array table = {
                .help = "minimum seconds for the last generation of a .gif, 0.01 to 600 (2)",
                .value = "SECONDS",
                .group = kolams,
+               .unit = "s",
                .kind = number,
                .least = 0.01,
                .most = 600,
@@ -275,7 +282,8 @@ const std::array table = {
     Option<S>{{.name = "animate",
                .help = "SVG that draws itself, line by line, in this many seconds (20)",
                .value = "[SECONDS]",
-               .group = kolams},
+               .group = kolams,
+               .unit = "s"},
               set_animation},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
@@ -335,19 +343,28 @@ const std::array table = {
                .help = "drawing speed in mm/s, for the time estimate and G-code (40)",
                .value = "SPEED",
                .group = plotters,
-               .kind = number},
+               .unit = "mm/s",
+               .kind = number,
+               .least = 1e-3,
+               .most = 1e6},
               [](S& s, Text t) { s.speeds.drawing = to_number(t); }},
     Option<S>{{.name = "travel-speed",
                .help = "pen-up speed in mm/s (80)",
                .value = "SPEED",
                .group = plotters,
-               .kind = number},
+               .unit = "mm/s",
+               .kind = number,
+               .least = 1e-3,
+               .most = 1e6},
               [](S& s, Text t) { s.speeds.travelling = to_number(t); }},
     Option<S>{{.name = "lift-time",
                .help = "seconds for lifting and lowering the pen (0.3)",
                .value = "SECONDS",
                .group = plotters,
-               .kind = number},
+               .unit = "s",
+               .kind = number,
+               .least = 0,
+               .most = 3600},
               [](S& s, Text t) { s.speeds.lift = to_number(t); }},
     Option<S>{{.name = "profile",
                .help = "kind of G-code machine: grbl (M3 and M5 move the pen) or z (grbl)",
@@ -409,6 +426,7 @@ const std::array table = {
                .help = "pixels per inch of pictures, and of px in lengths, 1 to 10,000 (300)",
                .value = "DPI",
                .group = pictures,
+               .unit = "dpi",
                .kind = number,
                .least = 1,
                .most = 10'000},
@@ -435,7 +453,40 @@ const std::array table = {
 
 }  // namespace
 
+namespace {
+
+void set_key(S& settings, std::string_view name, Text text) {
+    settings.keys.push_back({std::string(name), std::string(name), text});
+}
+
+/// The rows above, and one for each further key of the language that art reads.
+std::vector<Option<S>> make_table() {
+    std::vector<Option<S>> table(own_rows.begin(), own_rows.end());
+    static std::vector<std::string> help;  // string_views point into it
+    const auto keys = keys_of(KeyOwner::art);
+    help.reserve(keys.size());
+    for (const std::string_view name : keys) {
+        const auto has_name = [&](const Option<S>& row) { return row.info.name == name; };
+        if (std::any_of(table.begin(), table.end(), has_name)) continue;
+        const KeyInfo& key = *find_language_key(name);
+        help.push_back(std::string(key.help) + ": " + std::string(key.values));
+        // Galleries have the keys themselves.
+        table.push_back({{.name = name,
+                          .help = help.back(),
+                          .value = "VALUE",
+                          .group = "Style",
+                          .is_alone = true,
+                          .is_key = true},
+                         nullptr,
+                         set_key});
+    }
+    return table;
+}
+
+}  // namespace
+
 std::span<const Option<DrawSettings>> draw_options() {
+    static const std::vector<Option<S>> table = make_table();
     return table;
 }
 
@@ -455,6 +506,12 @@ DrawSettings read_draw_settings(const OptionValues& values) {
                       fmt::format("the margins leave nothing of a page of {:g} x {:g} mm", page.width, page.height));
     }
     return settings;
+}
+
+TileOptions tile_options(const DrawSettings& settings) {
+    TileOptions options{.sheet = *settings.tile};
+    options.overlap = settings.overlap.value_or(options.overlap);
+    return options;
 }
 
 DrawingOptions drawing_options(const DrawSettings& settings) {
@@ -555,8 +612,8 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
                   {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
                   {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
                   {settings.tile && is_plot, "tile", "tiles would cut the strokes of a plot"},
+                  {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
                   {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
-    plot_seconds({}, settings.speeds);
 }
 
 void check_growth(const DrawSettings& settings, PrintFormat format) {
@@ -609,14 +666,12 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
                       "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
     }
     try {
-        check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
-        if (settings.tile) tiling_of(settings.page, {*settings.tile, settings.overlap});
-        check_plot(settings, format);
-    } catch (const SettingError&) {
-        throw;
+        if (settings.tile) tiling_of(settings.page, tile_options(settings));
     } catch (const std::runtime_error& error) {
-        refuse_option("", "", error.what());
+        refuse_option("tile", "", error.what());
     }
+    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
+    check_plot(settings, format);
     constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
     const bool is_untrimmed = settings.plotter || settings.tile;
     refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},

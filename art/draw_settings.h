@@ -20,13 +20,15 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sikku {
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 struct DrawSettings {
-    double dpi = 300.0;  ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
-    Page page;           ///< A4 with margins of 10 mm
+    std::vector<Setting> keys;  ///< of the language, as options: `stroke`, `fill`, …
+    double dpi = 300.0;         ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
+    Page page;                  ///< A4 with margins of 10 mm
     bool landscape = false;
     bool fit = false;                  ///< requested explicitly; excludes `step` and `window`
     std::optional<double> step;        ///< length of one turtle step on paper; absent: fit the page
@@ -47,7 +49,7 @@ struct DrawSettings {
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     std::optional<Page> tile;          ///< sheet of a tiled print
-    double overlap = 10.0;             ///< overlap of neighbouring sheets
+    std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
     bool plotter = false;
     double split = 0.0;              ///< maximum length of a stroke; 0: no limit
     std::optional<Hatch> hatch;      ///< hatching of filled shapes
@@ -75,6 +77,9 @@ Style read_print_style(const Document& document, const DrawSettings& settings);
 
 /// The options of the drawing, on its own page or in the cell of a sheet.
 DrawingOptions drawing_options(const DrawSettings& settings);
+
+/// The sheets that the print is cut into; `tile` must be set.
+TileOptions tile_options(const DrawSettings& settings);
 
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

@@ -24,7 +24,7 @@ namespace {
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     const auto line = [&](const PlotTally& tally) {
         return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,
-                           tally.travelled / 1000, plot.returns ? " with the return home" : "",
+                           tally.travelled / 1000, plot.returns ? ", return included" : "",
                            counted(tally.lifts, "lift"), time_text(plot_seconds(tally, speeds)));
     };
     made.fact("before: " + line(plot.before));
@@ -42,6 +42,18 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
     }
 }
 
+void report_sheets(const DrawReport& report, Made& made) {
+    if (report.sheets == 1) return made.warn("'tile' has no effect: the print fits on one sheet");
+    made.fact(fmt::format("{} sheets, {} x {}", report.sheets, report.sheet_rows, report.sheets / report.sheet_rows));
+    constexpr double least = 0.05;
+    const auto left_out = [&](double length, const char* sides) {
+        if (length < least) return;
+        made.fact(fmt::format("{:.1f} mm of the margin at the {} are left out: the sheets end there", length, sides));
+    };
+    left_out(report.left_out.x, "left and right");
+    left_out(report.left_out.y, "top and bottom");
+}
+
 void report_text(const DrawReport& report, const std::filesystem::path& name, Made& made) {
     if (!report.leaves_pattern_out) return;
     made.warn(
@@ -53,8 +65,10 @@ class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
     PrintWork(const Document& document, PrintFormat format, DrawSettings settings)
-        : document_(document), format_(format), settings_(std::move(settings)) {
-        print_.style = read_print_style(document, settings_);
+        : document_(settings.keys.empty() ? document : document.with(settings.keys)),
+          format_(format),
+          settings_(std::move(settings)) {
+        print_.style = read_print_style(document_, settings_);
         print_.page = settings_.page;
         print_.dpi = settings_.dpi;
         print_.title = document.text("title");
@@ -88,7 +102,7 @@ private:
         drawing_.dot_spacing = settings_.dot_spacing;
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression;
-        if (settings_.tile) drawing_.tiles = TileOptions{*settings_.tile, settings_.overlap};
+        if (settings_.tile) drawing_.tiles = tile_options(settings_);
         if (!settings_.plotter && !is_for_plotters(format_)) return;
         PlotOptions& plot = drawing_.plot.emplace();
         plot.split = settings_.split;
@@ -103,12 +117,12 @@ private:
     /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
     void check_drawing() const {
         const bool is_spatial = document_.grammar().is_spatial();
-        if (is_model()) require_straight("models have straight lines, not splines");
+        if (is_model()) require_straight("models have straight lines, not splines; set line to straight");
         if (settings_.generations && document_.has_override("derivation length")) {
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (!is_spatial) return;
-        require_straight("drawings that pitch, roll or bend have straight lines, not splines");
+        require_straight("drawings that pitch, roll or bend have straight lines, not splines; set line to straight");
         constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
@@ -131,8 +145,10 @@ private:
         diagnostics.throw_if_errors();
     }
 
-    void make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
-    void make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options, Made& made);
+    void make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                    Made& made);
+    void make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                     Made& made);
     void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options);
     void make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                     Made& made);
@@ -144,14 +160,14 @@ private:
     DrawOptions drawing_;
 };
 
-void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                            Made& made) {
     const ModelReport report = draw_model(document_.grammar(), print_, options, format_, name, destination);
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
 /// Makes an animation of several generations, or a file for each.
-void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, DrawOptions options,
+void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                             Made& made) {
     GrowthOptions growth;
     std::tie(growth.first, growth.last) = *settings_.generations;
@@ -211,6 +227,9 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
             print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
     }
     if (report.plot) report_plot(*report.plot, settings_.speeds, made);
+    if (report.plot && settings_.hatch && report.plot->fills == 0) {
+        made.warn("'hatch' has no effect: this drawing has no fills");
+    }
     if (report.plot && format_ == PrintFormat::hpgl) {
         made.fact("HP-GL: " + describe_hpgl(print_.page, options.hpgl));
         constexpr std::size_t most = 8;
@@ -222,7 +241,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
                             pens, most));
         }
     }
-    if (report.sheets > 1) made.fact(counted(static_cast<std::uint64_t>(report.sheets), "sheet"));
+    if (report.sheets > 0) report_sheets(report, made);
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(
             "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
@@ -237,6 +256,11 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;
     options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
+    const auto& tables = document_.grammar().tables();
+    if (settings_.generations &&
+        std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); })) {
+        made.warn("'generations' has no effect: the pattern has no productions");
+    }
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
     if (is_model()) {
         make_model(destination, name, options, made);

@@ -1,6 +1,8 @@
 #include "cli/command.h"
 
 #include "art/prints.h"
+#include "cli/options.h"
+#include "music/score/midi_texts.h"
 #include "music/scores.h"
 
 #include <fmt/format.h>
@@ -62,6 +64,13 @@ NamedText read_pattern_text(const std::string& pattern) {
     PatternFile found;
     try {
         if (pattern != "-") found = find_pattern(pattern);
+        auto format = known_format(found.path);
+        if (is_midi_file(found.path)) format = {"a MIDI file", true};
+        if (format) {
+            throw UsageError(
+                fmt::format("{}: this is {}, not a pattern{}", pattern, format->name,
+                            format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
+        }
     } catch (const NotFound& error) {
         throw UsageError(std::string(error.what()) +
                          (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
@@ -105,7 +114,7 @@ Document load(const PatternOptions& options, bool quiet) {
                                 interpreters(), diagnostics);
     diagnostics.throw_if_errors();
     if (!quiet) {
-        for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", warning.text());
+        for (const Diagnostic& warning : diagnostics.list()) tell("{}\n", diagnostic_message(warning));
     }
     return document;
 }
@@ -118,7 +127,7 @@ void make(Work& work, const std::string& output, bool quiet) {
     }
     if (quiet) return;
     for (const Remark& remark : made.remarks)
-        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", remark.text);
+        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", with_dashes(remark.text));
 }
 
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}

@@ -130,6 +130,6 @@ void add_patterns(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);
 void add_completion(CLI::App& app);
-void add_manual(CLI::App& app);
+void add_manual(CLI::App& app, bool& quiet);
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 // cli/completion.cpp: `sikku completion`: scripts for bash and zsh, made from the commands themselves.
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/mistakes.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,7 @@ complete -o filenames -F _sikku sikku
 void add_completion(CLI::App& app) {
     auto* command = app.add_subcommand("completion", "Print a completion script for a shell");
     auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+    command->add_option("SHELL", *shell, "bash or zsh")->required()->check(one_of({"bash", "zsh"}));
     command->footer(
         "Examples:\n  sikku completion bash > ~/.local/share/bash-completion/completions/sikku\n"
         "  sikku completion zsh > ~/.zfunc/_sikku");

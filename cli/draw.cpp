@@ -3,9 +3,11 @@
 #include "art/prints.h"
 #include "cli/command.h"
 #include "cli/options.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -27,12 +29,17 @@ std::string format_of(const std::string& output) {
         throw UsageError(fmt::format("-o {}: this is a folder; a print is a file such as {}", output,
                                      (std::filesystem::path(output) / "print.svg").string()));
     }
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1))) {
+        throw UsageError(fmt::format("-o {}: this is a score; `sikku play` writes it", output));
+    }
     std::string known;
     for (const FormatInfo& row : print_formats()) {
         if (info(row.format).kind != FormatKind::model)
             known += fmt::format("{}.{}", known.empty() ? "" : ", ", row.extension);
     }
-    throw UsageError(fmt::format("-o {}: unknown extension; a print is {}, a model is .obj or .glb", output, known));
+    throw UsageError(fmt::format("-o {}: {}; a print is {}, a model is .obj or .glb", output,
+                                 extension.empty() ? "no extension" : "unknown extension", known));
 }
 
 void run(const DrawCommand& command, bool quiet) {
@@ -42,6 +49,10 @@ void run(const DrawCommand& command, bool quiet) {
     const Document document = load(command.pattern, quiet);
     const auto work = prints().plan(document, format, values);
     make(*work, command.output, quiet);
+    const auto is_compression = [](const OptionValue& value) { return value.name == "compression"; };
+    if (format != "png" && std::any_of(values.begin(), values.end(), is_compression)) {
+        tell_unless(quiet, "sikku: warning: --compression has no effect: it is for PNG\n");
+    }
 }
 
 }  // namespace
@@ -67,7 +78,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw bush-3d -o bush.glb\n"
         "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
-        "  sikku draw my.lsys --step 5mm --set 'stroke=0.7mm navy' -o my.png --dpi 600");
+        "  sikku draw my.lsys --step 5mm --stroke '0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { run(*options, quiet); });
 }
 

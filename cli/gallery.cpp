@@ -1,8 +1,10 @@
 // cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
 #include "art/gallery/gallery.h"
-
+#include "art/gallery/process.h"
 #include "art/prints.h"
 #include "cli/command.h"
+#include "cli/mistakes.h"
+#include "cli/options.h"
 #include "engine/base/memory.h"
 #include "engine/base/text.h"
 #include "music/scores.h"
@@ -129,32 +131,6 @@ std::vector<std::string> own_arguments() {
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error && !words.empty()) words[0] = program.string();
     return words;
-}
-
-/// Runs a command line of the shell; its standard output without the last line feed.
-/// @throws std::runtime_error if it fails
-std::string output_of(const std::string& command) {
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    if (!pipe) throw std::runtime_error(fmt::format("cannot start: {}", command));
-    std::string text;
-    std::array<char, 512> block{};
-    for (std::size_t got = 0; (got = std::fread(block.data(), 1, block.size(), pipe)) > 0;)
-        text.append(block.data(), got);
-    if (::pclose(pipe) != 0) throw std::runtime_error(fmt::format("this failed: {}", command));
-    while (text.ends_with('\n')) text.pop_back();
-    return text;
-}
-
-bool is_in_path(const std::string& program) {
-    const char* path = std::getenv("PATH");
-    std::string folders = path ? path : "";
-    for (std::size_t at = 0; at <= folders.size();) {
-        const std::size_t colon = std::min(folders.find(':', at), folders.size());
-        const std::string file = folders.substr(at, colon - at) + "/" + program;
-        if (::access(file.c_str(), X_OK) == 0) return true;
-        at = colon + 1;
-    }
-    return false;
 }
 
 /// Writes the Slurm script with the same safeguards as files inside the gallery folder.
@@ -288,13 +264,16 @@ void print_result(const Gallery& gallery, const GalleryResult& result, const Opt
     }
     if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, result.record);
     const std::size_t made = result.made.size();
+    const std::size_t chosen = gallery.chosen().size();
+    const std::string all = counted(gallery.jobs().size(), "job");
+    const std::string jobs = options.only.empty() ? counted(chosen, "job") : fmt::format("{} of {}", chosen, all);
     const std::size_t skipped = result.finished.size() - made;
-    tell("{}{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "",
-         counted(gallery.chosen().size(), "job"), options.only.empty() ? "" : " chosen", time_text(seconds), made);
+    tell("{}{} in {}: {} made", shard.count > 1 ? fmt::format("part {} of {}: ", shard.index, shard.count) : "", jobs,
+         time_text(seconds), made);
     if (made > 0 && seconds > 0) tell(" ({:.1f} a second)", static_cast<double>(made) / seconds);
-    if (skipped > 0) tell(", {} there already", skipped);
+    if (skipped > 0) tell(", {} up to date", skipped);
     if (!result.failures.empty()) tell(", {} failed", result.failures.size());
-    if (result.left > 0) tell(", {} not begun", result.left);
+    if (result.left > 0) tell(", {} not started", result.left);
     tell("\n");
 }
 
@@ -340,9 +319,9 @@ void run(Options& options, bool quiet) {
         std::string message = failure.message;
         while (message.ends_with('\n')) message.pop_back();
         tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", printable(job.file(), 2000),
-             printable(message, 2000));
+             printable(with_force(message), 2000));
     }
-    for (const std::string& trouble : result.troubles) tell("sikku: {}\n", printable(trouble, 2000));
+    for (const std::string& trouble : result.troubles) tell("sikku: {}\n", printable(with_force(trouble), 2000));
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 
@@ -400,19 +379,17 @@ void add_gallery(CLI::App& app, bool& quiet) {
                      "maximum memory, such as 1G; jobs wait for it (half of the available memory)")
         ->type_name("BYTES");
     command->add_option("-j,--jobs", options->threads, "jobs at a time; 0: one for each core (0)")
-        ->check(CLI::Range(0, 1024))
+        ->check(whole_number(0, 1024))
         ->type_name("N");
     command
         ->add_option("--shard", options->shard,
                      "make only part I of N, balanced by forecast (set by Slurm, Open MPI or Kubernetes)")
         ->type_name("I/N");
     command->add_option("--slurm", options->slurm, "write a script for an array of N tasks, and submit it")
-        ->check(CLI::Range(1, 100'000))
+        ->check(whole_number(1, 100'000))
         ->type_name("N");
     command
-        ->add_option(
-            "-f,--format", options->texts["format"],
-            "svg, pdf, png, tif, jpg, exr, mid, musicxml, ly, wav, flac, notes.svg, html; several with commas")
+        ->add_option("-f,--format", options->texts["format"], gallery_keys().format_list() + "; several with commas")
         ->type_name("FORMATS");
     command
         ->add_option("--name", options->texts["name"], "names of the files: {pattern}-n{n}, with any key in braces")

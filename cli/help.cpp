@@ -1,47 +1,10 @@
 #include "cli/help.h"
 
-#include "engine/base/diagnostic.h"
-
 #include <algorithm>
 #include <string_view>
 
 namespace sikku {
 namespace {
-
-constexpr std::size_t page_columns = 100;
-constexpr std::size_t text_column = 30;
-
-/// Width of `text` in columns, one for each code point.
-std::size_t columns(std::string_view text) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; at < text.size(); ++count) {
-        at += std::max<std::size_t>(1, utf8_length(text.substr(at)));
-    }
-    return count;
-}
-
-/// Breaks `text` into lines of at most `page_columns`; indents all but the first.
-std::string wrapped(std::string_view text, std::size_t indent) {
-    std::string result;
-    std::size_t column = indent;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        const std::string_view word = text.substr(at, end - at);
-        at = end + 1;
-        if (word.empty()) continue;
-        const std::size_t width = columns(word);
-        if (column > indent && column + 1 + width > page_columns) {
-            result += '\n' + std::string(indent, ' ');
-            column = indent;
-        } else if (column > indent) {
-            result += ' ';
-            ++column;
-        }
-        result += word;
-        column += width;
-    }
-    return result;
-}
 
 /// The placeholder of an option's value: `LENGTH`, without what CLI11 appends to it.
 std::string value_name(const CLI::Option& option) {
@@ -161,23 +124,7 @@ HelpPage help_page(const CLI::App& command) {
 }
 
 std::string HelpFormatter::make_help(const CLI::App* command, std::string, CLI::AppFormatMode) const {
-    const HelpPage page = help_page(*command);
-    std::string text = wrapped(page.summary, 0) + "\n\nUsage: " + page.usage + '\n';
-    for (const HelpGroup& group : page.groups) {
-        text += '\n' + group.heading + ":\n";
-        for (const HelpRow& row : group.rows) {
-            // Align long names without a short one.
-            std::string names = (row.names.starts_with("--") ? "      " : "  ") + row.names;
-            const std::size_t width = columns(names);
-            names += width + 2 > text_column ? '\n' + std::string(text_column, ' ')
-                                             : std::string(text_column - width, ' ');
-            text += names + wrapped(row.text, text_column) + '\n';
-        }
-    }
-    for (const std::string& paragraph : page.notes) text += '\n' + wrapped(paragraph, 0) + '\n';
-    if (!page.examples.empty()) text += "\nExamples:\n";
-    for (const std::string& example : page.examples) text += "  " + example + '\n';
-    return text;
+    return help_text(help_page(*command));
 }
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #include "art/kolam/kolam_text.h"
 #include "cli/command.h"
 #include "cli/kolam_grid.h"
+#include "cli/mistakes.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         ->type_name("FILE")
         ->group(grid_heading);
     command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one for each core (0)")
-        ->check(CLI::Range(0, 1024))
+        ->check(whole_number(0, 1024))
         ->type_name("N")
         ->group(grid_heading);
     command->add_flag("--json", *as_json, "print one line of JSON");

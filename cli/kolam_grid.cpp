@@ -3,12 +3,15 @@
 
 #include "art/kolam/dot_grid_enumeration.h"
 #include "art/kolam/dot_grid_pattern.h"
+#include "cli/command.h"
+#include "cli/mistakes.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 namespace sikku {
@@ -77,6 +80,14 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json: standard output is the pattern's; give its file with -o");
     }
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    for (const Interpreter* interpreter : interpreters()) {
+        if (!extension.empty() && find_format(interpreter->formats(), extension.substr(1))) {
+            throw UsageError(
+                fmt::format("-o {}: a kolam is made as a pattern, NAME.lsys; `sikku {}` makes the file of it",
+                            options.output, interpreter->owner() == KeyOwner::art ? "draw" : "play"));
+        }
+    }
     const RandomKolam random{options.seed, options.density.value_or(RandomKolam().density), symmetry};
     const MadeKolam made = make_kolam(options, grid, random);
     const std::string name = printable(grid.text(), 80);
@@ -111,7 +122,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
             json_string(crossings_text(grid, made.crossings)));
     } else {
         std::string note;
-        if (options.single_line) note += fmt::format("; {} changed for it", counted(made.changed, "gap"));
+        if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
         if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
         tell_unless(quiet, "sikku: {}: {}{}\n", name, pattern.description, note);
     }
@@ -124,27 +135,10 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
     enumeration.threads = options.threads;
     enumeration.monitor = stop_monitor();
     const Enumeration found = of_option("--enumerate", [&] { return enumerate_single_lines(grid, enumeration); });
-    std::string text;
-    if (options.as_json) {
-        std::string kolams;
-        for (const Crossings& kolam : found.kolams) {
-            kolams += (kolams.empty() ? "" : ", ") + json_string(crossings_text(grid, kolam));
-        }
-        text = fmt::format(
-            "{{\"grid\": {}, \"symmetry\": {}, \"dots\": {}, \"gaps\": {}, \"choices\": {}, \"states\": {}, "
-            "\"single_line\": {}, \"distinct\": {}, \"kolams\": [{}]}}\n",
-            json_string(grid.text()), json_string(grid_symmetry_name(symmetry)), grid.dots().size(),
-            grid.gaps().size(), found.choices, found.states, found.single_line, found.distinct, kolams);
-    } else {
-        text = fmt::format("{}{}: {} states, {} of a single line, {} of them distinct\n", printable(grid.text(), 80),
-                           symmetry == GridSymmetry::none
-                               ? std::string()
-                               : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry)),
-                           found.states, found.single_line, found.distinct);
-        for (const Crossings& kolam : found.kolams) text += crossings_text(grid, kolam) + '\n';
-        if (found.kolams.size() < found.distinct && options.limit > 0) {
-            text += fmt::format("and {} more (--limit)\n", found.distinct - found.kolams.size());
-        }
+    std::string text =
+        options.as_json ? enumeration_json(grid, symmetry, found) : enumeration_text(grid, symmetry, found);
+    if (!options.as_json && found.kolams.size() < found.distinct && options.limit > 0) {
+        text += fmt::format("and {} more (--limit)\n", found.distinct - found.kolams.size());
     }
     write(options.output, text);
 }
@@ -168,6 +162,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* density =
         command.add_option("--density", options.density, "share of the gaps in which lines cross, 0 to 1 (0.7)")
             ->type_name("SHARE")
+            ->check(number_between(0, 1))
             ->group(grid_heading)
             ->needs(grid);
     auto* crossings =
@@ -183,7 +178,10 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
             ->excludes(density);
     auto* single =
         command
-            .add_flag("--single-line", options.single_line, "make a single line, changing as few gaps as possible")
+            .add_flag(
+                "--single-line", options.single_line,
+                "make a single line, changing as few gaps as possible; with C4 the grid needs a dot in its middle, "
+                "with C2 or mirrors a dot or a gap; with D4 one dot at most on each diagonal")
             ->group(grid_heading)
             ->needs(grid);
     command
@@ -192,7 +190,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->type_name("N")
         ->group(grid_heading)
         ->needs(single)
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(whole_number(1, 1'000'000));
     auto* colours = command.add_flag("--colours", options.colours, "give each line its own colour")
                         ->needs(grid)
                         ->group(grid_heading);
@@ -213,7 +211,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->type_name("N")
         ->group(grid_heading)
         ->needs(enumerate)
-        ->check(CLI::Range(0, 10'000'000));
+        ->check(whole_number(0, 10'000'000));
 }
 
 void kolam_grid(const KolamGridOptions& options, bool quiet) {
@@ -223,12 +221,6 @@ void kolam_grid(const KolamGridOptions& options, bool quiet) {
         require_symmetry(grid, wanted);
         return wanted;
     });
-    if (options.crossings && symmetry != GridSymmetry::none) {
-        throw UsageError("--crossings: they are what they are; --symmetry is for those made by chance");
-    }
-    if (options.density && !(*options.density >= 0 && *options.density <= 1)) {
-        throw UsageError("--density: expected a number from 0 to 1");
-    }
     if (options.enumerate) {
         enumerate(options, grid, symmetry);
     } else {

@@ -15,7 +15,7 @@ void TableOptions::add(CLI::App& command, std::span<const OptionInfo* const> tab
         auto one = std::make_unique<One>();
         one->info = info;
         std::string names = "--" + name;
-        if (info->letter != 0) names = std::string("-") + info->letter + "," + names;
+        if (info->letter != 0) names = fmt::format("-{},{}", info->letter, names);
         if (info->kind == OptionKind::flag) {
             if (info->is_on) names += ",!--no-" + name;
             one->option = command.add_flag(names, one->flag, std::string(info->help));
@@ -57,6 +57,8 @@ bool is_option(std::string_view name) {
                        [&](const Interpreter* one) { return find_option(one->options(), name) != nullptr; });
 }
 
+}  // namespace
+
 std::string with_dashes(const std::string& message) {
     std::string text;
     for (std::size_t at = 0; at < message.size();) {
@@ -72,10 +74,29 @@ std::string with_dashes(const std::string& message) {
     return text;
 }
 
-}  // namespace
+std::string with_force(std::string message) {
+    constexpr std::string_view quoted = "'force'";
+    const std::size_t at = message.find(quoted);
+    return at == std::string::npos ? message : message.replace(at, quoted.size(), "--force");
+}
+
+std::string diagnostic_message(const Diagnostic& diagnostic) {
+    const bool is_option = diagnostic.where.line == 0 && !diagnostic.file.starts_with('-');
+    return (is_option ? "--" : "") + diagnostic.text();
+}
+
+std::string pattern_message(const PatternError& error) {
+    const auto& list = error.diagnostics();
+    if (std::all_of(list.begin(), list.end(), [](const Diagnostic& one) { return one.where.line > 0; })) {
+        return error.what();
+    }
+    std::string text;
+    for (const Diagnostic& one : list) text += (text.empty() ? "" : "\n") + diagnostic_message(one);
+    return text;
+}
 
 std::string option_message(const SettingError& error) {
-    const std::string message = with_dashes(error.what());
+    std::string message = with_dashes(error.what());
     if (error.option().empty()) return message;
     const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
     return fmt::format("--{}{}: {}", error.option(), value, message);

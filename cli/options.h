@@ -1,6 +1,7 @@
 // cli/options.h: adds the options of interpreters to commands.
 #pragma once
 
+#include "engine/base/diagnostic.h"
 #include "engine/base/option.h"
 
 #include <CLI/CLI.hpp>
@@ -35,5 +36,13 @@ private:
 /// Formats a SettingError for the command line: `--size 3x: expected …`. Quoted names of options in the message,
 /// 'plotter', become `--plotter`.
 std::string option_message(const SettingError& error);
+/// The same of any text of a library: quoted names of options become options.
+std::string with_dashes(const std::string& text);
+/// The same of messages of galleries, whose other quoted names are keys of files.
+std::string with_force(std::string message);
+/// Errors of a pattern; those in values of options begin with the option: `--scale dorain: …`.
+std::string pattern_message(const PatternError& error);
+/// The same of one warning or error.
+std::string diagnostic_message(const Diagnostic& diagnostic);
 
 }  // namespace sikku

@@ -3,16 +3,15 @@
 #include "cli/command.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
-#include "engine/language/grammar.h"
+#include "engine/check.h"
 #include "music/scale/scale.h"
+#include "music/score/midi_texts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -48,21 +47,12 @@ void list_patterns(const std::string& kind, bool names_only) {
                                               : fmt::format("did you mean '{}'?", near)));
 }
 
-/// Also a MIDI file of another name.
-bool begins_as_midi(const std::string& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return false;
-    std::array<char, 4> head{};
-    std::ifstream stream(file, std::ios::binary);
-    return stream.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == "MThd";
-}
-
 void show(const std::string& what, bool quiet) {
     if (lower_case(what).ends_with(".mtl")) {
         throw UsageError(fmt::format("{}: the pattern is in the .obj file beside this one", what));
     }
     std::optional<Provenance> found = read_provenance(what);
-    if (!found && begins_as_midi(what)) found = read_score_provenance(what);
+    if (!found && is_midi_file(what)) found = read_score_provenance(what);
     if (found) {
         std::fwrite(found->pattern.data(), 1, found->pattern.size(), stdout);
         if (!found->made.empty() && !quiet) tell("made with {}\n", printable(found->made, std::string::npos));
@@ -74,6 +64,9 @@ void show(const std::string& what, bool quiet) {
     Diagnostics diagnostics;
     const auto source = read_source(std::move(text.name), std::move(text.text), diagnostics);
     if (diagnostics.is_unreadable()) diagnostics.throw_if_errors();
+    if (!what.ends_with(".lsys") && !states_axiom(source->cleaned())) {
+        throw std::runtime_error(fmt::format("{}: this text is not a pattern: it has no axiom", what));
+    }
     std::fwrite(source->text().data(), 1, source->text().size(), stdout);
 }
 
@@ -91,49 +84,16 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
-void check_pattern(const Pattern& pattern, Diagnostics& diagnostics) {
-    if (interrupted()) throw Interrupted();
-    check_keys(pattern, diagnostics);
-    compile_grammar(pattern, diagnostics);
-    for (const Interpreter* interpreter : interpreters()) interpreter->check_keys(pattern, diagnostics);
-}
-
-/// Checks all variants, up to a limit: each is compiled in full, which would take minutes for many variants of a
-/// large pattern.
-void check_variants(const Pattern& pattern, Diagnostics& diagnostics) {
-    constexpr std::size_t most_bytes = std::size_t{256} << 20;  // of all variants
-    const std::size_t size = pattern.source->text().size();
-    if (pattern.variants.size() > 1 && size > most_bytes / pattern.variants.size()) {
-        diagnostics.error(pattern.variants.front().name,
-                          fmt::format("too many variants to check: {1} of {0} bytes each; at most 256 MB in total",
-                                      size, pattern.variants.size()));
-        return;
-    }
-    for (const Variant& variant : pattern.variants) {
-        if (diagnostics.has_errors()) return;
-        Pattern varied = pattern;
-        apply_overrides(varied, variant.name.view(), {}, diagnostics);
-        check_pattern(varied, diagnostics);
-    }
-}
-
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
-    if (const std::string_view format = known_format(file); !format.empty()) {
-        throw UsageError(
-            fmt::format("{}: this file is {}, not a pattern; `sikku show` prints the pattern it was made "
-                        "from",
-                        file, format));
-    }
-    Diagnostics diagnostics;
     NamedText text = read_pattern_text(file);
-    const Pattern pattern = parse_pattern(std::move(text.name), std::move(text.text), diagnostics);
-    if (!diagnostics.is_unreadable()) {
-        check_pattern(pattern, diagnostics);
-        if (!diagnostics.has_errors()) check_variants(pattern, diagnostics);
+    bool good = true;
+    for (const Diagnostic& diagnostic :
+         check_pattern(std::move(text.name), std::move(text.text), interpreters(), stop_monitor())) {
+        fmt::print("{}\n", diagnostic.text());
+        good = good && diagnostic.warning;
     }
-    for (const Diagnostic& diagnostic : diagnostics.sorted()) fmt::print("{}\n", diagnostic.text());
-    return !diagnostics.has_errors();
+    return good;
 }
 
 }  // namespace
@@ -149,12 +109,12 @@ void add_patterns(CLI::App& app) {
 }
 
 void add_show(CLI::App& app, bool& quiet) {
-    auto* command =
-        app.add_subcommand("show", "Print the text of a pattern, or of the pattern in a print or MIDI file");
+    auto* command = app.add_subcommand(
+        "show", "Print the text of a pattern, or of the pattern that a print or score was made from");
     auto what = std::make_shared<std::string>();
     command
         ->add_option("PATTERN", *what,
-                     "bundled pattern, pattern file, - for standard input, print, model or MIDI file")
+                     "bundled pattern, pattern file, -, or a print or score made by sikku, but for sound")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });
@@ -178,7 +138,7 @@ void add_check(CLI::App& app) {
             const std::string name = lower_case(file);
             if (name.ends_with(".scl") || name.ends_with(".kbm")) {
                 good = check_scale_file(file) && good;
-            } else if (name.ends_with(".mid") || name.ends_with(".midi") || begins_as_midi(file)) {
+            } else if (name.ends_with(".mid") || name.ends_with(".midi") || is_midi_file(file)) {
                 is_score_good = check_midi_file(file) && is_score_good;
             } else {
                 good = check(file) && good;

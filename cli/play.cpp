@@ -1,4 +1,5 @@
 // cli/play.cpp: `sikku play`: a curve as music.
+#include "art/print/format.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "music/scores.h"
@@ -23,10 +24,14 @@ std::string format_of(const std::string& output) {
     const std::string extension = std::filesystem::path(output).extension().string();
     const FormatName* format = find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1));
     if (format) return std::string(format->extension);
+    if (print_format(output)) {
+        throw UsageError(fmt::format(
+            "-o {}: this is a print; `sikku draw` draws the curve; for a printed score write .ly and run lilypond",
+            output));
+    }
     throw UsageError(
-        fmt::format("-o {}: unknown extension; a score is .mid, .musicxml or .ly, sound is .wav or .flac, "
-                    "and .svg or .html show it",
-                    output));
+        fmt::format("-o {}: {}; a score is .mid, .musicxml or .ly; sound is .wav or .flac; .svg and .html show it",
+                    output, extension.empty() ? "no extension" : "unknown extension"));
 }
 
 void run(const PlayCommand& command, bool quiet) {

@@ -50,10 +50,11 @@ void show_scales(const ScalesOptions& options) {
     }
     if (found.empty()) found = search_scales(options.words);
     if (found.empty()) {
-        const std::vector<std::string> near = similar_scales(wanted);
-        throw UsageError(fmt::format("unknown scale '{}'; {}", printable(wanted, 80),
-                                     near.empty() ? std::string("`sikku scales` lists the bundled ones")
-                                                  : fmt::format("did you mean {}?", fmt::join(near, " or "))));
+        const std::vector<std::string> similar = similar_scales(wanted);
+        const std::vector<std::string_view> near(similar.begin(), similar.end());
+        throw UsageError(
+            fmt::format("unknown scale '{}'{}", printable(wanted, 80),
+                        near.empty() ? "; `sikku scales` lists the bundled scales" : did_you_mean(near)));
     }
     if (!options.as_json) {
         fmt::print("{}", scale_listing(found));

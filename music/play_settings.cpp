@@ -37,6 +37,7 @@ std::vector<Option<S>> make_table() {
         {{.name = "seconds",
           .help = "maximum length in seconds (all)",
           .value = "SECONDS",
+          .unit = "s",
           .kind = number,
           .least = 0},
          [](S& s, Text t) { s.seconds = to_number(t); }},
@@ -57,13 +58,13 @@ std::vector<Option<S>> make_table() {
         {{.name = "seed", .help = "random seed of the pattern and of humanise (0)", .value = "N", .kind = whole},
          [](S& s, Text t) { read_whole("seed", t, s.seed); }},
         {{.name = "midi-format",
-          .help = "1: a track for each voice; or 0 (1)",
+          .help = "0: a single track; 1: a track for each voice (1)",
           .value = "0|1",
           .kind = whole,
           .most = 1},
          [](S& s, Text t) { read_whole("midi-format", t, s.format); }},
         {{.name = "tuning",
-          .help = "microtones by pitch bend or by the MIDI Tuning Standard: bend or mts (bend)",
+          .help = "how microtones are written: bend (pitch bend) or mts (MIDI Tuning Standard) (bend)",
           .value = "bend|mts"},
          [](S& s, Text t) {
              if (t != "bend" && t != "mts") refuse_option("tuning", t, "expected bend or mts");

@@ -164,9 +164,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
     diagnostics.throw_if_errors();
     // Warnings about the pattern itself belong to the document.
     for (const Diagnostic& warning : diagnostics.list()) {
-        const bool is_own = std::any_of(settings.keys.begin(), settings.keys.end(),
-                                        [&](const Setting& setting) { return setting.origin == warning.file; });
-        if (is_own) player.warnings.push_back(warning.message);
+        if (warning.where.line == 0) player.warnings.push_back(warning.message);
     }
     transpose(player.melody, settings.transpose);
     return player;
@@ -279,6 +277,15 @@ std::string range_of(const PlayReport& report, const Melody& melody) {
     return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
 }
 
+/// Why a melody has no notes, and what may help; empty if unknown.
+std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
+    if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
+    if (melody.mapping != Mapping::runs) return {};
+    return std::string(": the curve has no horizontal run there") +
+           (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
+                                               : "");
+}
+
 /// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
 std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
     PlayOptions playing = piece;
@@ -303,6 +310,9 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
                        bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
+        if (played && played->notes == 0) {
+            fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(melody, played->lost));
+        }
         if (known) fmt::format_to(out, "height    {}\n", counted(known->height.str(), "degree"));
     }
     return text;
@@ -337,19 +347,10 @@ PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playi
         throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
                                      bars_of(ticks, players.front().melody.meter).str()));
     }
-    std::string why;
-    const Melody& melody = players.front().melody;
-    if (all.lost > 0) {
-        why = ": every note is shorter than a tick, or has no key in the key map";
-    } else if (melody.mapping == Mapping::runs) {
-        why = ": the curve has no horizontal run there";
-        if (melody.vertical != Vertical::voice) {
-            why += "; try `vertical: voice`, another `heading:` or `mapping: symbols`";
-        }
-    }
     throw ScoreError(
         fmt::format("the {} no notes{}",
-                    playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains", why));
+                    playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains",
+                    reason_of_silence(players.front().melody, all.lost)));
 }
 
 void report_notes(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report,
@@ -377,7 +378,7 @@ void report_notes(const std::vector<Player>& players, const PlayOptions& playing
         if (melody.tempo != first.tempo || melody.meter.beats != first.meter.beats ||
             melody.meter.unit != first.meter.unit) {
             made.warn(printable(player.document.text("title")) +
-                      " keeps to the tempo and meter of the first pattern");
+                      " is played in the tempo and meter of the first pattern");
         }
     }
 }

@@ -46,13 +46,13 @@ void Composition::examine(const Grammar& grammar) {
 void Composition::set_spacing() {
     if (options_.dot_spacing && !(options_.may_be_empty && dots_.size() < 2)) {
         if (!(distance_ > 0)) {
-            throw std::runtime_error(
-                fmt::format("dot spacing needs at least two dots; this drawing has {}", dots_.size()));
+            throw std::runtime_error(fmt::format("dot spacing needs at least two dots; this drawing has {}",
+                                                 dots_.empty() ? "none" : std::to_string(dots_.size())));
         }
         options_.placement.step = *options_.dot_spacing / distance_;
     }
     if (dots_.empty() && options_.only_dots && !options_.may_be_empty) {
-        throw std::runtime_error("there is nothing to draw: the lines enclose no dots");
+        throw std::runtime_error("nothing to draw: the lines enclose no dots");
     }
 }
 

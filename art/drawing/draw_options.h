@@ -76,6 +76,8 @@ struct DrawReport {
     std::size_t dots = 0;             ///< number of kolam dots drawn
     bool overflows = false;           ///< the drawing is larger than the page within its margins (a step was given)
     int sheets = 0;                   ///< number of sheets of a tiled print
+    int sheet_rows = 0;               ///< rows of these sheets
+    glm::dvec2 left_out{0.0};         ///< margin of the page, in millimetres on each side, that the sheets do not show
     std::optional<PlotReport> plot;   ///< report of a plot
     std::uint64_t replaced = 0;       ///< parts too small to be resolved, replaced by their appearance
     bool is_empty = false;            ///< the window contains no part of the drawing

@@ -59,7 +59,7 @@ DrawReport Drawing::place(Print& print) {
     around_ = seen().around;
     const double border = border_space(print.page);
     print.page.margin += border;
-    const DrawReport report = place_print(print, placed, style().stroke, placement);
+    DrawReport report = place_print(print, placed, style().stroke, placement);
     print.page.margin -= border;
     return report;
 }

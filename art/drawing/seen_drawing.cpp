@@ -398,7 +398,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
         }
     }
     if (extent_.box.empty())
-        throw std::runtime_error("there is nothing to draw: the word contains no step that draws");
+        throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
     if (!view_) throw std::runtime_error("the drawing is too large to be drawn");

@@ -259,6 +259,8 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
         !is_vector(options.format) && !keeps_text(info(options.format).extension, print.pattern);
     report.overflows = false;
     report.sheets = static_cast<int>(tiling.tiles.size());
+    report.sheet_rows = tiling.rows;
+    report.left_out = {tiling.tiles.front().shown.left, tiling.tiles.front().shown.top};
     return report;
 }
 

@@ -172,9 +172,7 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 
 void require_ink(const Box& box) {
     if (!box.empty()) return;
-    throw std::runtime_error(
-        "there is nothing to draw: the word contains no step that draws, no polygon, no disc, or none in a "
-        "colour that is seen");
+    throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
 }
 
 DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation) {

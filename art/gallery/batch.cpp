@@ -31,9 +31,8 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     const GalleryPlace place = folder.place(file.file);
     const auto there = place.status();
     if (there && !replaces) {
-        throw std::runtime_error(
-            fmt::format("'{}' already exists and was not made by this gallery; only a forced run replaces it",
-                        folder.shown(file.file)));
+        throw std::runtime_error(fmt::format(
+            "'{}' already exists and was not made by this gallery; 'force' replaces it", folder.shown(file.file)));
     }
     // Check the link itself, not its target.
     if (there && !S_ISREG(there->st_mode) && !S_ISDIR(there->st_mode)) place.remove();

@@ -220,6 +220,7 @@ GalleryResult Gallery::make(GalleryListener& listener) {
     }
     forecast_all(pending);
     std::vector<Task> tasks;
+    tasks.reserve(pending.size());
     for (const std::size_t job : pending) tasks.push_back({job, *forecasts_[job], false});
     if (std::any_of(pending.begin(), pending.end(), [&](std::size_t job) { return is_picture(jobs_[job]); })) {
         prepare_images(thread_count(options_.threads));

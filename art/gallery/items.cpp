@@ -69,9 +69,13 @@ void check_value(const std::string& key, const GalleryKey* known, const std::str
     }
     if (!known) return;
     try {
-        check_option(
-            {.name = known->name, .help = "", .kind = known->kind, .least = known->least, .most = known->most},
-            value);
+        check_option({.name = known->name,
+                      .help = "",
+                      .unit = known->unit,
+                      .kind = known->kind,
+                      .least = known->least,
+                      .most = known->most},
+                     value);
     } catch (const SettingError& error) {
         fail(place, fmt::format("{}: {}, not '{}'", key, error.what(), printable(value, 80)));
     }
@@ -100,6 +104,12 @@ void check_range(const std::string& key, const GalleryRange& range, const std::s
 void check_format(const GalleryKeys& keys, const std::string& format, const std::string& place) {
     const std::vector<std::string_view>& known = keys.formats();
     if (std::find(known.begin(), known.end(), format) != known.end()) return;
+    for (const Interpreter* interpreter : keys.interpreters()) {
+        if (const FormatName* row = find_format(interpreter->formats(), format)) {
+            fail(place, fmt::format("{} files are not made in galleries; `sikku draw` makes animations and models",
+                                    row->label));
+        }
+    }
     const std::string_view near = nearest(format, known);
     fail(place, fmt::format("unknown format '{}'{}", printable(format, 80),
                             near.empty() ? fmt::format("; expected one of {}", fmt::join(known, ", "))

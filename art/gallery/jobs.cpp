@@ -481,6 +481,11 @@ std::ifstream open_text_file(const std::string& file) {
 
 std::string read_gallery_text(const GalleryRequest& request) {
     if (request.gallery_text) return *request.gallery_text;
+    if (std::error_code error; !std::filesystem::exists(request.gallery_file, error)) {
+        throw GalleryError(fmt::format("no file or bundled gallery file named '{}'; there are {}",
+                                       printable(request.gallery_file, 200),
+                                       fmt::join(PatternLibrary::bundled().gallery_files(), ", ")));
+    }
     std::ifstream stream = open_text_file(request.gallery_file);
     std::string text;
     for (std::array<char, 65536> block{}; stream && text.size() <= most_gallery_bytes;) {

@@ -29,6 +29,7 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
             if (info->is_alone || info->is_key || find(name)) continue;
             keys_.push_back({.name = name,
                              .help = std::string(info->help),
+                             .unit = info->unit,
                              .use = interpreter,
                              .kind = info->kind,
                              .least = info->least,
@@ -49,7 +50,7 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
         if (!reader) continue;
         // Keys that are also options of the interpreter use its table.
         const OptionInfo* option = find_option(reader->options(), key.name);
-        const bool is_option = option && option->is_key && !option->sets_more;
+        const bool is_option = option && option->is_key && !option->sets_more && !option->is_alone;
         keys_.push_back(
             {.name = std::string(key.name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
     }
@@ -75,6 +76,18 @@ const GalleryKeys::Known* GalleryKeys::known(std::string_view format) const {
 
 const Interpreter& GalleryKeys::interpreter_of(std::string_view format) const {
     return *known(format)->interpreter;
+}
+
+std::string GalleryKeys::format_list() const {
+    std::string list;
+    for (const Interpreter* interpreter : interpreters_) {
+        for (const FormatName& row : interpreter->formats()) {
+            if (!row.is_several && &interpreter_of(row.extension) == interpreter) {
+                list += (list.empty() ? "" : ", ") + std::string(row.extension);
+            }
+        }
+    }
+    return list;
 }
 
 std::string_view GalleryKeys::label(std::string_view format) const {

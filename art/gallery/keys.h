@@ -15,6 +15,7 @@ namespace sikku {
 struct GalleryKey {
     std::string name{};
     std::string help{};
+    std::string_view unit{};           ///< may follow the number
     const Interpreter* use = nullptr;  ///< interpreter whose jobs use the key; null: all
     OptionKind kind = OptionKind::text;
     bool overrides = false;  ///< true if it overrides a key of the pattern
@@ -32,6 +33,8 @@ public:
     const std::vector<GalleryKey>& list() const { return keys_; }
     /// Null if the name is unknown.
     const GalleryKey* find(std::string_view name) const;
+    /// Names of all formats whose jobs are one file each, without aliases: `svg, pdf, …`.
+    std::string format_list() const;
     /// Names and aliases of all formats whose jobs are one file each.
     const std::vector<std::string_view>& formats() const { return formats_; }
     /// @param format  one of formats()

@@ -1,5 +1,7 @@
 #include "art/gallery/patterns.h"
 
+#include "engine/base/text.h"
+
 #include "art/gallery/values.h"
 
 #include <fmt/format.h>
@@ -222,9 +224,10 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     }
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
-    const std::string_view near = PatternLibrary::bundled().nearest(word);
-    fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80),
-                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    // A kind of patterns, too: `kolams`.
+    const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
+    const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};
+    fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80), did_you_mean(similar)));
 }
 
 PatternShelf::List PatternShelf::all() {

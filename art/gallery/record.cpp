@@ -172,9 +172,8 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
     const GalleryLocks::Turn turn(locks_, false);
     const RecordText own = read_record(read_from(descriptor_, 0));
     if (!own.is_ours && !replaces) {
-        throw std::runtime_error(
-            fmt::format("'{}' already exists and was not made by a gallery; only a forced run replaces it",
-                        folder_.shown(name_)));
+        throw std::runtime_error(fmt::format("'{}' already exists and was not made by a gallery; 'force' replaces it",
+                                             folder_.shown(name_)));
     }
     // What is appended begins on a line of its own.
     if (own.is_cut) append("\n", false);
@@ -292,7 +291,7 @@ void GalleryRecord::remove_left() {
                 left_.insert(*file);
                 continue;
             }
-            folder_.remove(below.empty() ? name : below + "/" + name);
+            folder_.remove((std::filesystem::path(below) / name).string());
             locks_.release(*file);
         }
     }

@@ -52,13 +52,16 @@ std::vector<NamedJobs> by_name(const std::vector<const GalleryJob*>& jobs) {
 }
 
 /// What of a job's settings is told in one line: `angle increment = 60, size = A4`.
-/// @param keys  those of the options that are told; null: all but the derivation length, which is told elsewhere
+/// @param keys  those of the options that are told, beside a caption that states the angle already; null: all but the
+/// derivation length, which is told elsewhere
 std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys) {
     std::string text;
     const auto add = [&](const std::string& key, const std::string& value) {
         text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, value);
     };
-    for (const auto& [key, value] : job.overrides) add(key, value);
+    for (const auto& [key, value] : job.overrides) {
+        if (!keys || (key != "angle increment" && key != "angle factor")) add(key, value);
+    }
     for (const auto& [key, value] : job.keys) {
         if (key == "n" || key == "budget" || (keys && !keys->contains(key))) continue;
         add(key, value);
@@ -84,7 +87,7 @@ std::string growth_of(const Grammar& grammar) {
 }
 
 std::string angle_of(const Pattern& pattern) {
-    const std::string increment = pattern.text("angle increment");
+    std::string increment = pattern.text("angle increment");
     if (!increment.empty()) return increment;
     const std::string factor = pattern.text("angle factor");
     int parts = 0;
@@ -161,6 +164,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 std::vector<std::string> sheet_files(const SheetRequest& request) {
     std::vector<std::string> files;
+    files.reserve(sheet_formats.size());
     for (const std::string_view format : sheet_formats) files.push_back(fmt::format("{}.{}", request.name, format));
     return files;
 }

@@ -217,13 +217,31 @@ void fail(const std::string& place, const std::string& message) {
     throw GalleryError(place.empty() ? message : place + ": " + message);
 }
 
+namespace {
+
+/// Whether the value in a line is a word without quotes.
+bool has_bare_text(std::string_view text, std::size_t line) {
+    for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) return false;
+    const std::size_t first = text.find_first_not_of(" \t[", equals + 1);
+    if (first == std::string_view::npos) return false;
+    const char letter = text[first];
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter == '#';
+}
+
+}  // namespace
+
 GalleryValue read_gallery_toml(const std::string& file, const std::string& text) {
     if (text.size() > most_gallery_bytes) fail(file, "the file is too large: a gallery file has at most 16 MB");
     TomlScan(file, text).run();
     try {
         return value_of(toml::parse(text, file), file);
     } catch (const toml::parse_error& error) {
-        fail(place_of(file, error.source().begin), printable(error.description(), 300));
+        const std::string place = place_of(file, error.source().begin);
+        if (has_bare_text(text, error.source().begin.line)) fail(place, "text needs quotes: size = \"A4\"");
+        fail(place, printable(error.description(), 300));
     }
 }
 

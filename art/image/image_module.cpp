@@ -173,7 +173,7 @@ private:
     [[noreturn]] void fail();
     /// 3 channels, or 1 if there was 1; what is transparent lies on white paper.
     std::span<const std::uint8_t> on_paper(std::span<const std::uint8_t> pixels);
-    void write(int first_row, int rows, OIIO::TypeDesc type, const void* pixels);
+    void write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels);
 
     ImageSpec spec_;
     CheckedFile file_;
@@ -244,18 +244,12 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     image.attribute("ResolutionUnit", "in");
     // TIFF and EXR are given the time of day if there is none; one that is no text counts, and is not written.
     if (tiff || exr) image.attribute("DateTime", 0);
+    image.attribute("compression", jpeg ? "jpeg:95" : "zip");
     if (png) {
-        image.attribute("compression", "zip");
         image.attribute("png:compressionLevel", spec.compression);
         // libpng's PNG_FILTER_NONE: left to itself it tries every filter on every row, for more than twice the time
         // and no smaller files where areas are flat.
         image.attribute("png:filter", 8);
-    } else if (tiff) {
-        image.attribute("compression", "zip");
-    } else if (jpeg) {
-        image.attribute("compression", "jpeg:95");
-    } else {
-        image.attribute("compression", "zip");
     }
     const auto text = [&](const char* name, const std::string& value) {
         if (!value.empty() && keeps_text(spec.format, value)) image.attribute(name, value);
@@ -283,7 +277,7 @@ void FileWriter::fail() {
     throw std::runtime_error(message.empty() ? "the image could not be written" : message);
 }
 
-void FileWriter::write(int first_row, int rows, OIIO::TypeDesc type, const void* pixels) {
+void FileWriter::write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels) {
     if (!output_->write_scanlines(first_row, first_row + rows, 0, type, pixels)) fail();
     file_.check();
 }

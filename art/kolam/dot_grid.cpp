@@ -48,8 +48,7 @@ std::vector<std::uint32_t> shuffled(std::size_t count, SplitMix& chance) {
 
 [[noreturn]] void refuse_grid(std::string_view text) {
     throw std::runtime_error(fmt::format(
-        "grid '{}': expected ROWSxCOLUMNS, as 7x7, or the dots of each row, as 1-3-5-3-1; every number is "
-        "1 or more",
+        "'{}': expected ROWSxCOLUMNS such as 7x7, or the dots of each row such as 1-3-5-3-1, every number 1 or more",
         printable(text, 80)));
 }
 
@@ -302,7 +301,13 @@ std::string DotGrid::text() const {
     return fmt::format("{}", fmt::join(rows_, "-"));
 }
 
-DotGrid parse_dot_grid(std::string_view text) {
+DotGrid parse_dot_grid(std::string_view given) {
+    std::string text(given);
+    constexpr std::string_view times = "×";
+    if (const std::size_t at = text.find(times); at != std::string::npos) {
+        text.erase(at, times.size() - 1);
+        text[at] = 'x';
+    }
     const auto is_x = [](char byte) { return byte == 'x' || byte == 'X'; };
     const auto x = std::find_if(text.begin(), text.end(), is_x);
     if (x == text.end()) return DotGrid(numbers(text, '-'));
@@ -322,12 +327,12 @@ Crossings parse_crossings(const DotGrid& grid, std::string_view text) {
             crossings.push_back(byte == '1');
         } else if (std::string_view(" \t\r\n,/").find(byte) == std::string_view::npos) {
             throw std::runtime_error(
-                fmt::format("crossings '{}': expected all, none, or a 0 or 1 for each gap", printable(text, 80)));
+                fmt::format("'{}': expected all, none, or a 0 or 1 for each gap", printable(text, 80)));
         }
     }
     if (crossings.size() != count) {
         throw std::runtime_error(
-            fmt::format("crossings: {} digits, but the grid {} has {} gaps: for each row from the top those within "
+            fmt::format("{} digits, but the grid {} has {} gaps: for each row from the top those within "
                         "it, then those "
                         "to the next row",
                         crossings.size(), printable(grid.text(), 80), count));
@@ -457,7 +462,7 @@ GridSymmetry parse_grid_symmetry(std::string_view text) {
         if (word == lower_case(name)) return symmetry;
     }
     throw std::runtime_error(
-        fmt::format("symmetry '{}': expected none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), "
+        fmt::format("'{}': expected none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), "
                     "mirror-y (top and bottom), mirrors (both) or D4 (all)",
                     printable(text, 80)));
 }

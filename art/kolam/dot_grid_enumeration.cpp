@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid_enumeration.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
@@ -127,7 +128,7 @@ private:
     }
     void undo(std::size_t choice, bool crossing) {
         const auto& joints = plan_.choices[choice].joints[crossing];
-        for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) part(*joint);
+        for (std::size_t i = joints.size(); i-- > 0;) part(joints[i]);
         if (crossing) toggle(choice);
     }
     void toggle(std::size_t choice) {
@@ -214,6 +215,27 @@ Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions
         }
     }
     return all;
+}
+
+std::string enumeration_json(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {
+    std::string kolams;
+    for (const Crossings& kolam : found.kolams) {
+        kolams += (kolams.empty() ? "" : ", ") + json_string(crossings_text(grid, kolam));
+    }
+    return fmt::format(
+        "{{\"grid\": {}, \"symmetry\": {}, \"dots\": {}, \"gaps\": {}, \"choices\": {}, \"states\": {}, "
+        "\"single_line\": {}, \"distinct\": {}, \"kolams\": [{}]}}\n",
+        json_string(grid.text()), json_string(grid_symmetry_name(symmetry)), grid.dots().size(), grid.gaps().size(),
+        found.choices, found.states, found.single_line, found.distinct, kolams);
+}
+
+std::string enumeration_text(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {
+    std::string text = printable(grid.text(), 80);
+    if (symmetry != GridSymmetry::none) text += fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
+    text += fmt::format(": {} states, {} of a single line, {} of them distinct\n", found.states, found.single_line,
+                        found.distinct);
+    for (const Crossings& kolam : found.kolams) text += crossings_text(grid, kolam) + '\n';
+    return text;
 }
 
 }  // namespace sikku

@@ -4,6 +4,7 @@
 #include "art/kolam/dot_grid.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -31,5 +32,10 @@ constexpr int most_choices = 36;
 /// Decides gap by gap and gives up as soon as a line closes with gaps left. The same whatever the number of threads.
 /// @throws std::runtime_error if the grid does not have the symmetry, or for over most_choices choices
 Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions& options = {});
+
+/// The counts in one line, then each kolam that was kept as its crossings.
+std::string enumeration_text(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found);
+/// The same as one line of JSON.
+std::string enumeration_json(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found);
 
 }  // namespace sikku

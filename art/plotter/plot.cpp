@@ -408,6 +408,7 @@ PlotPlan::Gathered& PlotPlan::outlines(const Pen& pen) {
 void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     if (vertices.size() < 2 || print_.style.fill_colour(pen).alpha == 0) return;
     Gathered& into = outlines(pen);
+    ++report_.fills;
     into.add(Gathered::Kind::start, vertices.first(1));
     into.add(Gathered::Kind::lines, vertices.subspan(1));
     into.add(Gathered::Kind::lines, vertices.first(1));
@@ -417,6 +418,7 @@ void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
 void PlotPlan::area(std::span<const glm::dvec2> outline, const Pen& pen) {
     if (outline.size() < 4 || print_.style.fill_colour(pen).alpha == 0) return;
     Gathered& into = outlines(pen);
+    ++report_.fills;
     into.add(Gathered::Kind::start, outline.first(1));
     into.add(Gathered::Kind::curves, outline.subspan(1, (outline.size() - 1) / 3 * 3));
     if (outline.back() != outline.front()) into.add(Gathered::Kind::lines, outline.first(1));
@@ -451,6 +453,7 @@ void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     const double wide = print_.style.disc_radius(radius, pen, step) / step;
     if (print_.style.fill_colour(pen).alpha == 0 || !(wide > 0.0)) return;
     down_ = false;
+    ++report_.fills;
     const std::vector<glm::dvec2> path = spiral(centre, wide, pen_steps(pen));
     Gathered& into = gathered(pen, true);
     into.add(Gathered::Kind::start, std::span(path).first(1));
@@ -517,9 +520,6 @@ void PlotPlan::add_outlines(double tolerance) {
             if (is_drawn && !is_down) into.add(Gathered::Kind::start, {&from, 1});
             if (is_drawn) into.add(kind, points);
             is_down = is_drawn;
-            if (is_drawn) return;
-            ++report_.segments;
-            ++report_.duplicates;
         });
     }
     outlines_.clear();

@@ -57,8 +57,9 @@ struct MergedPen {
 struct PlotReport {
     PlotTally before;  ///< pen after pen, but everything as it was drawn
     PlotTally after;
-    std::uint64_t segments = 0;     ///< lines and curves as they were drawn
-    std::uint64_t duplicates = 0;   ///< those of them that lay on another one and were left out
+    std::uint64_t segments = 0;     ///< lines and curves drawn, and edges of fills that no line draws
+    std::uint64_t duplicates = 0;   ///< drawn lines and curves left out because they lay on another one
+    std::uint64_t fills = 0;        ///< number of polygons, areas and discs
     bool returns = false;           ///< travel includes the return home
     std::size_t colours = 0;        ///< number of colours drawn
     std::vector<MergedPen> merged;  ///< merged colours, in the order of the palette

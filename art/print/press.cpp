@@ -2,6 +2,7 @@
 
 #include "art/print/print.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/option.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -50,14 +51,11 @@ Colour black_or_white(Colour colour) {
 Spot parse_spot(std::string_view text) {
     const std::size_t equals = text.rfind('=');
     if (equals == std::string_view::npos) {
-        throw std::runtime_error(
-            fmt::format("spot colour '{}': expected a name and a colour, such as Kaavi=#b3452c", printable(text)));
+        throw std::runtime_error("expected a name and a colour, such as Kaavi=#b3452c");
     }
     const std::string_view name = trimmed(text.substr(0, equals));
     const std::string_view colour_text = trimmed(text.substr(equals + 1));
-    const auto refuse = [&](std::string_view why) {
-        throw std::runtime_error(fmt::format("spot colour '{}': {}", printable(text), why));
-    };
+    const auto refuse = [&](std::string_view why) { throw std::runtime_error(std::string(why)); };
     if (name.empty()) refuse("its name is missing");
     if (name.size() > longest_name) refuse(fmt::format("its name is longer than {} bytes", longest_name));
     for (const char* reserved : {"All", "None", "Cyan", "Magenta", "Yellow", "Black"}) {
@@ -91,23 +89,20 @@ std::vector<Spot> parse_spots(std::span<const std::string> texts) {
 }
 
 void check_press(const Press& press, PrintFormat format) {
+    const auto refuse_if = [](bool is_wrong, const char* option, const std::string& why) {
+        if (is_wrong) refuse_option(option, "", why);
+    };
     // Also false for what is no number.
-    if (!(press.bleed >= 0.0 && press.bleed <= most_bleed)) {
-        throw std::runtime_error(
-            fmt::format("a bleed of {:.6g} mm: it is 0 to {:.6g} mm wide", press.bleed, most_bleed));
-    }
-    if (press.bleed > 0.0 && is_for_plotters(format)) throw std::runtime_error("a plot has no bleed");
-    if (press.bits != 1 && press.bits != 8) {
-        throw std::runtime_error(fmt::format("{} bits a channel: pictures have 8, or 1 as line art", press.bits));
-    }
-    if (format != PrintFormat::pdf && press.marks) throw std::runtime_error("only a PDF has crop marks");
-    if (format != PrintFormat::pdf && !press.spots.empty()) throw std::runtime_error("only a PDF has spot colours");
-    if (format != PrintFormat::tiff && !press.cmyk.empty()) throw std::runtime_error("only a TIFF is made in CMYK");
-    if (format != PrintFormat::tiff && press.bits == 1) throw std::runtime_error("only a TIFF is made in one bit");
-    if (press.bits != 1 && press.screen != Screen{}) {
-        throw std::runtime_error("a screen applies only to pictures of one bit");
-    }
-    if (press.bits == 1 && !press.cmyk.empty()) throw std::runtime_error("a picture in CMYK has 8 bits a channel");
+    const bool has_bleed = press.bleed >= 0.0 && press.bleed <= most_bleed;
+    refuse_if(!has_bleed, "bleed", fmt::format("expected 0 to {:g}mm", most_bleed));
+    refuse_if(press.bleed > 0.0 && is_for_plotters(format), "bleed", "a plot has no bleed");
+    refuse_if(press.bits != 1 && press.bits != 8, "bits", "expected 1 or 8");
+    refuse_if(format != PrintFormat::pdf && press.marks, "marks", "only a PDF has crop marks");
+    refuse_if(format != PrintFormat::pdf && !press.spots.empty(), "spot", "only a PDF has spot colours");
+    refuse_if(format != PrintFormat::tiff && !press.cmyk.empty(), "cmyk", "only a TIFF is made in CMYK");
+    refuse_if(format != PrintFormat::tiff && press.bits == 1, "bits", "only a TIFF is made in one bit");
+    refuse_if(press.bits != 1 && press.screen != Screen{}, "screen", "applies only to pictures of one bit");
+    refuse_if(press.bits == 1 && !press.cmyk.empty(), "cmyk", "a picture in CMYK has 8 bits a channel");
 }
 
 void check_spots(const Press& press, const Style& style) {
@@ -130,9 +125,9 @@ void check_spots(const Press& press, const Style& style) {
         for (std::size_t i = 0; i < std::min(used.size(), most_listed); ++i) {
             names += (i == 0 ? "" : ", ") + colour_name(used[i]);
         }
-        throw std::runtime_error(fmt::format("spot colour '{}': nothing is {}; there is {}{}", spot.name,
-                                             colour_name(spot.colour), names,
-                                             used.size() > most_listed ? " and more" : ""));
+        refuse_option("spot", spot.name + "=" + colour_name(spot.colour),
+                      fmt::format("nothing is drawn in {}; the colours are {}{}", colour_name(spot.colour), names,
+                                  used.size() > most_listed ? " and more" : ""));
     }
 }
 

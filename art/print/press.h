@@ -45,9 +45,9 @@ void add_spot(std::vector<Spot>& spots, Spot spot);
 /// Parses several. @throws std::runtime_error as parse_spot(), and if a name or a colour is repeated
 std::vector<Spot> parse_spots(std::span<const std::string> texts);
 
-/// @throws std::runtime_error if the values are out of range, exclude each other, or do not apply to the format
+/// @throws SettingError if the values are out of range, exclude each other, or do not apply to the format
 void check_press(const Press& press, PrintFormat format);
-/// @throws std::runtime_error if the colour of a spot occurs neither in the ground nor in lines or fills of `style`
+/// @throws SettingError if the colour of a spot occurs neither in the ground nor in lines or fills of `style`
 void check_spots(const Press& press, const Style& style);
 
 /// Distance in millimetres from the edge of the medium to the trimmed sheet: the bleed, or the room for the marks.

@@ -224,7 +224,7 @@ void draw_tile_overview(const Tiling& tiling, const Page& page, const Window& pl
         write_plain(shortened(text, height, width), {tiling.sheet.margin, y}, height, sink);
         y -= height;
     };
-    write(fmt::format("{} sheets of {:g} x {:g} mm; neighbours share {:g} mm: cut or fold along the crosses",
+    write(fmt::format("{} sheets of {:g} x {:g} mm; sheets overlap by {:g} mm; cut or fold at the crosses",
                       tiling.tiles.size(), tiling.sheet.width, tiling.sheet.height, tiling.overlap),
           letter);
     if (!title.empty()) write(title, 2 * letter);

@@ -185,7 +185,7 @@ bool skip_text(InputStream& in) {
 std::optional<Provenance> read_dictionary(InputStream& in) {
     constexpr std::string_view head = " 0 obj\n<< ";
     const std::size_t at = in.ahead(64).find(head);
-    if (at == std::string_view::npos || at > 20) return std::nullopt;
+    if (at > 20) return std::nullopt;  // or nowhere
     in.skip(at + head.size());
     Provenance found;
     bool is_ours = false;

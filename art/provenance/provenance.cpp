@@ -1,6 +1,7 @@
 #include "art/provenance/provenance.h"
 
 #include "art/provenance/provenance_readers.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -46,43 +47,55 @@ bool begins_as_obj(std::string_view head) {
     return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
 }
 
-/// For formats that are recognised only to name them in messages.
-std::optional<Provenance> read_no_provenance(const InputFile&) {
+bool begins_as_lilypond(std::string_view head) {
+    return head.starts_with("\\version \"");
+}
+
+bool begins_as_wav(std::string_view head) {
+    return head.starts_with("RIFF") && head.find("WAVE") == 8;
+}
+
+/// Sound contains no pattern.
+std::optional<Provenance> read_nothing(const InputFile& /*file*/) {
     return std::nullopt;
 }
 
 struct Format {
-    std::string_view name;
+    std::string_view name;                  ///< with its article
     bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 13> formats = {{
-    {"PNG", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
-    {"TIFF", begins_as_tiff, read_tiff_provenance},
-    {"JPEG", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
-    {"EXR", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
-    {"PDF", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
-    {"GIF", begins_with<'G', 'I', 'F', '8'>, read_comment_provenance},
-    {"GLB", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
-    {"HP-GL", begins_with<'I', 'N', ';'>, read_comment_provenance},
-    {"G-code", begins_as_gcode, read_comment_provenance},
-    {"OBJ", begins_as_obj, read_comment_provenance},
-    {"HTML", begins_as_html, read_no_provenance},
-    {"MusicXML", begins_as_musicxml, read_no_provenance},
-    {"SVG", begins_as_xml, read_svg_provenance},
+constexpr std::array<Format, 16> formats = {{
+    {"a PNG file", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
+    {"a TIFF file", begins_as_tiff, read_tiff_provenance},
+    {"a JPEG file", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
+    {"an EXR file", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
+    {"a PDF file", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
+    {"a GIF file", begins_with<'G', 'I', 'F', '8'>, read_comment_provenance},
+    {"a GLB file", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
+    {"an HP-GL file", begins_with<'I', 'N', ';'>, read_comment_provenance},
+    {"a G-code file", begins_as_gcode, read_comment_provenance},
+    {"an OBJ file", begins_as_obj, read_comment_provenance},
+    {"a WAV file", begins_as_wav, read_nothing},
+    {"a FLAC file", begins_with<'f', 'L', 'a', 'C'>, read_nothing},
+    {"a LilyPond file", begins_as_lilypond, read_lilypond_provenance},
+    {"an HTML page", begins_as_html, read_page_provenance},
+    {"a MusicXML file", begins_as_musicxml, read_musicxml_provenance},
+    {"an SVG file", begins_as_xml, read_svg_provenance},
 }};
 
 }  // namespace
 
-std::string_view known_format(const std::filesystem::path& file) {
+std::optional<KnownFormat> known_format(const std::filesystem::path& file) {
     try {
         const std::string head = InputFile(file).read(0, head_bytes);
         const auto format =
             std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
-        return format == formats.end() ? std::string_view() : format->name;
+        if (format == formats.end()) return std::nullopt;
+        return KnownFormat{format->name, format->read != read_nothing};
     } catch (const std::system_error&) {
-        return {};
+        return std::nullopt;
     }
 }
 
@@ -101,6 +114,7 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& file) {
         std::string refusal = "contains no pattern";
         try {
             auto found = format->read(*input);
+            if (format->read == read_nothing) refusal = "contains sound and no pattern";
             if (found && !found->pattern.empty()) {
                 limit_made(found->made);
                 return found;
@@ -108,7 +122,8 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& file) {
         } catch (const UnreadableFile& error) {
             refusal = error.what();
         }
-        throw std::runtime_error(fmt::format("{}: this {} file {}", file.string(), format->name, refusal));
+        throw std::runtime_error(
+            fmt::format("{}: this {} {}", file.string(), format->name.substr(format->name.find(' ') + 1), refusal));
     } catch (const std::system_error& error) {
         throw std::runtime_error(fmt::format("{}: {}", file.string(), error.code().message()));
     }

@@ -40,6 +40,16 @@ inline void limit_made(std::string& made) {
     if (made.size() > std::size_t{2} << 20) std::string().swap(made);
 }
 
+constexpr std::size_t longest_xml_reference = 12;  // bytes
+
+/// `&amp;`, `&#13;` or `&#xD;`, decoded.
+struct XmlReference {
+    std::string character;
+    std::size_t length = 1;  ///< bytes that it has
+};
+/// Decodes the reference at the front of `bytes`; another `&` stands for itself.
+XmlReference read_xml_reference(std::string_view bytes);
+
 /// The readers receive a file that begins with the signature of their format. They return nullopt (or an empty
 /// pattern) if it contains none, and throw UnreadableFile if it is damaged. Memory beyond the texts: less than 2 MB.
 std::optional<Provenance> read_png_provenance(const InputFile& file);
@@ -50,5 +60,9 @@ std::optional<Provenance> read_svg_provenance(const InputFile& file);
 std::optional<Provenance> read_pdf_provenance(const InputFile& file);
 /// G-code, HP-GL, OBJ, glTF and GIF, whose texts are comments: at the beginning or at the end of the file.
 std::optional<Provenance> read_comment_provenance(const InputFile& file);
+std::optional<Provenance> read_musicxml_provenance(const InputFile& file);
+std::optional<Provenance> read_page_provenance(const InputFile& file);
+/// LilyPond files contain the pattern as comments, line by line: without carriage returns, and with blanks for tabs.
+std::optional<Provenance> read_lilypond_provenance(const InputFile& file);
 
 }  // namespace sikku

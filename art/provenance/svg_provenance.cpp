@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 namespace sikku {
@@ -170,34 +169,11 @@ private:
         return true;
     }
 
-    /// `&amp;`, `&#13;`, `&#xD;`; another `&` stands for itself. Returns the bytes it has.
+    /// A reference, or another `&`, which stands for itself. Returns the bytes it has.
     static std::size_t read_reference(std::string_view bytes, Text& text) {
-        const char first = bytes.size() > 1 ? bytes[1] : ' ';
-        if (first == '#') {
-            const std::size_t end = std::min(bytes.substr(0, reference_bytes).find(';'), bytes.size());
-            const bool is_hexadecimal = bytes.starts_with("&#x");
-            const char* const begin = bytes.data() + (is_hexadecimal ? 3 : 2);
-            const char* const stop = bytes.data() + end;
-            std::uint32_t code = 0;
-            const bool is_number = begin < stop && end < bytes.size() &&
-                                   std::from_chars(begin, stop, code, is_hexadecimal ? 16 : 10).ptr == stop;
-            if (is_number && code != 0 && code < 0x110000 && (code < 0xD800 || code > 0xDFFF)) {
-                std::string character;
-                append_utf8(code, character);
-                text.add(character);
-                return end + 1;
-            }
-        } else if (first == 'q' || first == 'l' || first == 'g' || first == 'a') {
-            constexpr std::array<std::pair<std::string_view, std::string_view>, 5> known = {
-                {{"&quot;", "\""}, {"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}, {"&apos;", "'"}}};
-            for (const auto& [written, meant] : known) {
-                if (!bytes.starts_with(written)) continue;
-                text.add(meant);
-                return written.size();
-            }
-        }
-        text.add("&");
-        return 1;
+        const XmlReference reference = read_xml_reference(bytes);
+        text.add(reference.character);
+        return reference.length;
     }
 
     /// A CDATA section after its head.
@@ -215,7 +191,7 @@ private:
     }
 
     static constexpr std::size_t name_bytes = 32;
-    static constexpr std::size_t reference_bytes = 12;  // the longest reference
+    static constexpr std::size_t reference_bytes = longest_xml_reference;
 
     InputStream in_;
     int steps_ = 0;

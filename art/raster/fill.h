@@ -53,6 +53,7 @@ void AreaFill::sweep(SpanFunction&& span) {
         for (int column = reach.low; column <= last; ++column) {
             // Whole blocks without an edge keep the coverage.
             static constexpr float nothing[8] = {};
+            // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the sums there are 0, of no sign
             while (column + 8 <= last && std::memcmp(sums + column, nothing, sizeof nothing) == 0) column += 8;
             winding += sums[column];
             sums[column] = 0;

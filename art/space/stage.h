@@ -49,7 +49,7 @@ inline Colour lit(Colour colour, double brightness) {
     constexpr double sheen = 56;
     const double added = sheen * std::max(0.0, brightness - 0.6) / 0.4;
     const auto channel = [&](std::uint8_t value) {
-        return static_cast<std::uint8_t>(value * brightness + added * (255 - value) / 255 + 0.5);
+        return static_cast<std::uint8_t>(std::lround(value * brightness + added * (255 - value) / 255));
     };
     return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
 }

@@ -232,6 +232,7 @@ std::string colour_name(Colour colour) {
 const std::vector<std::string_view>& colour_names() {
     static const std::vector<std::string_view> names = [] {
         std::vector<std::string_view> list;
+        list.reserve(std::size(named_colours) + 1);
         for (const NamedColour& named : named_colours) list.push_back(named.name);
         list.push_back("transparent");
         return list;

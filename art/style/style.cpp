@@ -77,7 +77,7 @@ std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnos
     }
     if (const Span second = next_word(key.value, at, false); !second.empty()) {
         diagnostics.error(second,
-                          fmt::format("{} is too much: '{}:' is {}", quoted(second.view()), key.name, expected));
+                          fmt::format("unexpected {}: '{}:' is {}", quoted(second.view()), key.name, expected));
         return std::nullopt;
     }
     return word;
@@ -149,7 +149,7 @@ public:
                 diagnostics_.error(word, fmt::format("'none' stands alone in '{}:'", key_.name));
             } else if (has_colour_) {
                 diagnostics_.error(word,
-                                   fmt::format("{} is too much: '{}:' is {}", quoted(text), key_.name, expected));
+                                   fmt::format("unexpected {}: '{}:' is {}", quoted(text), key_.name, expected));
                 return;
             } else {
                 has_colour_ = true;
@@ -359,9 +359,8 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
             style.camera = *camera;
         } else {
             diagnostics.error(key->value,
-                              "expected 'view: AZIMUTH ELEVATION', degrees to the right and up to 90 upwards, or "
-                              "front, side or top; and after it, if you like, 'perspective' and from how many radii "
-                              "of the drawing, 1.01 to 1000000");
+                              "expected AZIMUTH,ELEVATION in degrees (elevation -90 to 90), or front, side or top; "
+                              "then optionally ,perspective and ,DISTANCE in radii of the drawing, 1.01 to 1000000");
         }
     }
     if (const Key* key = pattern.find("palette")) {

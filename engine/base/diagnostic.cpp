@@ -127,8 +127,11 @@ std::string text_of(const std::vector<Diagnostic>& list, std::size_t errors) {
 
 }  // namespace
 
-Source::Source(std::string given_name, std::string given_text)
-    : name_(std::move(given_name)), text_(std::move(given_text)), cleaned_(clean(text_, open_comment_)) {}
+Source::Source(std::string given_name, std::string given_text, bool is_value)
+    : name_(std::move(given_name)),
+      text_(std::move(given_text)),
+      is_value_(is_value),
+      cleaned_(clean(text_, open_comment_)) {}
 
 Place Source::place(std::size_t at) const {
     at = std::min(at, text_.size());
@@ -161,6 +164,7 @@ Span Span::trimmed() const {
 }
 
 std::string Diagnostic::text() const {
+    if (where.line == 0) return fmt::format("{}: {}{}", file, warning ? "warning: " : "", message);
     return fmt::format("{}:{}:{}: {}{}\n{}", file, where.line, where.column, warning ? "warning: " : "", message,
                        excerpt);
 }
@@ -170,6 +174,10 @@ void Diagnostics::add(const Span& where, const std::string& message, bool warnin
     if (warning && list_.size() >= 2 * most_errors) return;
     if (!where.source) {
         list_.push_back({"", {}, printable(message), "", warning});
+        return;
+    }
+    if (where.source->is_value()) {
+        list_.push_back({printable(where.source->name(), 80), {0, 0}, printable(message), "", warning});
         return;
     }
     list_.push_back({printable(where.source->name()), where.source->place(where.at), printable(message),

@@ -22,12 +22,14 @@ struct Place {
 /// Immutable; has to outlive every Span cut from it.
 class Source {
 public:
-    Source(std::string name, std::string text);
+    /// @param is_value  the value of a setting outside of the file: messages show `name` and no place
+    Source(std::string name, std::string text, bool is_value = false);
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
     const std::string& name() const { return name_; }  ///< as the user gave it: a path, "-", "--set"
     const std::string& text() const { return text_; }  ///< the bytes as they were read
+    bool is_value() const { return is_value_; }
     /// The same length: comments, continuations and carriage returns blanked.
     std::string_view cleaned() const { return cleaned_.empty() ? text_ : cleaned_; }
     /// Where a comment begins that has no end; npos if there is none.
@@ -38,6 +40,7 @@ public:
 private:
     std::string name_;
     std::string text_;
+    bool is_value_;
     std::size_t open_comment_ = std::string::npos;  // before cleaned_, which is made together with it
     std::string cleaned_;                           // empty if nothing had to be blanked
 };
@@ -63,12 +66,12 @@ struct Span {
 /// One thing wrong (or, as a warning, doubtful) at one place.
 struct Diagnostic {
     std::string file;
-    Place where;
+    Place where;  ///< line 0: nowhere in a file; `file` is then a setting and its value: `scale dorain`
     std::string message;
     std::string excerpt;  ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
     bool warning = false;
 
-    /// `file:line:column: message`, the excerpt and the caret below it.
+    /// `file:line:column: message`, the excerpt and the caret below it; `scale dorain: message` for a setting.
     std::string text() const;
 };
 

@@ -1,6 +1,7 @@
 #include "engine/base/option.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -41,8 +42,14 @@ const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::str
     return row == table.end() ? nullptr : *row;
 }
 
-void check_option(const OptionInfo& option, const std::string& text) {
-    const auto refuse = [&](const std::string& message) { refuse_option(option.name, text, message); };
+std::string without_unit(const OptionInfo& option, const std::string& text) {
+    if (option.unit.empty() || text.size() <= option.unit.size() || !text.ends_with(option.unit)) return text;
+    return std::string(trimmed(std::string_view(text).substr(0, text.size() - option.unit.size())));
+}
+
+void check_option(const OptionInfo& option, const std::string& given) {
+    const auto refuse = [&](const std::string& message) { refuse_option(option.name, given, message); };
+    const std::string text = without_unit(option, given);
     if (option.kind == OptionKind::text) return;
     if (option.kind == OptionKind::flag) {
         if (text != "true" && text != "false") refuse("expected true or false");
@@ -54,9 +61,9 @@ void check_option(const OptionInfo& option, const std::string& text) {
     const bool has_least = option.least > -1e300;
     const bool has_most = option.most < 1e300;
     if (number >= option.least && number <= option.most) return;
-    if (has_least && has_most) refuse(fmt::format("expected {:g} to {:g}", option.least, option.most));
-    refuse(has_least ? fmt::format("expected {:g} or more", option.least)
-                     : fmt::format("expected at most {:g}", option.most));
+    if (has_least && has_most) refuse(fmt::format("expected {} to {}", option.least, option.most));
+    refuse(has_least ? fmt::format("expected {} or more", option.least)
+                     : fmt::format("expected at most {}", option.most));
 }
 
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values) {

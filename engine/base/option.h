@@ -23,6 +23,7 @@ struct OptionInfo {
     std::string_view help;     ///< a noun phrase or an imperative, with range and default
     std::string_view value{};  ///< placeholder of the value in help, `SIZE`; in brackets if the value is optional
     std::string_view group{};  ///< heading in help; empty: the first group
+    std::string_view unit{};   ///< may follow the number: `40mm/s`
     OptionKind kind = OptionKind::text;
     double least = -1e300;  ///< minimum of numbers
     double most = 1e300;
@@ -65,6 +66,9 @@ private:
     std::string value_;
 };
 
+/// The text of a value without the unit of its option.
+std::string without_unit(const OptionInfo& option, const std::string& text);
+
 /// Checks a value against the kind and the range of its option. @throws SettingError
 void check_option(const OptionInfo& option, const std::string& text);
 
@@ -106,10 +110,11 @@ void apply_options(std::span<const Option<Settings>> table, const OptionValues& 
         for (const OptionValue& value : values) {
             if (value.name != row.info.name) continue;
             check_option(row.info, value.text);
+            const std::string text = without_unit(row.info, value.text);
             if (row.set_named) {
-                row.set_named(settings, row.info.name, value.text);
+                row.set_named(settings, row.info.name, text);
             } else {
-                row.set(settings, value.text);
+                row.set(settings, text);
             }
         }
     }

@@ -164,6 +164,15 @@ std::string counted(std::string_view digits, std::string_view what) {
     return text;
 }
 
+std::string did_you_mean(std::span<const std::string_view> names) {
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        list += i == 0 ? "" : i + 1 < names.size() ? ", " : " or ";
+        list += "'" + std::string(names[i]) + "'";
+    }
+    return list.empty() ? list : "; did you mean " + list + "?";
+}
+
 std::string counted(std::uint64_t count, std::string_view what) {
     return counted(std::to_string(count), what);
 }

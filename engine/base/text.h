@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,9 @@ std::string json_string(std::string_view text);
 
 /// Appends a code point (up to U+10FFFF) in UTF-8.
 void append_utf8(std::uint32_t code, std::string& text);
+
+/// `; did you mean 'a', 'b' or 'c'?`, or empty without names.
+std::string did_you_mean(std::span<const std::string_view> names);
 
 /// `1 note`, `2 notes`.
 std::string counted(std::uint64_t count, std::string_view what);

@@ -155,7 +155,7 @@ std::string Expressions::identifier(Reader& reader) {
     const std::string_view text = reader.ahead();
     std::size_t end = 0;
     while (end < text.size() && continues_identifier(text[end])) ++end;
-    const std::string name(text.substr(0, end));
+    std::string name(text.substr(0, end));
     reader.take(end);
     return name;
 }

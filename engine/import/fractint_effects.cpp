@@ -61,18 +61,19 @@ Flags Effects::followed(const Flags& sensitive) const {
     const auto look = [&](const Tokens& word, bool after) {
         std::vector<std::pair<bool, bool>> outer;  // what follows the branch; is anything in it sensitive
         bool in_branch = false;
-        for (auto token = word.rbegin(); token != word.rend(); ++token) {
-            if (token->letter == ']') {
+        for (std::size_t i = word.size(); i-- > 0;) {
+            const Token& token = word[i];
+            if (token.letter == ']') {
                 outer.emplace_back(after, in_branch);
                 after = in_branch = false;
-            } else if (token->letter == '[') {
+            } else if (token.letter == '[') {
                 const bool inside = in_branch;
                 after = outer.back().first || inside;
                 in_branch = outer.back().second || inside;
                 outer.pop_back();
             } else {
-                if (after) result.set(index_of(token->letter));
-                if (sensitive.test(index_of(token->letter))) after = in_branch = true;
+                if (after) result.set(index_of(token.letter));
+                if (sensitive.test(index_of(token.letter))) after = in_branch = true;
             }
         }
     };

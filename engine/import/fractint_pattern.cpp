@@ -25,7 +25,7 @@ struct Key {
     char letter = 0;
     double number = 0.0;
     bool flipped = false;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is compared
 };
 
 std::string repeated(char letter, std::int64_t times) {

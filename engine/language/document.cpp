@@ -2,6 +2,7 @@
 
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -64,10 +65,8 @@ PatternFile find_pattern(const std::string& pattern, const PatternLibrary& libra
     if (!may_be_name || (std::filesystem::exists(path, error) && !is_folder)) return {pattern, path};
     if (const LibraryPattern* known = library.find(pattern)) return {known->name + ".lsys", known->file};
     if (is_folder) throw NotFound(fmt::format("{} is a folder", pattern), true);
-    const std::string_view near = library.nearest(pattern);
-    throw NotFound(fmt::format("no file or pattern named '{}'{}", pattern,
-                               near.empty() ? std::string() : fmt::format("; did you mean '{}'?", near)),
-                   !near.empty());
+    const auto similar = library.similar(pattern);
+    throw NotFound(fmt::format("no file or pattern named '{}'{}", pattern, did_you_mean(similar)), !similar.empty());
 }
 
 std::string read_pattern(std::FILE* stream, const std::string& name, const Monitor& monitor) {

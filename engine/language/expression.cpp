@@ -102,12 +102,12 @@ private:
         }
     }
 
-    std::optional<Expression> fail(std::size_t at, std::string message) {
-        diagnostics_.error(text_.part(at), std::move(message));
+    std::optional<Expression> fail(std::size_t at, const std::string& message) {
+        diagnostics_.error(text_.part(at), message);
         return std::nullopt;
     }
-    bool wrong(std::size_t at, std::string message) {
-        fail(at, std::move(message));
+    bool wrong(std::size_t at, const std::string& message) {
+        fail(at, message);
         return false;
     }
 

@@ -1,11 +1,13 @@
 #include "engine/language/pattern.h"
 
 #include "engine/base/keys.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -97,6 +99,7 @@ private:
             return production(whole, arrow);
         }
         if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
+        if (text.starts_with('#')) return diagnostics_.error(whole, "a comment begins with '//'");
         if (colon == std::string_view::npos) {
             for (const std::string_view arrow : {"\xE2\x86\x92", "->", "=>", "::="}) {
                 const std::size_t at = find_outside(text, arrow);
@@ -288,13 +291,13 @@ private:
         if (!has_room(whole, productions_++, most_productions, "productions")) return;
         switch (section_) {
             case Section::common:
-                pattern_.common.push_back(std::move(result));
+                pattern_.common.push_back(result);
                 break;
             case Section::table:
-                pattern_.tables.back().productions.push_back(std::move(result));
+                pattern_.tables.back().productions.push_back(result);
                 break;
             case Section::interpret:
-                pattern_.interpret.push_back(std::move(result));
+                pattern_.interpret.push_back(result);
                 break;
         }
     }
@@ -410,11 +413,12 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                 known.push_back(other.name.view());
                 list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
             }
-            const auto source = std::make_shared<const Source>("variant", std::string(variant));
+            const auto source =
+                std::make_shared<const Source>("variant " + std::string(variant), std::string(variant), true);
             pattern.overrides.push_back(source);
             diagnostics.error({source, 0, variant.size()}, known.empty()
                                                                ? "this pattern has no variants"
-                                                               : fmt::format("no such variant; there are: {}", list));
+                                                               : fmt::format("no such variant; there are {}", list));
         } else {
             for (const Key& setting : chosen->settings) {
                 overrides.set(setting.name, setting.name_at, setting.value);
@@ -422,7 +426,10 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         }
     }
     for (const Setting& setting : settings) {
-        const auto source = std::make_shared<const Source>(setting.origin, setting.key + "=" + setting.value);
+        const bool is_value = !setting.origin.ends_with("set");
+        const auto source =
+            std::make_shared<const Source>(is_value ? setting.origin + " " + setting.value : setting.origin,
+                                           setting.key + "=" + setting.value, is_value);
         pattern.overrides.push_back(source);
         const Span whole{source, 0, source->text().size()};
         if (first_bad_byte(source->text()) != std::string_view::npos ||
@@ -448,10 +455,26 @@ void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Key& key : pattern.keys) {
         if (find_language_key(key.name)) continue;
-        const std::string_view near = nearest(key.name, known);
+        // What other programs and everyday English call these keys.
+        static const std::map<std::string_view, std::string_view> others = {
+            {"angle", "angle increment"}, {"n", "derivation length"}, {"steps", "derivation length"},
+            {"colour", "stroke"},         {"color", "stroke"},        {"line width", "stroke"},
+            {"width", "stroke"},          {"background", "ground"},   {"start", "axiom"}};
+        const auto other = others.find(key.name);
+        const std::string_view near = other != others.end() ? other->second : nearest(key.name, known);
         diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(),
                                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
     }
+}
+
+bool states_axiom(std::string_view text) {
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        const std::size_t colon = line.find(':');
+        if (colon < 100 && lower_case(trimmed(line.substr(0, colon))) == "axiom") return true;
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return false;
 }
 
 }  // namespace sikku

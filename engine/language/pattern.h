@@ -48,7 +48,7 @@ struct Variant {
 
 /// A setting from outside the file that overrides it.
 struct Setting {
-    std::string origin;  ///< where it was said, for messages: `--set`, `-n`
+    std::string origin;  ///< where it was said, for messages: `--set` and `set` show key and value, `-n` the value
     std::string key;
     std::string value;
 };
@@ -90,5 +90,8 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
 /// Reports every key that is not in language_keys(), with the nearest one. Values are checked by those that read
 /// them.
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
+
+/// Whether a line states an axiom, as in every pattern, whatever else may be wrong with it. Cost: linear.
+bool states_axiom(std::string_view text);
 
 }  // namespace sikku

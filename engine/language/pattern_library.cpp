@@ -16,7 +16,7 @@ std::filesystem::path bundled_folder() {
     std::error_code error;
     const std::filesystem::path beside = binary_folder();
     if (!beside.empty()) {
-        const auto folder = (beside / SIKKU_PATTERNS_RELATIVE).lexically_normal();
+        auto folder = (beside / SIKKU_PATTERNS_RELATIVE).lexically_normal();
         if (std::filesystem::is_directory(folder, error)) return folder;
     }
     return SIKKU_PATTERNS_INSTALLED;
@@ -57,10 +57,33 @@ const LibraryPattern* PatternLibrary::find(std::string_view name) const {
     return found == patterns_->end() ? nullptr : &*found;
 }
 
-std::string_view PatternLibrary::nearest(std::string_view name) const {
+std::vector<std::string_view> PatternLibrary::similar(std::string_view name) const {
+    constexpr std::size_t most = 3;
     std::vector<std::string_view> names;
-    for (const LibraryPattern& pattern : *patterns_) names.push_back(pattern.name);
-    return sikku::nearest(name, names);
+    std::vector<std::string_view> longer;
+    for (const LibraryPattern& pattern : *patterns_) {
+        names.push_back(pattern.name);
+        if (name.size() > 1 && names.back().starts_with(name) && longer.size() < most) longer.push_back(pattern.name);
+    }
+    if (!longer.empty()) return longer;
+    const std::string_view near = sikku::nearest(name, names);
+    return near.empty() ? longer : std::vector{near};
+}
+
+std::string_view PatternLibrary::nearest_kind(std::string_view name) const {
+    std::vector<std::string_view> kinds;
+    for (const LibraryPattern& pattern : *patterns_) kinds.push_back(pattern.kind);
+    return sikku::nearest(name, kinds);
+}
+
+std::vector<std::string> PatternLibrary::gallery_files() const {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "posters", error)) {
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 std::string PatternLibrary::gallery_file(const std::string& name) const {

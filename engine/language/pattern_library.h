@@ -35,8 +35,12 @@ public:
     const LibraryPattern* find(std::string_view name) const;
     /// The path of the bundled gallery file posters/NAME.toml, or `name` itself if a file has that name.
     std::string gallery_file(const std::string& name) const;
-    /// The most similar name, or empty if none is similar.
-    std::string_view nearest(std::string_view name) const;
+    /// What may have been meant by `name`, at most three: the nearest name, or those that begin with it.
+    std::vector<std::string_view> similar(std::string_view name) const;
+    /// The kind nearest to `name`, or empty if none is near enough to be meant.
+    std::string_view nearest_kind(std::string_view name) const;
+    /// The names of the gallery files in the library, sorted.
+    std::vector<std::string> gallery_files() const;
 
 private:
     std::filesystem::path folder_;

@@ -153,6 +153,7 @@ private:
                     if (std::isnan(*value)) {
                         diagnostics_.error(*text.condition, "this condition is never a number");
                     }
+                    warn_of_weight(*text.condition, *value);
                     if (*value == 0) continue;
                     condition.reset();
                 } else {
@@ -164,6 +165,15 @@ private:
                                    std::move(*successor), std::move(condition), std::move(weight),
                                    std::move(arguments), group.number});
         }
+    }
+
+    /// `F : 0.3 --> FF` has a weight where a condition stands.
+    void warn_of_weight(const Span& condition, double value) {
+        double number = 0;
+        if (!read_number(condition.trimmed().view(), number) || value == 0 || value == 1) return;
+        diagnostics_.warning(condition, fmt::format("this condition always holds; a weight stands behind the "
+                                                    "successor: --> … : {}",
+                                                    condition.trimmed().view()));
     }
 
     /// Does its weight, or that it has none, go with those of the others?

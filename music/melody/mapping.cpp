@@ -117,7 +117,7 @@ private:
         if (fold_ && melody_.mapping == Mapping::runs) {
             const GridStretch& whole = fold_->whole();
             const auto number = [](const Integer& value) {
-                if (value >= farthest / 2 || value <= -farthest / 2) {
+                if (abs(value) >= farthest / 2) {
                     throw ScoreError("the curve is too large for its anchor: a smaller n is needed");
                 }
                 return value.convert_to<std::int64_t>();

@@ -83,19 +83,22 @@ private:
         std::string wanted = lower_case(text);
         std::replace(wanted.begin(), wanted.end(), '-', ' ');
         std::vector<std::string_view> words;
-        std::string list;
         for (const auto& [word, choice] : choices) {
             if (word == wanted) {
                 chosen = choice;
                 return;
             }
-            words.push_back(word);
-            if (word != "center") list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
+            if (word != "center") words.push_back(word);
+        }
+        std::string list;
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            list += i == 0 ? "" : i + 1 < words.size() ? ", " : " or ";
+            list += words[i];
         }
         const std::string_view near = nearest(wanted, words);
         diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                           near.empty() ? fmt::format("'{}:' is one of {}", name, list)
-                                        : fmt::format("'{}:' is one of {}; did you mean '{}'?", name, list, near));
+                           near.empty() ? fmt::format("expected {}", list)
+                                        : fmt::format("expected {}; did you mean '{}'?", list, near));
     }
 
     void warn_of_what_has_no_meaning() {
@@ -121,11 +124,11 @@ private:
             } else if (const Scale* known = find_scale(name)) {
                 melody_.scale = *known;
             } else {
-                std::string near;
-                for (const std::string& one : similar_scales(name)) near += (near.empty() ? "" : ", ") + one;
+                const std::vector<std::string> similar = similar_scales(name);
+                const std::vector<std::string_view> near(similar.begin(), similar.end());
                 diagnostics_.error(name.empty() ? key->name_at : key->value,
                                    near.empty() ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
-                                                : fmt::format("unknown scale '{}'; near it are {}", name, near));
+                                                : fmt::format("unknown scale '{}'{}", name, did_you_mean(near)));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {
@@ -216,9 +219,12 @@ private:
         const std::int64_t whole_note = 4 * ticks_per_quarter;
         if (!good || above * whole_note % below != 0 || above * whole_note / below > 16 * whole_note) {
             diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                               "expected the value of a step as a part of a whole note that 1920 ticks divide into, "
-                               "such as 1/16, 1/8 or 3/16, up to 16");
+                               "expected a note value such as 1/16, 1/8 or 3/16, up to 16 whole notes");
             return;
+        }
+        if (below == 1 && above > 1) {
+            diagnostics_.warning(key->value,
+                                 fmt::format("a step lasts {} whole notes; did you mean 1/{}?", above, above));
         }
         melody_.unit = above * whole_note / below;
     }
@@ -280,10 +286,21 @@ private:
             melody_.program = static_cast<int>(i);
             return;
         }
-        const std::string_view near = nearest(wanted, names);
+        // The nearest name, or the one with the nearest word.
+        std::string_view near = nearest(wanted, names);
+        for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
+            for (std::size_t at = 0; at < folded[i].size();) {
+                const std::size_t blank = std::min(folded[i].find(' ', at), folded[i].size());
+                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, blank - at)}).empty()) near = folded[i];
+                at = blank + 1;
+            }
+        }
+        const std::string problem =
+            text.empty() ? "expected" : fmt::format("unknown instrument '{}'; expected", text);
         diagnostics_.error(text.empty() ? key->name_at : key->value,
-                           near.empty() ? std::string("expected an instrument of General MIDI by name or number")
-                                        : fmt::format("nobody plays the '{}'; did you mean '{}'?", text, near));
+                           near.empty()
+                               ? problem + " a General MIDI name such as flute or sitar, or a number from 1 to 128"
+                               : fmt::format("unknown instrument '{}'; did you mean '{}'?", text, near));
     }
 
     const Pattern& pattern_;

@@ -65,7 +65,8 @@ public:
 
     bool skip(const GridStretch& stretch) override {
         const Integer length = stretch.length[0] + stretch.length[1];
-        const double room = static_cast<double>(options_.from / melody_.unit - margin_units) - state_.time;
+        const std::int64_t units = options_.from / melody_.unit - margin_units;
+        const double room = static_cast<double>(units) - state_.time;
         if (room < 0 || length > Integer(room) || abs(stretch.rise) >= farthest) return false;
         end_note();
         state_.time += length.convert_to<double>();

@@ -39,7 +39,7 @@ public:
     static void skip(Position& at, const GridStretch& stretch) {
         for (std::uint32_t axis = 0; axis < 2; ++axis) {
             const Integer& by = stretch.move[axis];
-            if (by >= farthest || by <= -farthest) {
+            if (abs(by) >= farthest) {
                 throw ScoreError("the curve is too large to be played from its middle: a smaller n is needed");
             }
             const Step step = along((at.heading + axis) & 3, by.convert_to<std::int64_t>());

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): not every C library declares it
 
 namespace sikku {
 namespace {
@@ -152,7 +152,7 @@ fs::path find_fluidsynth() {
     while (true) {
         const std::size_t colon = rest.find(':');
         const std::string_view folder = rest.substr(0, colon);
-        const fs::path program = fs::path(folder.empty() ? std::string_view(".") : folder) / "fluidsynth";
+        fs::path program = fs::path(folder.empty() ? std::string_view(".") : folder) / "fluidsynth";
         if (is_readable_file(program) && ::access(program.c_str(), X_OK) == 0) return program;
         if (colon == std::string_view::npos) break;
         rest.remove_prefix(colon + 1);
@@ -186,6 +186,7 @@ public:
         posix_spawn_file_actions_adddup2(&actions, sound, 3);
         arguments.insert(arguments.begin(), program.string());
         std::vector<char*> pointers;
+        pointers.reserve(arguments.size() + 1);
         for (std::string& argument : arguments) pointers.push_back(argument.data());
         pointers.push_back(nullptr);
         const int error = posix_spawn(&process_, program.c_str(), &actions, &attributes, pointers.data(), environ);

@@ -226,11 +226,14 @@ public:
         put("\n\\header {{\n");
         if (!head_.title.empty()) put("  title = {}\n", lilypond_string(head_.title));
         if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
+        // The name of a single part stands above it, as in printed music; those of several stand before their staves.
+        const bool is_solo = head_.parts.size() == 1;
+        if (is_solo) put("  instrument = {}\n", lilypond_string(head_.parts.front().name));
         put("  tagline = ##f\n}}\n\n");
         // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
         put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
-        put("  >>\n  \\layout {{ indent = 30\\mm }}\n  \\midi {{ }}\n}}\n");
+        put("  >>\n  \\layout {{ indent = {}\\mm }}\n  \\midi {{ }}\n}}\n", is_solo ? 0 : indent());
         flush();
     }
 
@@ -256,11 +259,20 @@ private:
         }
     }
 
+    /// Millimetres that the longest name takes in LilyPond's font, with a gap before the staff.
+    std::size_t indent() const {
+        std::size_t longest = 0;
+        for (const Part& part : head_.parts) longest = std::max(longest, part.name.size());
+        return std::min<std::size_t>(6 + 2 * longest, 60);
+    }
+
     void write_part(std::size_t index) {
         const NotatedPart& part = notation_.parts[index];
         const Part& told = head_.parts[index];
+        const bool is_named = head_.parts.size() > 1;
         const std::string with =
-            fmt::format("\\with {{ instrumentName = {} midiInstrument = {} }}", lilypond_string(told.name),
+            fmt::format("\\with {{ {}midiInstrument = {} }}",
+                        is_named ? fmt::format("instrumentName = {} ", lilypond_string(told.name)) : "",
                         lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
         if (part.staves.size() == 1) {
             write_staff(part.staves.front(), told, fmt::format("\\new Staff {}", with), index == 0);

@@ -1,10 +1,12 @@
 #include "music/score/midi_texts.h"
 
+#include "engine/base/input_file.h"
 #include "engine/language/pattern.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 namespace sikku {
 namespace {
@@ -85,6 +87,14 @@ MidiTexts read_midi_texts(std::span<const std::uint8_t> bytes) {
         if (type == text_type) (texts++ == 0 ? found.pattern : found.made) = text_of(data);
     }
     return found;
+}
+
+bool is_midi_file(const std::filesystem::path& file) {
+    try {
+        return InputFile(file).read(0, 4) == "MThd";
+    } catch (const std::system_error&) {
+        return false;
+    }
 }
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -11,6 +12,9 @@ struct MidiTexts {
     std::string pattern;  ///< the first text of the first track
     std::string made;     ///< its second text
 };
+
+/// Whether a regular file is a MIDI file, also one of another name.
+bool is_midi_file(const std::filesystem::path& file);
 
 /// Reads the texts that write_midi puts first into a Standard MIDI File; missing texts stay empty. The bytes may end
 /// after the texts. Memory: the texts. Cost: at most one pass over the first track.

@@ -393,7 +393,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "sound\"></canvas><canvas id=\"curve-top\" aria-hidden=\"true\"></canvas></figure>\n"
         "<figure class=\"roll\"><canvas id=\"roll\" role=\"img\" aria-label=\"Piano roll: time to the right, pitch "
         "upwards; a click goes there\"></canvas></figure>\n</div>\n"
-        "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> go by a bar, <kbd>Home</kbd> "
+        "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> move by one bar, "
+        "<kbd>Home</kbd> "
         "goes to the beginning.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n";
     if (!head.pattern.empty()) {
         out.text() += "<details>\n<summary>The pattern</summary>\n<pre tabindex=\"0\">";

@@ -119,7 +119,7 @@ TEST_F(Draw, WhereNothingIsSeenNothingIsWritten) {
             draw(text);
             ADD_FAILURE() << text;
         } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string(error.what()).find("there is nothing to draw"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("nothing to draw"), std::string::npos) << error.what();
         }
     }
     EXPECT_TRUE(folder_.names().empty());

@@ -31,6 +31,10 @@ const std::string kolam =
 const std::string shape =
     "title: Shape\naxiom: {F+F+F+F}\nF --> FF\nderivation length: 1\nangle increment: 90\n"
     "stroke: 0.4mm #203060\nground: #ffffff\n";
+/// A fill whose edges no line draws.
+const std::string leaf =
+    "title: Leaf\naxiom: {f+f+f+f}F'F\nderivation length: 1\nangle increment: 90\n"
+    "stroke: 1mm #203060\nground: #ffffff\npalette: #203060 #304060\n";
 const std::string solid =
     "title: Solid\naxiom: F\nF --> F[&F]F\nderivation length: 2\nangle increment: 40\nstroke: 0.2 step #203060\n"
     "ground: #ffffff\n";
@@ -53,7 +57,7 @@ std::vector<Feature> features() {
             {"distance of dots", kolam, {}, {{"dot-spacing", "7mm"}}, {}},
             {"border", kolam, {}, {{"border", "kaavi"}}, {}},
             {"colours by strand", kolam, {}, {{"colour-by", "strand"}}, {}},
-            {"fills", shape, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
+            {"fills", leaf, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
             {"splines", kolam, {{"line", "spline"}}, {}, {}, {{"line", "straight"}}},
             {"window", kolam, {}, {{"window", "-1,-1,2,2"}}, {}},
             {"view", solid, {}, {{"view", "30,60"}}, {}},
@@ -61,6 +65,15 @@ std::vector<Feature> features() {
             {"step", kolam, {}, {{"step", "3mm"}}, {}},
             {"animation", kolam, {}, {{"animate", "5"}}, {}},
             {"plotter", shape, {}, {{"plotter", "true"}}, {}},
+            {"hatching",
+             leaf,
+             {{"fill", "#30a050"}},
+             {{"plotter", "true"}, {"hatch", "2mm,30"}},
+             {{"plotter", "true"}},
+             {{"fill", "#30a050"}}},
+            {"pen width", leaf, {}, {{"plotter", "true"}, {"pen-width", "0.3mm"}}, {{"plotter", "true"}}},
+            {"merged pens", leaf, {}, {{"plotter", "true"}, {"pens", "1"}}, {{"plotter", "true"}}},
+            {"HP-GL paper", kolam, {}, {{"hpgl-paper", "A4"}}, {}},
             {"pen-up travel", kolam, {}, {{"plotter", "true"}, {"travel", "true"}}, {{"plotter", "true"}}},
             {"bleed", kolam, {}, {{"bleed", "3mm"}}, {}},
             {"crop marks", kolam, {}, {{"marks", "true"}}, {}},
@@ -101,11 +114,9 @@ std::vector<Target> targets() {
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Combinations where a feature rightly changes nothing: a line already draws the edge of a fill, HP-GL and G-code
-/// are always plots, and a sheet of generations is compared with itself.
-const std::set<std::string> unchanged = {"fills on HP-GL",
-                                         "fills on G-code",
-                                         "plotter on HP-GL",
+/// Combinations where a feature rightly changes nothing: HP-GL and G-code are always plots, and a sheet of generations
+/// is compared with itself.
+const std::set<std::string> unchanged = {"plotter on HP-GL",
                                          "plotter on G-code",
                                          "sheet of generations on GIF",
                                          "sheet of generations on frame",
@@ -145,7 +156,9 @@ std::string drawing_of(const std::string& name, std::string bytes, const Scratch
         return bytes;
     }
     if (format == "png" || format == "tif" || format == "jpg" || format == "exr") {
-        const std::string file = (folder.path() / ("picture." + format)).string();
+        // OpenImageIO remembers what it knows of a name.
+        static int number = 0;
+        const std::string file = (folder.path() / (std::to_string(++number) + "." + format)).string();
         std::ofstream(file, std::ios::binary) << bytes;
         // Compares size, channels, bits and pixels, but not the texts.
         OIIO::ImageBuf picture(file);

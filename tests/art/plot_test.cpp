@@ -255,9 +255,9 @@ TEST(Plot, TilingsAreDrawnOnce) {
             std::set<std::pair<std::pair<long, long>, std::pair<long, long>>> edges;  // edges drawn with any pen
             std::uint64_t count = 0;
             const auto add = [&](const Pen& pen, glm::dvec2 a, glm::dvec2 b, bool is_outline) {
-                ++count;
                 const auto edge = std::pair(std::min(place(a), place(b)), std::max(place(a), place(b)));
                 if (!edges.insert(edge).second && is_outline) return;
+                ++count;
                 expected.emplace(slot(pen), edge.first, edge.second);
             };
             for (const Line& line : recorder.strokes) {

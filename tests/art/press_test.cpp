@@ -86,7 +86,7 @@ TEST(Spot, IsAColourOfTheDrawing) {
         return complaint([&] { check_spots({.spots = {parse_spot(text)}}, style); });
     };
     for (const std::string text : {"K=black", "R=red", "G=#b3452c", "B=blue"}) EXPECT_EQ(check(text), "");
-    EXPECT_TRUE(says(check("G=green"), "spot colour 'G': nothing is green; there is #b3452c, black, blue, red"));
+    EXPECT_TRUE(says(check("G=green"), "nothing is drawn in green; the colours are #b3452c, black, blue, red"));
 }
 
 TEST(Press, RefusesWhatAFormatDoesNotHave) {
@@ -95,10 +95,10 @@ TEST(Press, RefusesWhatAFormatDoesNotHave) {
     };
     for (const double bleed :
          {-1.0, 100.5, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_TRUE(says(check({.bleed = bleed}, PrintFormat::pdf), "0 to 100 mm")) << bleed;
+        EXPECT_TRUE(says(check({.bleed = bleed}, PrintFormat::pdf), "0 to 100mm")) << bleed;
     }
     for (const int bits : {-1, 0, 2, 3, 16}) {
-        EXPECT_TRUE(says(check({.bits = bits}, PrintFormat::tiff), "bits a channel")) << bits;
+        EXPECT_TRUE(says(check({.bits = bits}, PrintFormat::tiff), "expected 1 or 8")) << bits;
     }
     const Press spots{.spots = {{"Kaavi", kaavi}}};
     for (const PrintFormat format :

@@ -379,7 +379,7 @@ TEST_F(Sheets, OfGenerationsFillThePageAndKeepDotsAndBorders) {
     const Pixels plain = drawn("plain.svg", {});
     EXPECT_GT(share(plain, ground), 0.45);
     EXPECT_LT(share(plain, white), 1e-3);
-    const Pixels dotted = drawn("dotted.svg", {{"dots", "1mm white"}});
+    const Pixels dotted = drawn("dotted.svg", {{"dots", "5mm white"}});
     EXPECT_GT(share(dotted, white), 2e-3);
     const Pixels framed = drawn("framed.svg", {{"border", "kaavi"}});
     EXPECT_LT(share(framed, ground), share(plain, ground));

@@ -162,7 +162,7 @@ TEST(Tiles, PdfHasAnOverviewAndAPageForEachSheet) {
     EXPECT_EQ(count("/Name (discs"), 1) << "the drawing is in the file once";
     EXPECT_EQ(count("/MediaBox [0 0 595.2756 841.8898]"), 10) << "all of A4";
     ASSERT_FALSE(made.remarks.empty());
-    EXPECT_EQ(made.remarks.front().text, "9 sheets");
+    EXPECT_EQ(made.remarks.front().text, "9 sheets, 3 x 3");
 }
 
 TEST(Tiles, OtherFormatsHaveAFileForEachSheet) {

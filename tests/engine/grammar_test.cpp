@@ -417,8 +417,8 @@ TEST(Schedule, IsCutAtTheFront) {
 
 TEST(Schedule, ShorterThanTheDerivationIsAnError) {
     const std::string tables = "table a:\nF --> FA\ntable b:\nF --> FB\n";
-    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*2 b\n" + tables, {{{3, 11}, "holds 3 steps"}});
-    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*(n-5) b*3\n" + tables, {{{3, 11}, "holds 3 steps"}});
+    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*2 b\n" + tables, {{{3, 11}, "has 3 steps"}});
+    expect_mistakes("axiom: F\nderivation length: 4\nschedule: a*(n-5) b*3\n" + tables, {{{3, 11}, "has 3 steps"}});
     expect_mistakes("axiom: F\nderivation length: 1\nschedule: a*(0/0)\n" + tables, {{{3, 11}, "not a number"}});
     const Grammar grammar = grammar_of("axiom: F\nderivation length: 3\nschedule: a*2 b\n" + tables);
     EXPECT_FALSE(grammar.with_steps(4));

@@ -416,8 +416,8 @@ TEST(Overrides, MistakesPointIntoTheSetting) {
     expect_mistakes("axiom: F\n", {{{1, 1}, "did you mean 'axiom'?"}}, {{"--set", "axim", "G"}});
     expect_mistakes("axiom: F\n", {{{1, 1}, "one line of UTF-8"}}, {{"--set", "axiom", "G\nH"}});
     expect_mistakes("axiom: F\n", {{{1, 1}, "expected key=value"}}, {{"--set", " ", "G"}});
-    expect_mistakes("axiom: F\n", {{{1, 1}, "no variants"}}, {}, "v");
-    expect_mistakes("axiom: F\nvariant a: axiom = G\nvariant b: axiom = H\n", {{{1, 1}, "there are: a, b"}}, {}, "v");
+    expect_mistakes("axiom: F\n", {{{0, 0}, "no variants"}}, {}, "v");
+    expect_mistakes("axiom: F\nvariant a: axiom = G\nvariant b: axiom = H\n", {{{0, 0}, "there are a, b"}}, {}, "v");
 }
 
 TEST(Overrides, CommentsInSettingsEnd) {

@@ -115,6 +115,7 @@ TEST(LilyPond, WritesALineForEachBar) {
 
 \header {
   title = "A \"quoted\" \\ title"
+  instrument = "Voice"
   tagline = ##f
 }
 
@@ -124,7 +125,7 @@ TEST(LilyPond, WritesALineForEachBar) {
 
 \score {
   <<
-    \new Staff \with { instrumentName = "Voice" midiInstrument = "acoustic grand" } <<
+    \new Staff \with { midiInstrument = "acoustic grand" } <<
       \new Voice {
         \clef treble \key c \minor \time 4/4
         \tempo 4 = 120
@@ -134,10 +135,22 @@ TEST(LilyPond, WritesALineForEachBar) {
       }
     >>
   >>
-  \layout { indent = 30\mm }
+  \layout { indent = 0\mm }
   \midi { }
 }
 )");
+}
+
+TEST(LilyPond, NamesOfPartsHaveRoomBeforeTheirStaves) {
+    TestScore score = line({4, 4}, {480});
+    score.head.parts.push_back(score.head.parts.front());
+    score.head.parts[1].name = "Acoustic Grand Piano";
+    score.notes.push_back(score.notes.front());
+    score.notes.back().voice = 1;
+    const std::string text = lilypond_of(score);
+    EXPECT_NE(text.find("instrumentName = \"Acoustic Grand Piano\""), std::string::npos) << text;
+    EXPECT_NE(text.find("indent = 46\\mm"), std::string::npos) << text;
+    EXPECT_EQ(text.find("instrument = "), std::string::npos);
 }
 
 TEST(LilyPond, KeysHaveTheirTonic) {

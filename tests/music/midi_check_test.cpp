@@ -190,7 +190,7 @@ TEST(MidiCheck, HeadersAndChunks) {
          {{41, "after track 1: 5 bytes that form no chunk"}}},
         {"bytes after the header", header + "\xFF" + good.substr(14), {{14, "after the header: 1 byte that"}}},
         {"half a chunk head", good + "MTrk", {{71, "4 bytes that form no chunk"}}},
-        {"two files", good + good, {{10, "tells 2 tracks, but there are 4"}, {71, "a second header"}}},
+        {"two files", good + good, {{10, "declares 2 tracks, but there are 4"}, {71, "a second header"}}},
         {"an empty track", header + conductor + midi_chunk("MTrk", ""), {{49, "it has no end-of-track"}}}};
     for (const Case& expected : cases) expect_faults(expected);
 }
@@ -265,7 +265,7 @@ TEST(MidiCheck, TellsAllFaultsByPlaceAndAtMostFifty) {
     expect_faults(
         {"several",
          with_byte(with_byte(melody("00 90 3C 50 10 81 3C 40 00 FF 59 02 09 00 00 FF 2F 00"), 11, 7), 26, 0),
-         {{10, "tells 7"}, {50, "does not end"}, {54, "does not sound"}, {61, "9 fifths"}}});
+         {{10, "declares 7"}, {50, "does not end"}, {54, "does not sound"}, {61, "9 fifths"}}});
     std::string many;
     for (int i = 0; i < 1000; ++i) many += "00 80 3C 40 ";
     const auto faults = check_midi(melody(many + "00 FF 2F 00"));

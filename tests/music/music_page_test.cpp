@@ -101,7 +101,7 @@ TEST(NoteCollector, KeepsAllUpToALimit) {
         collector.notes(std::vector<Note>(1));
         ADD_FAILURE() << "nothing was thrown";
     } catch (const ScoreError& error) {
-        EXPECT_NE(std::string(error.what()).find("--bars"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("limit the bars"), std::string::npos);
         EXPECT_NE(std::string(error.what()).find("4 notes"), std::string::npos);
     }
     EXPECT_EQ(collector.notes().size(), 4U);

@@ -53,7 +53,7 @@ struct Room {
 /// All permitted includes. Each room includes only from rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "boost tbb posix"},
+        {"engine/base", "", "boost fast_float tbb posix"},
         {"engine/language", "engine/base", ""},
         {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
@@ -94,10 +94,19 @@ bool allows(const std::string& rooms, const std::string& room) {
 
 /// The library that a header in angle brackets belongs to; empty for the standard library.
 std::string library_of(const std::string& name) {
-    static const std::map<std::string, std::string> folders = {
-        {"boost", "boost"},   {"fmt", "fmt"},          {"glm", "glm"},   {"oneapi", "tbb"},
-        {"tbb", "tbb"},       {"OpenImageIO", "oiio"}, {"CLI", "cli11"}, {"toml++", "toml"},
-        {"nlohmann", "json"}, {"sys", "posix"},        {"embedded", ""}, {"pybind11", "pybind11"}};
+    static const std::map<std::string, std::string> folders = {{"boost", "boost"},
+                                                               {"fmt", "fmt"},
+                                                               {"glm", "glm"},
+                                                               {"oneapi", "tbb"},
+                                                               {"tbb", "tbb"},
+                                                               {"OpenImageIO", "oiio"},
+                                                               {"CLI", "cli11"},
+                                                               {"toml++", "toml"},
+                                                               {"nlohmann", "json"},
+                                                               {"sys", "posix"},
+                                                               {"fast_float", "fast_float"},
+                                                               {"embedded", ""},
+                                                               {"pybind11", "pybind11"}};
     static const std::map<std::string, std::string> files = {
         {"zlib.h", "zlib"},         {"lcms2.h", "lcms"},    {"fcntl.h", "posix"},  {"unistd.h", "posix"},
         {"dlfcn.h", "posix"},       {"link.h", "posix"},    {"signal.h", "posix"}, {"spawn.h", "posix"},

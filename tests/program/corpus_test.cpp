@@ -50,9 +50,10 @@ std::vector<std::filesystem::path> files_of(const std::string& folder) {
 }
 
 /// Calls `attempt` with the bytes, with each of their beginnings, and with one byte changed in many ways.
-void mutate(const std::string& bytes, const std::function<void(const std::string&)>& attempt) {
+void mutate(const std::string& bytes, const std::function<void(const std::string&)>& attempt,
+            std::size_t places = 2000) {
     attempt(bytes);
-    const std::size_t step = 1 + bytes.size() / 2000;
+    const std::size_t step = 1 + bytes.size() / places;
     for (std::size_t length = 0; length < bytes.size(); length += step) attempt(bytes.substr(0, length));
     for (std::size_t at = 0; at < bytes.size(); at += step) {
         for (const char byte : {'\0', '\x7F', '\xFF', static_cast<char>(bytes[at] + 1)}) {
@@ -90,13 +91,16 @@ TEST(Corpus, ProfilesAreReadOrRefused) {
     for (const auto& file : files_of("tests/corpus/icc")) {
         SCOPED_TRACE(file.string());
         EXPECT_NO_THROW(check_cmyk_profile(file));
-        mutate(contents(file), [&](const std::string& changed) {
-            try {
-                check_cmyk_profile(folder.write("changed.icc", changed));
-            } catch (const std::runtime_error& error) {
-                ASSERT_NE(std::string_view(error.what()).find("changed.icc"), std::string_view::npos);
-            }
-        });
+        mutate(
+            contents(file),
+            [&](const std::string& changed) {
+                try {
+                    check_cmyk_profile(folder.write("changed.icc", changed));
+                } catch (const std::runtime_error& error) {
+                    ASSERT_NE(std::string_view(error.what()).find("changed.icc"), std::string_view::npos);
+                }
+            },
+            200);
     }
 }
 

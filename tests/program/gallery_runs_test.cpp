@@ -62,7 +62,7 @@ TEST_F(GalleryRunsTest, ASecondRunWaitsForTheFirst) {
     const Outcome outcome = child.wait();
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(has(outcome.errors, "waiting for it"));
-    EXPECT_TRUE(has(outcome.errors, "0 made, 27 there already"));
+    EXPECT_TRUE(has(outcome.errors, "0 made, 27 up to date"));
     EXPECT_EQ(differences(whole, tree(folder / "out")), "");
 }
 
@@ -103,7 +103,7 @@ TEST_F(GalleryRunsTest, AKilledRunStartedAgainLeavesShardsAlone) {
     ASSERT_TRUE(await([&] { return holds(folder / "out/gallery-1-of-1000.jsonl", "hilbert.png"); }));
     const Outcome outcome = run(with({"-o", "out"}), {.folder = folder.path()});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
-    EXPECT_TRUE(has(outcome.errors, "0 made, 1 there already")) << "never twice";
+    EXPECT_TRUE(has(outcome.errors, "0 made, 1 up to date")) << "never twice";
     const Outcome of_shard = shard.wait();
     EXPECT_EQ(of_shard.status, 0) << of_shard.errors;
     EXPECT_TRUE(has(of_shard.errors, "1 made"));
@@ -120,7 +120,7 @@ TEST_F(GalleryRunsTest, AShardWhoseFilesTheWholeHasLeavesNothing) {
     // But its record stays where it says something else.
     folder.write("square.lsys", square + "stroke: 1mm #123\n");
     for (const char* part : {"1/3", "2/3", "3/3"}) ASSERT_EQ(small("out", {"--shard", part}).status, 0);
-    EXPECT_TRUE(has(small("out").errors, "0 made, 27 there already"));
+    EXPECT_TRUE(has(small("out").errors, "0 made, 27 up to date"));
 }
 
 TEST_F(GalleryRunsTest, RunsThatAreKilledAgainAndAgainGetOn) {

@@ -135,7 +135,7 @@ TEST_F(GalleryTest, ResumesAndRedoesWhatChanged) {
     ASSERT_EQ(small("out").status, 0);
     const auto first = tree(folder / "out");
     const auto made_at = std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg");
-    EXPECT_TRUE(has(small("out").errors, "0 made, 27 there already"));
+    EXPECT_TRUE(has(small("out").errors, "0 made, 27 up to date"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     // One that is gone, one that was cut, one pattern that changed, one job asked for.
     std::filesystem::remove(folder / "out/dragon-n2-angle80.svg");
@@ -145,10 +145,10 @@ TEST_F(GalleryTest, ResumesAndRedoesWhatChanged) {
     EXPECT_TRUE(has(small("out", {"--only", "square-n2"}).errors, "2 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     folder.write("square.lsys", square + "stroke: 1mm #123\n");
-    EXPECT_TRUE(has(small("out").errors, "19 there already"));
+    EXPECT_TRUE(has(small("out").errors, "19 up to date"));
     EXPECT_EQ(std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg"), made_at);
     folder.write("square.lsys", square + "stroke: 1mm #456\n");
-    EXPECT_TRUE(has(small("out").errors, "19 there already")) << "files of the same size";
+    EXPECT_TRUE(has(small("out").errors, "19 up to date")) << "files of the same size";
     folder.write("square.lsys", square);
     EXPECT_TRUE(has(small("out").errors, "8 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
@@ -221,7 +221,7 @@ TEST_F(GalleryTest, ShardsAreDisjointCompleteAndEqual) {
             }
         }
         // The whole has nothing left to do but to join the records.
-        EXPECT_TRUE(has(small(out).errors, "0 made, 27 there already"));
+        EXPECT_TRUE(has(small(out).errors, "0 made, 27 up to date"));
         EXPECT_EQ(differences(whole, tree(folder / out)), "");
     }
 }
@@ -472,7 +472,7 @@ TEST_F(GalleryTest, AShardMayFinishWhileTheWholeIsMade) {
     EXPECT_EQ(whole.wait().status, 0);
     const auto names = tree(folder / "out");
     EXPECT_FALSE(names.contains("gallery-1-of-2.jsonl"));
-    EXPECT_TRUE(has(gallery({"dragon", "koch-curve", "-o", "out"}).errors, "0 made, 2 there already"));
+    EXPECT_TRUE(has(gallery({"dragon", "koch-curve", "-o", "out"}).errors, "0 made, 2 up to date"));
 }
 
 TEST_F(GalleryTest, ClaimsOfKilledRunsAreKept) {

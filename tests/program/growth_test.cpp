@@ -163,7 +163,7 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
     for (const char* file : {"b.pdf", "b.png", "b.tif", "b.hpgl", "b.gcode"}) {
         EXPECT_EQ(draw({"bush.lsys", "--view", "top", "--dpi", "30"}, file).status, 0) << file;
     }
-    expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected 'view: AZIMUTH ELEVATION'");
+    expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected AZIMUTH,ELEVATION in degrees");
     expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2,
                    "--set:1:6: drawings that pitch, roll or bend have straight lines");
     expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");

@@ -55,7 +55,7 @@ TEST(ImportProgram, OneSystemGoesToOneFileOrOut) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome many = run(arguments);
         EXPECT_EQ(many.status, 2);
-        EXPECT_TRUE(has(many.errors, "holds 4 systems: name one of them"));
+        EXPECT_TRUE(has(many.errors, "contains 4 systems: name one of them"));
     }
     const Outcome unknown = run({"import", file, "Kock"});
     EXPECT_EQ(unknown.status, 2);

@@ -235,13 +235,13 @@ TEST_F(PrintOptions, PlotsDrawNothingTwice) {
 
 TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{"--pen-speed", "0", "--plotter"}, "speeds must be between 0.001 and"},
+        {{"--pen-speed", "0", "--plotter"}, "expected 0.001 to 1000000"},
         {{"--pen-speed", "nan", "--plotter"}, "--pen-speed nan: expected a number"},
         {{"--split", "0mm", "--plotter"}, "a length above 0"},
         {{"--split", "1m"}, "--split"},
         {{"--travel"}, "needs --plotter"},
         {{"--profile", "marlin", "--plotter"}, "expected grbl or z"},
-        {{"--dots", "gold gold"}, "is too much: 'dots:'"},
+        {{"--dots", "gold gold"}, "unexpected 'gold'"},
         {{"--dots", "0mm"}, "a dot of width 0"},
         {{"--dot-spacing", "-3mm"}, "above 0"},
         {{"--dot-spacing", "3mm", "--step", "1mm"}, "cannot be combined with --step: both set the step length"},

@@ -3,6 +3,7 @@
 #include "art/provenance/provenance.h"
 
 #include "art/image/image_file.h"
+#include "art/print/format.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/print_tools.h"
 #include "tests/program.h"
@@ -94,8 +95,9 @@ TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
     const std::string longest = padded(1'000'000);
     for (const std::string& text : {"axiom: F\n"s, awkward, longer, longest}) {
         const std::string source = folder.write("source.lsys", text);
-        for (const char* name : {"a.svg", "a.pdf", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid"}) {
-            const bool is_score = std::string_view(name).ends_with(".mid");
+        for (const char* name :
+             {"a.svg", "a.pdf", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid", "a.musicxml", "a.html"}) {
+            const bool is_score = !named_format(std::string_view(name).substr(2));
             const std::string file = folder.file(name);
             const Outcome made = is_score ? run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file})
                                           : run({"-q", "draw", source, "-n", "0", "--size", "20x20mm", "--margin",
@@ -115,6 +117,22 @@ TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
             EXPECT_TRUE(run({"-q", "show", folder.file("b.lsys")}).output == (is_kept ? text : "")) << name;
         }
     }
+}
+
+TEST(Show, LilyPondFilesGiveThePatternBackLineByLine) {
+    const ScratchFolder folder;
+    const std::string source = folder.write("source.lsys", "title:\tகோலம்\r\n\naxiom: F-F\n// %{ no comment\n");
+    const std::string file = folder.file("a.ly");
+    ASSERT_EQ(run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file}).status, 0);
+    const Outcome shown = run({"show", file});
+    EXPECT_EQ(shown.output, "title: கோலம்\n\naxiom: F-F\n// %{ no comment\n") << shown.errors;
+    EXPECT_TRUE(has(shown.errors, "made with sikku "));
+    EXPECT_EQ(refusal("\\version \"2.24.0\"\n\n{ c }\n"), "this LilyPond file contains no pattern");
+    EXPECT_EQ(refusal("<!DOCTYPE html>\n<pre>a</pre>"), "this HTML page contains no pattern");
+    EXPECT_EQ(refusal("<?xml version=\"1.0\"?>\n<score-partwise><part/></score-partwise>"),
+              "this MusicXML file contains no pattern");
+    EXPECT_EQ(refusal("<score-partwise><miscellaneous-field name=\"made\">a"),
+              "this MusicXML file is damaged or truncated");
 }
 
 TEST(Show, OtherProgramsAgree) {
@@ -276,6 +294,18 @@ TEST_F(ShowBombs, SvgAndPdf) {
     const std::string sparse = folder_.write("h.svg", "<svg xmlns:sikku=\"urn:sikku:print\">");
     std::filesystem::resize_file(sparse, std::uintmax_t{2} << 30);
     expect_file(sparse, 1, damaged);
+
+    const auto xml = [](const std::string& pattern) {
+        return "<score-partwise><miscellaneous-field name=\"made\">x</miscellaneous-field><miscellaneous-field "
+               "name=\"pattern\">" +
+               pattern + "</miscellaneous-field>";
+    };
+    expect("a.musicxml", xml(std::string(60 << 20, 'x')), 0, "");
+    expect("b.musicxml", xml(std::string(70 << 20, 'x')), 1, too_long);
+    expect("c.musicxml", xml(std::string(8 << 20, '&')), 0, "");
+    const std::string lilypond = "\\version \"2.24.0\"\n\n% sikku 1\n";
+    expect("a.ly", lilypond + repeated(16 << 20, "%\n"), 0, "");
+    expect("b.ly", lilypond + "%" + std::string(70 << 20, 'x') + "\n", 1, too_long);
 
     const auto pdf = [](std::string texts) {
         const std::string object = "%PDF-1.4\n1 0 obj\n<< " + std::move(texts) + " /Creator (Sikku) >>\nendobj\n";

@@ -281,7 +281,7 @@ class Pattern:
     def notes(self, **options: Value) -> Notes:
         """Returns the notes of the score that play() writes with the same options, as arrays of numpy.
 
-        72 bytes a note while they are listed. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
+        About 200 bytes a note while they are listed. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
         """
         arrays, end, tempo, beats, unit = _core.notes(self._document, to_options("scores", options))
         onset, duration, key, velocity, voice, curve = arrays

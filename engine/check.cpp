@@ -1,0 +1,104 @@
+#include "engine/check.h"
+
+#include "engine/derivation/derivation.h"
+#include "engine/measure/fold.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_variant_bytes = std::size_t{256} << 20;  // of all variants together
+constexpr std::size_t most_errors = 50;
+constexpr double most_compositions = 100'000;  // of symbols and steps: a few milliseconds
+
+class Checker {
+public:
+    Checker(std::span<const Interpreter* const> interpreters, const Monitor& monitor)
+        : interpreters_(interpreters), monitor_(monitor) {}
+
+    std::vector<Diagnostic> run(std::string name, std::string text) {
+        Diagnostics diagnostics;
+        const Pattern pattern = parse_pattern(std::move(name), std::move(text), diagnostics);
+        if (!diagnostics.is_unreadable()) {
+            check(pattern, diagnostics);
+            collect(diagnostics);
+            check_variants(pattern);
+        } else {
+            collect(diagnostics);
+        }
+        std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+            return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
+        });
+        return std::move(found_);
+    }
+
+private:
+    void collect(const Diagnostics& diagnostics) {
+        for (const Diagnostic& one : diagnostics.sorted()) {
+            if (!known_.insert(one.text()).second) continue;
+            found_.push_back(one);
+            if (!one.warning) ++errors_;
+        }
+    }
+
+    void check(const Pattern& pattern, Diagnostics& diagnostics) const {
+        monitor_.check();
+        check_keys(pattern, diagnostics);
+        const Grammar grammar = compile_grammar(pattern, diagnostics);
+        for (const Interpreter* interpreter : interpreters_) interpreter->check_keys(pattern, diagnostics);
+        if (!diagnostics.has_errors()) check_brackets(pattern, grammar, diagnostics);
+    }
+
+    static void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
+        const double steps = static_cast<double>(grammar.steps()) + 1;
+        if (grammar.is_spatial() || static_cast<double>(grammar.symbols().size()) * steps > most_compositions) return;
+        try {
+            fold(grammar);
+        } catch (const WordError& error) {
+            const Key* axiom = pattern.find("axiom");
+            diagnostics.error(axiom ? axiom->value : Span(), error.what());
+        }
+    }
+
+    /// Each is compiled in full: many variants of a large pattern would take minutes.
+    void check_variants(const Pattern& pattern) {
+        const std::size_t size = pattern.source->text().size();
+        if (pattern.variants.size() > 1 && size > most_variant_bytes / pattern.variants.size()) {
+            Diagnostics diagnostics;
+            diagnostics.error(
+                pattern.variants.front().name,
+                fmt::format("too many variants to check: {1} of {0} bytes each; at most 256 MB in total", size,
+                            pattern.variants.size()));
+            return collect(diagnostics);
+        }
+        for (const Variant& variant : pattern.variants) {
+            if (errors_ >= most_errors) return;
+            Diagnostics diagnostics;
+            Pattern varied = pattern;
+            apply_overrides(varied, variant.name.view(), {}, diagnostics);
+            check(varied, diagnostics);
+            collect(diagnostics);
+        }
+    }
+
+    std::span<const Interpreter* const> interpreters_;
+    const Monitor& monitor_;
+    std::vector<Diagnostic> found_;
+    std::set<std::string> known_;
+    std::size_t errors_ = 0;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> check_pattern(std::string name, std::string text,
+                                      std::span<const Interpreter* const> interpreters, const Monitor& monitor) {
+    return Checker(interpreters, monitor).run(std::move(name), std::move(text));
+}
+
+}  // namespace sikku

@@ -1,0 +1,19 @@
+// engine/check.h: every error of a pattern file.
+#pragma once
+
+#include "engine/interpreter.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Checks a pattern with each of its variants: the language, the keys of the interpreters, and whether the brackets
+/// of the word balance. Sorted by place; what several variants share is reported once. Past 50 errors variants are
+/// skipped.
+/// @throws Stopped
+std::vector<Diagnostic> check_pattern(std::string name, std::string text,
+                                      std::span<const Interpreter* const> interpreters, const Monitor& monitor);
+
+}  // namespace sikku
