@@ -39,7 +39,7 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
 /// An argument that no option or positional takes.
 std::string unexpected(const CLI::App& command, const std::string& argument,
                        const std::vector<std::string>& arguments) {
-    const std::string message = "unexpected argument '" + printable(argument, 80) + "'";
+    std::string message = "unexpected argument '" + printable(argument, 80) + "'";
     const auto at =
         static_cast<std::size_t>(std::find(arguments.begin(), arguments.end(), argument) - arguments.begin());
     if (at < 2 || at == arguments.size()) return message;

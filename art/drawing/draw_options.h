@@ -70,18 +70,18 @@ inline DrawOptions with_locked_watch(DrawOptions options) {
 
 /// Report about a finished drawing.
 struct DrawReport {
-    double step = 0.0;                ///< millimetres of one turtle step
-    glm::dvec2 size{0.0};             ///< size of the drawing with its pen, in millimetres
-    glm::dvec2 room{0.0};             ///< room on the page, within margins and border
-    std::size_t dots = 0;             ///< number of kolam dots drawn
-    bool overflows = false;           ///< the drawing is larger than the page within its margins (a step was given)
-    int sheets = 0;                   ///< number of sheets of a tiled print
-    int sheet_rows = 0;               ///< rows of these sheets
-    glm::dvec2 left_out{0.0};         ///< margin of the page, in millimetres on each side, that the sheets do not show
-    std::optional<PlotReport> plot;   ///< report of a plot
-    std::uint64_t replaced = 0;       ///< parts too small to be resolved, replaced by their appearance
-    bool is_empty = false;            ///< the window contains no part of the drawing
-    bool is_blank = false;            ///< the ink of a picture is too thin to be visible
+    double step = 0.0;               ///< millimetres of one turtle step
+    glm::dvec2 size{0.0};            ///< size of the drawing with its pen, in millimetres
+    glm::dvec2 room{0.0};            ///< room on the page, within margins and border
+    std::size_t dots = 0;            ///< number of kolam dots drawn
+    bool overflows = false;          ///< the drawing is larger than the page within its margins (a step was given)
+    int sheets = 0;                  ///< number of sheets of a tiled print
+    int sheet_rows = 0;              ///< rows of these sheets
+    glm::dvec2 left_out{0.0};        ///< margin of the page, in millimetres on each side, that the sheets do not show
+    std::optional<PlotReport> plot;  ///< report of a plot
+    std::uint64_t replaced = 0;      ///< parts too small to be resolved, replaced by their appearance
+    bool is_empty = false;           ///< the window contains no part of the drawing
+    bool is_blank = false;           ///< the ink of a picture is too thin to be visible
     bool leaves_pattern_out = false;  ///< the pattern's text is too long for the format
 };
 

@@ -18,14 +18,14 @@ constexpr std::uint64_t most_lilypond_bytes = most_pattern_bytes + (std::uint64_
 
 /// Reads escaped text up to `end`, which it skips. @throws UnreadableFile if it does not come
 std::string read_escaped(InputStream& in, char end) {
+    const std::string stops = {end, '&'};
     std::string text;
     for (;;) {
         const std::string_view bytes = in.ahead(longest_xml_reference);
         if (bytes.empty()) refuse_damaged();
-        const auto stop = std::find_if(bytes.begin(), bytes.end(), [end](char c) { return c == end || c == '&'; });
-        append_text(text, {bytes.begin(), stop});
-        const auto plain = static_cast<std::size_t>(stop - bytes.begin());
-        if (stop != bytes.end() && *stop == end) {
+        const std::size_t plain = std::min(bytes.find_first_of(stops), bytes.size());
+        append_text(text, bytes.substr(0, plain));
+        if (plain < bytes.size() && bytes[plain] == end) {
             in.skip(plain + 1);
             return text;
         }

@@ -153,7 +153,7 @@ Lattice make_lattice(const Grammar& grammar) {
     const auto rank = static_cast<std::size_t>(lattice.rank);
     for (std::int64_t h = 0; h < k; ++h) {
         lattice.power.push_back(power);
-        const auto overflow = static_cast<int>(power[rank - 1]);
+        const std::int8_t overflow = power[rank - 1];
         for (std::size_t i = rank - 1; i > 0; --i) {
             power[i] = static_cast<std::int8_t>(power[i - 1] - overflow * polynomial[i]);
         }

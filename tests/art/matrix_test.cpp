@@ -114,8 +114,8 @@ std::vector<Target> targets() {
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Combinations where a feature rightly changes nothing: HP-GL and G-code are always plots, and a sheet of generations
-/// is compared with itself.
+/// Combinations where a feature rightly changes nothing: HP-GL and G-code are always plots, and a sheet of
+/// generations is compared with itself.
 const std::set<std::string> unchanged = {"plotter on HP-GL",
                                          "plotter on G-code",
                                          "sheet of generations on GIF",

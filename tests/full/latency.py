@@ -85,7 +85,7 @@ def stop(arguments, delay):
         process.kill()
         process.wait()
     took = time.monotonic() - begin
-    completed = process.returncode == 0 and set(os.listdir(".")) > before
+    completed = process.returncode == 0 and ("-o" not in arguments or set(os.listdir(".")) > before)
     good = (process.returncode == 143 or completed) and took <= MOST and not left_behind()
     if not good or os.environ.get("LATENCY_VERBOSE"):
         print(f"{'  ' if good else 'BAD '}{' '.join(arguments)}: SIGTERM at {delay} s, status {process.returncode} "
