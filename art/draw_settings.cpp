@@ -462,23 +462,11 @@ void set_key(S& settings, std::string_view name, Text text) {
 /// The rows above, and one for each further key of the language that art reads.
 std::vector<Option<S>> make_table() {
     std::vector<Option<S>> table(own_rows.begin(), own_rows.end());
-    static std::vector<std::string> help;  // string_views point into it
-    const auto keys = keys_of(KeyOwner::art);
-    help.reserve(keys.size());
-    for (const std::string_view name : keys) {
+    for (const std::string_view name : keys_of(KeyOwner::art)) {
         const auto has_name = [&](const Option<S>& row) { return row.info.name == name; };
         if (std::any_of(table.begin(), table.end(), has_name)) continue;
-        const KeyInfo& key = *find_language_key(name);
-        help.push_back(std::string(key.help) + ": " + std::string(key.values));
         // Galleries have the keys themselves.
-        table.push_back({{.name = name,
-                          .help = help.back(),
-                          .value = "VALUE",
-                          .group = "Style",
-                          .is_alone = true,
-                          .is_key = true},
-                         nullptr,
-                         set_key});
+        table.push_back({key_option(name, "Style", true), nullptr, set_key});
     }
     return table;
 }

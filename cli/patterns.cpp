@@ -129,7 +129,8 @@ void add_check(CLI::App& app) {
                      "pattern files, bundled patterns, -, scales (.scl), key maps (.kbm) or MIDI files")
         ->required();
     command->footer(
-        "Prints nothing and exits with 0 if there is no error; otherwise exits with 2, or with 1 for MIDI files.\n\n"
+        "Exits with 0 and prints nothing if the files have no errors. Errors in MIDI files exit with 1, other errors "
+        "with 2.\n\n"
         "Examples:\n  sikku check my.lsys patterns/*/*.lsys");
     command->callback([files] {
         bool good = true;

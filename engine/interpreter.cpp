@@ -51,10 +51,7 @@ void require_known(const Interpreter& interpreter, const Document& document, con
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Define& define : document.pattern().defines) known.push_back(define.name.view());
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    const std::string_view near = nearest(name, known);
-    throw SettingError(name, "",
-                       near.empty() ? std::string("unknown option or key")
-                                    : "unknown option or key; did you mean '" + std::string(near) + "'?");
+    throw SettingError(name, "", "unknown option or key" + did_you_mean(nearest(name, known)));
 }
 
 }  // namespace

@@ -19,15 +19,8 @@ void set_key(S& settings, std::string_view name, const std::string& text) {
 
 std::vector<Option<S>> make_table() {
     std::vector<Option<S>> table;
-    static std::vector<std::string> help;  // owns the texts of string_views
-    const auto keys = keys_of(KeyOwner::music);
-    help.reserve(keys.size());
-    for (const std::string_view name : keys) {
-        const KeyInfo& key = *find_language_key(name);
-        help.push_back(std::string(key.help) + ": " + std::string(key.values));
-        table.push_back({{.name = name, .help = help.back(), .value = "VALUE", .group = "Melody", .is_key = true},
-                         nullptr,
-                         set_key});
+    for (const std::string_view name : keys_of(KeyOwner::music)) {
+        table.push_back({key_option(name, "Melody", false), nullptr, set_key});
     }
     const std::vector<Option<S>> own = {
         {{.name = "from-bar", .help = "first bar, counted from 1 (1)", .value = "BAR", .kind = whole, .least = 1},

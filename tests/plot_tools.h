@@ -19,7 +19,7 @@
 
 namespace sikku {
 
-/// A pattern that comes along, placed on a page.
+/// A bundled pattern, placed on a page.
 struct PlacedPattern {
     PlacedPattern(const std::string& name, std::int64_t steps, const Page& page) {
         Diagnostics diagnostics;

@@ -41,21 +41,11 @@ constexpr double plot_line_bytes = 400;
 constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
 
 /// Takes blots for nothing: for writers of lines, to whom none is sent.
-class LinesOnly : public BlotSink {
+class LinesOnly : public Forwarding<BlotSink> {
 public:
-    explicit LinesOnly(PathSink& sink) : sink_(sink) {}
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
-    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
-    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
-    void change_pen(const Pen& pen) override { sink_.change_pen(pen); }
-    void end_stroke(bool closed) override { sink_.end_stroke(closed); }
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+    using Forwarding::Forwarding;
     std::size_t prepare(const Blot&, const Pen&) override { return 0; }
     void blot(std::size_t, glm::dvec2) override {}
-
-private:
-    PathSink& sink_;
 };
 
 /// Length of what passes; of curves by chords of an eighth.

@@ -23,8 +23,7 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
                                         std::string& why);
 
 /// Checks that the window of the options can be shown by reading the whole word.
-/// @throws std::runtime_error with the reason why there is no view, for drawings in space and for words over the
-/// budget
+/// @throws std::runtime_error with the reason, for drawings in space and for words over the budget
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why);
 
 /// Draws the visible parts. With a pen narrower than a pixel, parts up to half a pixel become blots of their ink;

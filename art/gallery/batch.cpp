@@ -174,9 +174,6 @@ FinishedJob Batch::make_job(const Turn& turn) {
     result.hash = hashes_[turn.task.job];
     result.job = job.text();
     const auto make = [&](const std::filesystem::path& path, FinishedJob& file) {
-        OptionValues values = job.values();
-        if (find_option(job.interpreter().options(), "jobs"))
-            values.push_back({"jobs", std::to_string(turn.threads)});
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);

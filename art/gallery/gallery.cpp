@@ -165,9 +165,7 @@ void Gallery::select() {
         if (std::any_of(jobs_.begin(), jobs_.end(), is_named)) continue;
         std::vector<std::string_view> names;
         for (const GalleryJob& job : jobs_) names.push_back(job.name);
-        const std::string_view near = nearest(name, names);
-        throw SettingError("only", name,
-                           "no such job" + (near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+        throw SettingError("only", name, "no such job" + did_you_mean(nearest(name, names)));
     }
     const std::set<std::string> only(options_.only.begin(), options_.only.end());
     std::erase_if(chosen_, [&](std::size_t job) {

@@ -52,8 +52,7 @@ std::vector<NamedJobs> by_name(const std::vector<const GalleryJob*>& jobs) {
 }
 
 /// What of a job's settings is told in one line: `angle increment = 60, size = A4`.
-/// @param keys  those of the options that are told, beside a caption that states the angle already; null: all but the
-/// derivation length, which is told elsewhere
+/// @param keys  options to list, below a caption that states the angle; null: all except the derivation length
 std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys) {
     std::string text;
     const auto add = [&](const std::string& key, const std::string& value) {

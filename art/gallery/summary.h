@@ -34,7 +34,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's ending tells the format. Where patterns
 /// have several derivation lengths, each has rows of its own.
-/// @throws GalleryError if there is no print; what draw_sheet() throws
+/// @throws GalleryError if no job is a print, and everything that draw_sheet() throws
 void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Monitor& monitor);
 

@@ -32,7 +32,7 @@ std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> ver
                                                  double spacing, double inset, const Monitor& monitor = {});
 
 /// Fills a disc with a pen that is `pen` wide: a circle half a pen inside the edge, then a spiral to the centre whose
-/// turns are at most one pen apart. If the circle covers the whole disc, there is no spiral. Starts at the right.
+/// turns are at most one pen apart. The spiral is omitted if the circle covers the whole disc. Starts at the right.
 /// @param radius  above 0, in the same unit as `pen`
 /// @return the start, then three control points for each Bézier, within 0.01 percent of the radius
 std::vector<glm::dvec2> spiral(glm::dvec2 centre, double radius, double pen);

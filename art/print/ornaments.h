@@ -21,7 +21,7 @@ constexpr std::string_view kolam_colours = "#fffaf0 #f2b632 #7fc8a9 #e77f67 #8fb
 /// Hands a drawing on in colours of a palette that has grown: indices are brought below its old size first.
 class OldColours : public PathFilter {
 public:
-    OldColours(PathSink& sink, const Style& style) : PathFilter(sink), style_(style) {}
+    OldColours(PathSink& sink, const Style& style) : Forwarding(sink), style_(style) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, old(pen)); }
     void change_pen(const Pen& pen) override { sink_.change_pen(old(pen)); }
@@ -40,7 +40,7 @@ private:
 /// Records the positions of the discs of a drawing.
 class NotedDiscs : public PathFilter {
 public:
-    NotedDiscs(PathSink& sink, const Style& style) : PathFilter(sink), style_(style) {}
+    NotedDiscs(PathSink& sink, const Style& style) : Forwarding(sink), style_(style) {}
 
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha > 0) places.push_back(centre);
@@ -58,7 +58,7 @@ class StrokeColours : public PathFilter {
 public:
     StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
                   const std::vector<std::uint32_t>& line_of_stroke)
-        : PathFilter(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
+        : Forwarding(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         is_seen_ = false;

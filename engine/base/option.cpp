@@ -1,12 +1,15 @@
 #include "engine/base/option.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/keys.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <deque>
+#include <mutex>
 #include <system_error>
 
 namespace sikku {
@@ -34,6 +37,15 @@ double read_budget(const std::string& text) {
     const double budget = to_number(text);
     if (!(budget > 0)) refuse_option(budget_option.name, text, "expected a number above 0");
     return budget;
+}
+
+OptionInfo key_option(std::string_view key, std::string_view group, bool is_alone) {
+    static std::deque<std::string> help;  // string_views point into it
+    static std::mutex mutex;
+    const std::lock_guard guard(mutex);
+    const KeyInfo& row = *find_language_key(key);
+    help.push_back(fmt::format("{}: {}", row.help, row.values));
+    return {.name = key, .help = help.back(), .value = "VALUE", .group = group, .is_alone = is_alone, .is_key = true};
 }
 
 const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name) {
@@ -73,10 +85,7 @@ void check_names(std::span<const OptionInfo* const> table, const OptionValues& v
         if (!row) {
             std::vector<std::string_view> names;
             for (const OptionInfo* one : table) names.push_back(one->name);
-            const std::string_view near = nearest(name, names);
-            refuse_option(name, "",
-                          near.empty() ? std::string("unknown option")
-                                       : fmt::format("unknown option; did you mean '{}'?", near));
+            refuse_option(name, "", "unknown option" + did_you_mean(nearest(name, names)));
         }
         if (row->is_list) continue;
         for (std::size_t j = 0; j < i; ++j) {

@@ -78,6 +78,10 @@ void check_option(const OptionInfo& option, const std::string& text);
 /// Converts a checked text to its number.
 double to_number(const std::string& text);
 
+/// The row of a key of the language as an option, in help as its table states it. The text of the help lives as long
+/// as the program.
+OptionInfo key_option(std::string_view key, std::string_view group, bool is_alone);
+
 /// Reads a whole number. @throws SettingError if it does not fit
 template <typename Whole>
 void read_whole(std::string_view option, const std::string& text, Whole& value) {

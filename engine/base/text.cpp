@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 namespace sikku {
 
@@ -165,12 +166,24 @@ std::string counted(std::string_view digits, std::string_view what) {
 }
 
 std::string did_you_mean(std::span<const std::string_view> names) {
+    if (names.empty()) return {};
+    std::vector<std::string> quoted;
+    for (const std::string_view name : names) quoted.push_back(fmt::format("'{}'", name));
+    return fmt::format("; did you mean {}?",
+                       alternatives(std::vector<std::string_view>(quoted.begin(), quoted.end())));
+}
+
+std::string did_you_mean(std::string_view near) {
+    return near.empty() ? std::string() : did_you_mean(std::span(&near, 1));
+}
+
+std::string alternatives(std::span<const std::string_view> words) {
     std::string list;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        list += i == 0 ? "" : i + 1 < names.size() ? ", " : " or ";
-        list += "'" + std::string(names[i]) + "'";
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        list += i == 0 ? "" : i + 1 < words.size() ? ", " : " or ";
+        list += words[i];
     }
-    return list.empty() ? list : "; did you mean " + list + "?";
+    return list;
 }
 
 std::string counted(std::uint64_t count, std::string_view what) {

@@ -47,9 +47,10 @@ public:
 };
 
 /// Passes a drawing on to another sink; derived classes override what they change.
-class PathFilter : public PathSink {
+template <typename Sink>
+class Forwarding : public Sink {
 public:
-    explicit PathFilter(PathSink& sink) : sink_(sink) {}
+    explicit Forwarding(PathSink& sink) : sink_(sink) {}
     void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, pen); }
     void lines(std::span<const glm::dvec2> ends) override { sink_.lines(ends); }
     void curves(std::span<const glm::dvec2> controls) override { sink_.curves(controls); }
@@ -62,6 +63,7 @@ public:
 protected:
     PathSink& sink_;
 };
+using PathFilter = Forwarding<PathSink>;
 
 /// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
 /// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.

@@ -455,15 +455,14 @@ void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Key& key : pattern.keys) {
         if (find_language_key(key.name)) continue;
-        // What other programs and everyday English call these keys.
+        // Names of these keys in other programs and in everyday English.
         static const std::map<std::string_view, std::string_view> others = {
             {"angle", "angle increment"}, {"n", "derivation length"}, {"steps", "derivation length"},
             {"colour", "stroke"},         {"color", "stroke"},        {"line width", "stroke"},
             {"width", "stroke"},          {"background", "ground"},   {"start", "axiom"}};
         const auto other = others.find(key.name);
         const std::string_view near = other != others.end() ? other->second : nearest(key.name, known);
-        diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(),
-                                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+        diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(), did_you_mean(near)));
     }
 }
 

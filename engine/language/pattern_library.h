@@ -35,7 +35,7 @@ public:
     const LibraryPattern* find(std::string_view name) const;
     /// The path of the bundled gallery file posters/NAME.toml, or `name` itself if a file has that name.
     std::string gallery_file(const std::string& name) const;
-    /// What may have been meant by `name`, at most three: the nearest name, or those that begin with it.
+    /// Names to suggest instead of `name`: up to three that begin with it, otherwise the nearest one.
     std::vector<std::string_view> similar(std::string_view name) const;
     /// The kind nearest to `name`, or empty if none is near enough to be meant.
     std::string_view nearest_kind(std::string_view name) const;

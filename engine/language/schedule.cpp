@@ -1,4 +1,5 @@
 #include "engine/language/schedule.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -73,11 +74,9 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
         if (known != index.end()) {
             item.table = known->second;
         } else {
-            const std::string_view near = nearest(name, names);
-            diagnostics.error(value.part(begin),
-                              name.empty()   ? std::string("expected the name of a table")
-                              : near.empty() ? fmt::format("unknown table '{}'", name)
-                                             : fmt::format("unknown table '{}'; did you mean '{}'?", name, near));
+            diagnostics.error(value.part(begin), name.empty() ? std::string("expected the name of a table")
+                                                              : fmt::format("unknown table '{}'{}", name,
+                                                                            did_you_mean(nearest(name, names))));
             return std::nullopt;
         }
         const auto count = count_at(value, at, diagnostics);

@@ -90,15 +90,8 @@ private:
             }
             if (word != "center") words.push_back(word);
         }
-        std::string list;
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            list += i == 0 ? "" : i + 1 < words.size() ? ", " : " or ";
-            list += words[i];
-        }
-        const std::string_view near = nearest(wanted, words);
         diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                           near.empty() ? fmt::format("expected {}", list)
-                                        : fmt::format("expected {}; did you mean '{}'?", list, near));
+                           fmt::format("expected {}{}", alternatives(words), did_you_mean(nearest(wanted, words))));
     }
 
     void warn_of_what_has_no_meaning() {

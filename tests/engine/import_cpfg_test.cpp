@@ -22,7 +22,7 @@ namespace {
 
 using namespace import_tools;
 
-/// A pattern that comes along.
+/// Reads a bundled pattern.
 std::string along(const std::string& name) {
     return contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns" / (name + ".lsys"));
 }
@@ -137,7 +137,7 @@ TEST(ImportCpfg, Chance) {
         "endlsystem\n";
     const ImportedSystem chance = cpfg("Lsystem: 1\n" + text);
     expect_same_words(chance.pattern, along("plants/stochastic-branches"), 5);
-    // Without a weight it is 1; without a seed there is no chance at all.
+    // A missing weight is 1. Without a seed, productions are not chosen at random.
     EXPECT_TRUE(has(cpfg("Lsystem: 1\nseed: 3\nAxiom: A\nA --> B\nA --> C : 2\nB --> D : 0.5\nendlsystem\n").pattern,
                     "seed: 3\naxiom: A\nA --> B : 1\nA --> C : 2\nB --> D\n"));
     const ImportedSystem certain = cpfg("Lsystem: 1\n" + text.substr(8));
