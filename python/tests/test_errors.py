@@ -38,7 +38,7 @@ def test_keys_of_prints_and_scores_are_checked() -> None:
 def test_settings_have_places() -> None:
     with pytest.raises(sikku.PatternError) as caught:
         sikku.load("hilbert", angle_factor="x")
-    assert caught.value.file == "angle factor"
+    assert caught.value.file == "angle factor x"
     with pytest.raises(sikku.PatternError):
         sikku.load("hilbert", nothing=1)
     with pytest.raises(sikku.PatternError):

@@ -101,7 +101,7 @@ TEST(Floor, ValuesAreSortedByWhatTheySet) {
 
 TEST(Floor, FormatsOfTextAreText) {
     const Document document = load("hilbert", {"", {{"test", "derivation length", "2"}}});
-    const OptionValues small = {{"size", "20x20mm"}, {"dpi", "50"}};
+    const OptionValues small = {{"size", "40x40mm"}, {"dpi", "50"}};
     for (const Interpreter* interpreter : {&prints(), &scores()}) {
         for (const FormatName& format : interpreter->formats()) {
             if (format.is_several || format.label == "sound") continue;

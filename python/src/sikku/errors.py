@@ -44,7 +44,10 @@ class Error(Exception):
 
 
 class PatternError(Error, ValueError):
-    """A pattern has errors. `file`, `line`, `column` and `message` are those of the first one."""
+    """A pattern has errors. `file`, `line`, `column` and `message` are those of the first one.
+
+    For an error in a setting `line` is 0, and `file` holds the setting and its value: `angle factor x`.
+    """
 
     def __init__(self, text: str, diagnostics: list[Diagnostic]) -> None:
         super().__init__(text, diagnostics)
