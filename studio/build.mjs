@@ -1,0 +1,76 @@
+// Builds the studio: one file with its style, its script, its worker and the libraries as WebAssembly.
+//     node build.mjs [--bridge FOLDER] [-o FILE] [--readable]
+// FOLDER holds sikku-bridge.mjs and sikku-bridge.wasm.
+import { build } from "esbuild";
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { constants, deflateRawSync } from "node:zlib";
+import { notices } from "./notices.mjs";
+
+const most_bytes = 2 * 1024 * 1024;
+const here = dirname(fileURLToPath(import.meta.url));
+const { values } = parseArgs({
+    options: {
+        bridge: { type: "string", default: join(here, "../build/studio") },
+        output: { type: "string", short: "o", default: join(here, "../build/studio/sikku-studio.html") },
+        readable: { type: "boolean", default: false },
+    },
+});
+const bridge = resolve(values.bridge);
+
+// The bundle of one entry, as the text of a classic script: workers from a Blob are classic, so that the page also
+// works from a file.
+async function bundle(entry) {
+    const result = await build({
+        entryPoints: [join(here, "page", entry)],
+        alias: { "sikku-bridge": join(bridge, "sikku-bridge.mjs") },
+        bundle: true, write: false, format: "iife", target: "es2022", minify: !values.readable, charset: "utf8",
+        legalComments: "none", logLevel: "warning", external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
+        define: { "import.meta.url": '""', "import.meta": "{}" }, loader: { ".txt": "text" },
+        plugins: [{
+            name: "notices",
+            setup(plugins) {
+                plugins.onResolve({ filter: /^notices$/ }, () => ({ path: "notices", namespace: "notices" }));
+                plugins.onLoad({ filter: /.*/, namespace: "notices" }, () => ({
+                    contents: JSON.stringify(notices(join(here, "node_modules"))), loader: "json",
+                }));
+            },
+        }],
+    });
+    return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+}
+
+async function style() {
+    const result = await build({
+        entryPoints: [join(here, "page/studio.css")], bundle: true, write: false, minify: !values.readable,
+        charset: "utf8", logLevel: "warning",
+    });
+    return result.outputFiles[0].text;
+}
+
+const [script, worker, css] = await Promise.all([bundle("main.ts"), bundle("worker.ts"), style()]);
+const wasm = readFileSync(join(bridge, "sikku-bridge.wasm"));
+const libraries = deflateRawSync(wasm, { level: 9, memLevel: 9, strategy: constants.Z_DEFAULT_STRATEGY }).toString("base64");
+const parts = {
+    "studio.css": css,
+    "worker.ts": worker,
+    "main.ts": script,
+    libraries,
+    "script-hash": `'sha256-${createHash("sha256").update(script).digest("base64")}'`,
+};
+const page = readFileSync(join(here, "page/studio.html"), "utf8")
+    .replace(/\{\{([a-z.-]+)\}\}/g, (_, name) => parts[name] ?? (() => { throw new Error(`unknown part ${name}`); })());
+
+mkdirSync(dirname(resolve(values.output)), { recursive: true });
+writeFileSync(values.output, page);
+const size = Buffer.byteLength(page);
+const thousands = (count) => count.toLocaleString("en");
+console.log(`${values.output}: ${thousands(size)} bytes (libraries ${thousands(libraries.length)}, ` +
+    `script ${thousands(script.length)}, worker ${thousands(worker.length)}, style ${thousands(css.length)})`);
+if (size > most_bytes) {
+    console.error(`the page is larger than ${thousands(most_bytes)} bytes`);
+    process.exitCode = 1;
+}

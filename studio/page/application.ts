@@ -1,0 +1,70 @@
+// The studio as its panels see it: the libraries, the work, and the facts of its last text without errors.
+import type { Engine, Studio } from "./context";
+import { RequestFailed } from "./context";
+import type { Work } from "./context";
+import { byId, element } from "./elements";
+import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
+import type { History } from "./store";
+
+type OpenedListener = (facts: Opened, work: Work) => void;
+type Place = { line: number; column: number; length: number };
+
+export class Application implements Studio {
+    help!: Help; // both are set before the first panel is made
+    patterns!: PatternEntry[];
+    opened: { facts: Opened; work: Work } | null = null;
+
+    private readonly listeners = new Set<OpenedListener>();
+    private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
+    private readonly marked = new Set<(place: Place | null) => void>();
+
+    constructor(readonly engine: Engine, readonly store: History) {
+        store.subscribe((work, before) => { if (work.pattern !== before.pattern) void this.open(); });
+    }
+
+    onOpened(listener: OpenedListener): () => void {
+        this.listeners.add(listener);
+        return () => this.listeners.delete(listener);
+    }
+
+    /// Called after every text: with its error, or null, and with all that is to be shown in it.
+    onChecked(listener: (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void): void {
+        this.failed.add(listener);
+    }
+
+    onHighlight(listener: (place: Place | null) => void): void { this.marked.add(listener); }
+
+    /// Reads the work's pattern; the panels draw it again if it has no errors.
+    async open(): Promise<void> {
+        const { work } = this.store;
+        try {
+            const { json } = await this.engine.request<Opened>({ do: "open", pattern: work.pattern }, { key: "open" });
+            this.opened = { facts: json, work };
+            for (const listener of this.failed) listener(null, json.warnings);
+            for (const listener of this.listeners) listener(json, work);
+        } catch (error) {
+            if (!(error instanceof RequestFailed)) return; // replaced by a later text
+            for (const listener of this.failed) listener(error.failure, error.failure.diagnostics ?? []);
+        }
+    }
+
+    say(text: string, kind: "fact" | "warning" | "error" = "fact"): void {
+        const message = byId("message");
+        message.dataset["kind"] = kind;
+        message.textContent = text;
+        message.title = text;
+    }
+
+    highlight(place: Place | null): void {
+        for (const listener of this.marked) listener(place);
+    }
+
+    save(name: string, bytes: Uint8Array, type: string): void {
+        const address = URL.createObjectURL(new Blob([bytes as BlobPart], { type }));
+        const link = element("a", { href: address, download: name, hidden: true });
+        document.body.append(link);
+        link.click();
+        link.remove();
+        setTimeout(() => URL.revokeObjectURL(address), 60_000);
+    }
+}

@@ -1,0 +1,69 @@
+// The tabs, and the panels below them. A panel is built when the libraries have started; one that fails does not
+// take the others with it.
+import type { MakePanel, Panel, Studio } from "./context";
+import { byId, element } from "./elements";
+
+export class Panels {
+    private readonly panels: Panel[] = [];
+    private shown: Panel | null = null;
+
+    constructor(private readonly studio: Studio, makers: MakePanel[]) {
+        for (const make of makers) {
+            try {
+                this.add(make(studio));
+            } catch (error) {
+                console.error(error);
+                studio.say(`One view failed to start: ${String(error)}`, "error");
+            }
+        }
+        studio.store.subscribe((work) => this.choose(work.panel));
+        this.choose(studio.store.work.panel);
+    }
+
+    private add(panel: Panel): void {
+        panel.element.classList.add("panel");
+        panel.element.id = `panel-${panel.name}`;
+        panel.element.setAttribute("role", "tabpanel");
+        panel.element.setAttribute("aria-labelledby", `tab-${panel.name}`);
+        panel.element.hidden = true;
+        const tab = element("button", {
+            type: "button", class: "tab", role: "tab", id: `tab-${panel.name}`, "aria-selected": "false",
+            "aria-controls": panel.element.id, tabindex: -1,
+        }, panel.label);
+        tab.addEventListener("click", () => this.studio.store.change({ panel: panel.name }));
+        tab.addEventListener("keydown", (event) => this.move(event, panel));
+        byId("tabs").append(tab);
+        byId("panels").append(panel.element);
+        this.panels.push(panel);
+    }
+
+    private tab(panel: Panel): HTMLElement { return byId(`tab-${panel.name}`); }
+
+    private choose(name: string): void {
+        const panel = this.panels.find((each) => each.name === name) ?? this.panels[0];
+        if (!panel || panel === this.shown) return;
+        if (this.shown) {
+            this.shown.element.hidden = true;
+            this.shown.hide();
+        }
+        for (const each of this.panels) {
+            this.tab(each).setAttribute("aria-selected", String(each === panel));
+            this.tab(each).tabIndex = each === panel ? 0 : -1;
+        }
+        this.tab(panel).scrollIntoView({ block: "nearest", inline: "nearest" });
+        this.shown = panel;
+        panel.element.hidden = false;
+        panel.show();
+    }
+
+    private move(event: KeyboardEvent, panel: Panel): void {
+        const at = this.panels.indexOf(panel);
+        const count = this.panels.length;
+        const to = { ArrowRight: (at + 1) % count, ArrowLeft: (at + count - 1) % count, Home: 0, End: count - 1 }[event.key];
+        if (to === undefined) return;
+        event.preventDefault();
+        const next = this.panels[to]!;
+        this.studio.store.change({ panel: next.name });
+        this.tab(next).focus();
+    }
+}

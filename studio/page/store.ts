@@ -1,0 +1,159 @@
+// What the user makes, with its history: kept in the browser, so that a reload loses nothing.
+import type { Store, Work } from "./context";
+
+const most_steps = 100;
+const merge_milliseconds = 1000;
+const storage_key = "sikku-studio";
+
+/// A state that undo returns to.
+export interface Step {
+    work: Work;
+    label: string; // what changed
+    time: number;
+    picture?: string; // a thumbnail, as a data address
+}
+
+interface Saved { steps: Step[]; at: number }
+
+type Listener = (work: Work, before: Work) => void;
+
+export class History implements Store {
+    private steps: Step[];
+    private at: number;
+    private merging = "";
+    private merged = 0; // time of the last change of `merging`
+    private timer = 0;
+    private readonly listeners = new Set<Listener>();
+    private readonly watchers = new Set<() => void>();
+
+    constructor(first: Work) {
+        const saved = read();
+        this.steps = saved?.steps ?? [{ work: first, label: "Start", time: Date.now() }];
+        this.at = saved?.at ?? 0;
+        this.wasSaved = saved !== null;
+        addEventListener("pagehide", () => this.save());
+        document.addEventListener("visibilitychange", () => { if (document.hidden) this.save(); });
+    }
+
+    readonly wasSaved: boolean; // by an earlier visit
+
+    get work(): Work { return this.steps[this.at]!.work; }
+    get history(): readonly Step[] { return this.steps; }
+    get position(): number { return this.at; }
+
+    change(change: Partial<Work>, merge = ""): void {
+        const before = this.work;
+        const work = { ...before, ...change };
+        if (JSON.stringify(work) === JSON.stringify(before)) return;
+        if (!change.pattern && !change.draw && !change.play) { // where one looks is no step of the work
+            this.steps[this.at]!.work = work;
+            this.tell(before);
+            return;
+        }
+        const now = Date.now();
+        const continues = merge !== "" && merge === this.merging && now - this.merged < merge_milliseconds;
+        this.merging = merge;
+        this.merged = now;
+        if (continues && this.at === this.steps.length - 1 && this.at > 0) {
+            this.steps[this.at] = { work, label: describe(before, work), time: now };
+        } else {
+            this.steps.splice(this.at + 1);
+            this.steps.push({ work, label: describe(before, work), time: now });
+            if (this.steps.length > most_steps + 1) this.steps.shift();
+            this.at = this.steps.length - 1;
+        }
+        this.tell(before);
+    }
+
+    setting(name: string, value: string | null, merge?: string): void {
+        const { pattern } = this.work;
+        const settings = pattern.settings.filter(([each]) => each !== name);
+        if (value !== null) settings.push([name, value]);
+        this.change({ pattern: { ...pattern, settings } }, merge);
+    }
+
+    undo(): void { this.go(this.at - 1); }
+    redo(): void { this.go(this.at + 1); }
+
+    /// Returns to a step of the history.
+    go(position: number): void {
+        if (position < 0 || position >= this.steps.length || position === this.at) return;
+        const before = this.work;
+        this.merging = "";
+        this.at = position;
+        this.steps[position]!.work = { ...this.work, panel: before.panel };
+        this.tell(before);
+    }
+
+    /// The thumbnail of a step, when it has been drawn.
+    picture(work: Work, address: string): void {
+        const step = this.steps.find((each) => each.work === work || each.work.pattern === work.pattern);
+        if (!step) return;
+        step.picture = address;
+        for (const watcher of this.watchers) watcher();
+        this.saveSoon();
+    }
+
+    subscribe(listener: Listener): () => void {
+        this.listeners.add(listener);
+        return () => this.listeners.delete(listener);
+    }
+
+    /// Called after every change of the history, thumbnails included.
+    watch(watcher: () => void): () => void {
+        this.watchers.add(watcher);
+        return () => this.watchers.delete(watcher);
+    }
+
+    private tell(before: Work): void {
+        for (const listener of this.listeners) listener(this.work, before);
+        for (const watcher of this.watchers) watcher();
+        this.saveSoon();
+    }
+
+    private saveSoon(): void {
+        clearTimeout(this.timer);
+        this.timer = window.setTimeout(() => this.save(), 400);
+    }
+
+    // The storage is small: if all does not fit, the newest steps are kept.
+    private save(): void {
+        clearTimeout(this.timer);
+        for (let kept = this.steps.length; kept > 0; kept = Math.floor(kept / 2)) {
+            const from = Math.max(0, Math.min(this.at, this.steps.length - kept));
+            const saved: Saved = { steps: this.steps.slice(from, from + kept), at: Math.min(this.at - from, kept - 1) };
+            try {
+                localStorage.setItem(storage_key, JSON.stringify(saved));
+                return;
+            } catch {
+                // fewer
+            }
+        }
+    }
+}
+
+function read(): Saved | null {
+    try {
+        const saved = JSON.parse(localStorage.getItem(storage_key) ?? "null") as Saved | null;
+        const work = saved?.steps[saved.at]?.work;
+        return work && typeof work.pattern.text === "string" && Array.isArray(work.draw) ? saved : null;
+    } catch {
+        return null;
+    }
+}
+
+// What distinguishes two states, in a few words.
+function describe(before: Work, after: Work): string {
+    if (before.pattern.name !== after.pattern.name) return after.pattern.name.replace(/\.lsys$/, "");
+    if (before.pattern.text !== after.pattern.text) return "Text";
+    if (before.pattern.variant !== after.pattern.variant) return `Variant ${after.pattern.variant || "none"}`;
+    const old = new Map(before.pattern.settings);
+    const now = new Map(after.pattern.settings);
+    const changed = [...new Set([...old.keys(), ...now.keys()])].filter((name) => old.get(name) !== now.get(name));
+    if (changed.length === 1) {
+        const name = changed[0]!;
+        return `${name === "derivation length" ? "n" : name} ${now.get(name) ?? "as written"}`;
+    }
+    if (changed.length > 1) return `${changed.length} values`;
+    return JSON.stringify(before.draw) !== JSON.stringify(after.draw) ? "Print options" : "Score options";
+}
