@@ -1,9 +1,9 @@
 // Builds the studio: one file with its style, its script, its worker and the libraries as WebAssembly.
 //     node build.mjs [--bridge FOLDER] [-o FILE] [--readable]
 // FOLDER holds sikku-bridge.mjs and sikku-bridge.wasm.
-import { build } from "esbuild";
+import { build, transform } from "esbuild";
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -25,30 +25,46 @@ const bridge = resolve(values.bridge);
 // works from a file.
 async function bundle(entry) {
     const result = await build({
-        entryPoints: [join(here, "page", entry)],
+        entryPoints: [resolve(here, "page", entry)],
         alias: { "sikku-bridge": join(bridge, "sikku-bridge.mjs") },
         bundle: true, write: false, format: "iife", target: "es2022", minify: !values.readable, charset: "utf8",
         legalComments: "none", logLevel: "warning", external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
-        define: { "import.meta.url": '""', "import.meta": "{}" }, loader: { ".txt": "text" },
-        plugins: [{
-            name: "notices",
-            setup(plugins) {
-                plugins.onResolve({ filter: /^notices$/ }, () => ({ path: "notices", namespace: "notices" }));
-                plugins.onLoad({ filter: /.*/, namespace: "notices" }, () => ({
-                    contents: JSON.stringify(notices(join(here, "node_modules"))), loader: "json",
-                }));
-            },
-        }],
+        define: { "import.meta.url": '""', "import.meta": "{}" }, loader: { ".css": "empty" },
+        plugins: [notices_as_module, workers_as_text],
     });
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 }
 
+const notices_as_module = {
+    name: "notices",
+    setup(plugins) {
+        plugins.onResolve({ filter: /^notices$/ }, () => ({ path: "notices", namespace: "notices" }));
+        plugins.onLoad({ filter: /.*/, namespace: "notices" }, () => ({
+            contents: JSON.stringify(notices(join(here, "node_modules"))), loader: "json",
+        }));
+    },
+};
+
+// `worker:./file.ts` is the bundle of that file as a text.
+const workers_as_text = {
+    name: "workers",
+    setup(plugins) {
+        plugins.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({
+            path: join(resolveDir, path.slice("worker:".length)), namespace: "worker",
+        }));
+        plugins.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => ({
+            contents: await bundle(path), loader: "text",
+        }));
+    },
+};
+
+// The tokens and widgets first, then the rules of each part.
 async function style() {
-    const result = await build({
-        entryPoints: [join(here, "page/studio.css")], bundle: true, write: false, minify: !values.readable,
-        charset: "utf8", logLevel: "warning",
-    });
-    return result.outputFiles[0].text;
+    const folder = join(here, "page");
+    const files = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".css")).sort();
+    const ordered = ["studio.css", ...files.filter((name) => name !== "studio.css")];
+    const contents = ordered.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
+    return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
 const [script, worker, css] = await Promise.all([bundle("main.ts"), bundle("worker.ts"), style()]);

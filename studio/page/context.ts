@@ -33,6 +33,7 @@ export interface Work {
     /// null: the whole page.
     place: { x: string; y: string; scale: number } | null;
     panel: string; // the panel that is open: see Panel.name
+    locked?: string[]; // settings and defines that dice and variations leave alone, such as `seed`
 }
 
 export interface Store {

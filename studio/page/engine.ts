@@ -7,6 +7,7 @@ import type { Failure, Request } from "./protocol";
 export type ToWorker = { module: WebAssembly.Module } | { id: number; json: string; bytes?: Uint8Array };
 export type FromWorker =
     | { ready: true }
+    | { failed: string } // the module did not start
     | { id: number; json: unknown; bytes: Uint8Array }
     | { id: number; broken: string };
 
@@ -157,6 +158,10 @@ export class Pool implements Engine {
     private receive(seat: Seat, message: FromWorker): void {
         if ("ready" in message) {
             seat.isReady = true;
+            return;
+        }
+        if ("failed" in message) {
+            if (seat.job) this.stop(seat, new RequestFailed({ kind: "other", message: message.failed }));
             return;
         }
         const job = seat.job;

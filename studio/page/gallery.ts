@@ -1,7 +1,89 @@
-// The bundled patterns, and files that are dropped on the page.
-import type { MakePanel } from "./context";
-import { element } from "./elements";
+// The bundled patterns as starting points, with their pictures, drawn as they come into sight.
+import type { MakePanel, Studio } from "./context";
+import { button, element } from "./elements";
+import { askForFile } from "./open_file";
+import { openPattern } from "./opening";
+import type { PatternEntry } from "./protocol";
+import { drawInto } from "./thumbnails";
 
-export const makeGalleryPanel: MakePanel = () => ({
-    name: "gallery", label: "Gallery", element: element("div", { class: "gallery" }), show() {}, hide() {},
-});
+const picture_size = 256;
+
+class Card {
+    readonly element: HTMLButtonElement;
+    readonly canvas = element("canvas", { class: "picture", width: picture_size, height: picture_size, "aria-hidden": "true" });
+    isDrawn = false;
+
+    constructor(readonly entry: PatternEntry, studio: Studio) {
+        const facts = [entry.kind, entry.is_spatial ? "in space" : "", entry.is_melody ? "music" : ""].filter(Boolean).join(" · ");
+        this.element = element("button", { type: "button", class: "card", title: entry.source }, this.canvas,
+            element("span", { class: "caption" }, element("strong", {}, entry.title || entry.name), element("small", {}, facts)));
+        this.element.addEventListener("click", () => openPattern(studio, {
+            name: `${entry.name}.lsys`, text: entry.text, variant: "", settings: [],
+        }, entry.is_spatial ? "space" : "map"));
+    }
+
+    matches(words: string[], kind: string): boolean {
+        const { name, title, source, text, is_melody } = this.entry;
+        if (kind && kind !== this.entry.kind && !(kind === "music" && is_melody)) return false;
+        const all = `${name} ${title} ${source} ${text}`.toLowerCase();
+        return words.every((word) => all.includes(word));
+    }
+
+    async draw(studio: Studio): Promise<void> {
+        if (this.isDrawn) return;
+        this.isDrawn = true;
+        try {
+            await drawInto(this.canvas, studio.engine, { name: `${this.entry.name}.lsys`, text: this.entry.text }, []);
+            this.canvas.classList.add("drawn");
+        } catch (error) {
+            this.element.title = String(error);
+        }
+    }
+}
+
+export const makeGalleryPanel: MakePanel = (studio) => {
+    const cards = studio.patterns.map((entry) => new Card(entry, studio));
+    const byElement = new Map<Element, Card>(cards.map((card) => [card.element, card]));
+    const kinds = [...new Set(studio.patterns.map((entry) => entry.kind))].sort();
+    let kind = "";
+
+    const search = element("input", { type: "search", placeholder: "Search titles, sources and texts", "aria-label": "Search patterns" });
+    const chips = ["", ...kinds].map((each) => {
+        const chip = element("button", { type: "button", class: "chip", "aria-pressed": String(each === "") }, each || "all");
+        chip.addEventListener("click", () => {
+            kind = each;
+            for (const other of chips) other.setAttribute("aria-pressed", String(other === chip));
+            filter();
+        });
+        return chip;
+    });
+    const shown = element("p", { class: "gallery-count", role: "status" });
+    const grid = element("div", { class: "cards" }, ...cards.map((card) => card.element));
+    const filter = () => {
+        const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+        let count = 0;
+        for (const card of cards) {
+            card.element.hidden = !card.matches(words, kind);
+            if (!card.element.hidden) ++count;
+        }
+        shown.textContent = count === cards.length ? `${count} patterns from the literature`
+            : count === 0 ? "No pattern matches." : `${count} of ${cards.length} patterns`;
+    };
+    search.addEventListener("input", filter);
+    filter();
+
+    const sight = new IntersectionObserver((seen) => {
+        for (const { target, isIntersecting } of seen) if (isIntersecting) void byElement.get(target)!.draw(studio);
+    }, { rootMargin: "200px" });
+    for (const card of cards) sight.observe(card.element);
+
+    return {
+        name: "gallery", label: "Gallery",
+        element: element("div", { class: "gallery" },
+            element("div", { class: "gallery-head" }, search,
+                element("div", { class: "toolbar", role: "group", "aria-label": "Kinds" }, ...chips), shown,
+                button("Open a file…", () => askForFile(studio))),
+            grid),
+        show() {}, hide() {},
+    };
+};

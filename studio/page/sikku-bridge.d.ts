@@ -1,13 +1,4 @@
-// The C++ libraries as Emscripten's glue loads them: see studio/bridge.cpp.
+// The C++ libraries as Emscripten's glue loads them: see bridge.ts.
 declare module "sikku-bridge" {
-    export interface Bridge {
-        request(json: string, bytes: Uint8Array): { json: string; bytes: Uint8Array };
-    }
-    export default function start(options: {
-        instantiateWasm(
-            imports: WebAssembly.Imports,
-            done: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void,
-        ): object;
-        [hook: string]: unknown;
-    }): Promise<Bridge>;
+    export default function makeModule(hooks: object): Promise<unknown>;
 }

@@ -44,7 +44,7 @@ export class History implements Store {
     change(change: Partial<Work>, merge = ""): void {
         const before = this.work;
         const work = { ...before, ...change };
-        if (JSON.stringify(work) === JSON.stringify(before)) return;
+        if (isSame(work, before)) return;
         if (!change.pattern && !change.draw && !change.play) { // where one looks is no step of the work
             this.steps[this.at]!.work = work;
             this.tell(before);
@@ -130,6 +130,13 @@ export class History implements Store {
             }
         }
     }
+}
+
+// Texts are compared as such: a pattern may be long.
+function isSame(one: Work, other: Work): boolean {
+    const [a, b] = [one.pattern, other.pattern];
+    const rest = (work: Work) => JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
+    return a.text === b.text && a.name === b.name && a.variant === b.variant && rest(one) === rest(other);
 }
 
 function read(): Saved | null {

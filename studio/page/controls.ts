@@ -1,0 +1,226 @@
+// The values of the pattern as sliders, without any markup in the text: n with its cost, defines, angle, stroke,
+// colours, seed. They are settings beside the text, as `--set` and `-n` of the program.
+import type { Application } from "./application";
+import { button, byId, element } from "./elements";
+import { count, counted, rounded, span } from "./numbers_shown";
+import { valueInText, withSettings } from "./pattern_text";
+import type { Opened } from "./protocol";
+import { makeSeed } from "./seed";
+import { makeSlider, type Slider } from "./slider";
+import { makeColours } from "./colours";
+
+interface Row { slider: Slider; update(facts: Opened): void }
+
+const deep_room = 30; // steps of n beyond what can be derived, for patterns that the view can still show
+
+function spread(base: number): { least: number; most: number; step: number } {
+    if (base === 0) return { least: -1, most: 1, step: 0.01 };
+    const most = base > 0 ? base * 2 : 0;
+    const step = 10 ** Math.floor(Math.log10(Math.abs(base) / 50));
+    return { least: base > 0 ? 0 : base * 2, most, step };
+}
+
+export class Controls {
+    private rows = new Map<string, Row>();
+    private shape = ""; // which rows there are
+    private readonly variant = element("select", { id: "variant" });
+    private readonly variantField = element("div", { class: "field row variant-field" },
+        element("label", { for: "variant" }, "Variant"), this.variant);
+    private readonly list = element("div", { class: "value-rows" });
+    private readonly cost = element("p", { class: "cost" });
+    private readonly seed;
+    private readonly colours;
+    private readonly actions;
+
+    constructor(private readonly application: Application) {
+        const { store } = application;
+        this.seed = makeSeed(application);
+        this.colours = makeColours(application);
+        this.variant.addEventListener("change", () => {
+            store.change({ pattern: { ...store.work.pattern, variant: this.variant.value } });
+        });
+        const write = button("Write into the text", () => {
+            const { pattern } = store.work;
+            store.change({ pattern: { ...pattern, text: withSettings(pattern), settings: [] } });
+            application.say("The values are now in the text.");
+        });
+        const reset = button("Reset all", () => store.change({ pattern: { ...store.work.pattern, settings: [] } }),
+            { kind: "quiet" });
+        this.actions = element("div", { class: "toolbar value-actions" }, write, reset);
+        byId("values").append(this.variantField, this.list, this.cost, this.seed.element, this.colours.element, this.actions);
+        application.onOpened((facts) => this.show(facts));
+        application.onChecked((error) => byId("values").classList.toggle("stale", error !== null));
+        // The thumb follows the hand at once, not when the libraries have answered.
+        store.subscribe((work) => {
+            this.actions.hidden = work.pattern.settings.length === 0;
+            if (application.opened) for (const row of this.rows.values()) row.update(application.opened.facts);
+        });
+    }
+
+    private show(facts: Opened): void {
+        const { pattern, } = this.application.store.work;
+        this.variantField.hidden = facts.variants.length === 0;
+        const variants = ["", ...facts.variants];
+        if (this.variant.options.length !== variants.length || variants.some((each, at) => this.variant.options[at]!.value !== each)) {
+            this.variant.replaceChildren(...variants.map((each) => element("option", { value: each }, each || "as written")));
+        }
+        this.variant.value = pattern.variant;
+        const angle = facts.keys.some((key) => key.name === "angle factor") ? "angle factor" : "angle increment";
+        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, "stroke"];
+        if (names.join("\n") !== this.shape) this.build(names, facts);
+        for (const row of this.rows.values()) row.update(facts);
+        this.showCost(facts);
+        this.seed.update(facts);
+        this.colours.update(facts);
+        this.actions.hidden = pattern.settings.length === 0;
+    }
+
+    private build(names: string[], facts: Opened): void {
+        this.shape = names.join("\n");
+        this.rows = new Map(names.map((name) => {
+            if (name === "derivation length") return [name, this.lengthRow()];
+            if (name === "angle factor") return [name, this.factorRow()];
+            if (name === "stroke") return [name, this.strokeRow()];
+            const isDefine = facts.defines.some((each) => each.name === name);
+            return [name, this.numberRow(name, isDefine ? name : "angle", isDefine ? null : "90")];
+        }));
+        const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
+        this.list.replaceChildren(...[...this.rows.values()].map((row) => row.slider.element));
+        if (focused) document.getElementById(focused)?.focus();
+    }
+
+    // What a setting is now: chosen, or else as in the text.
+    private value(name: string, absent: string): { now: string; base: string; isChanged: boolean } {
+        const { pattern } = this.application.store.work;
+        const base = valueInText(pattern, name) ?? absent;
+        const chosen = pattern.settings.find(([each]) => each === name)?.[1];
+        return { now: chosen ?? base, base, isChanged: chosen !== undefined };
+    }
+
+    private change(name: string, value: string | null): void {
+        if (value === "") value = null;
+        this.application.store.setting(name, value, value === null ? undefined : `setting ${name}`);
+    }
+
+    private acts(name: string, text: (number: number) => string) {
+        return {
+            slide: (number: number) => this.change(name, text(number)),
+            type: (value: string) => this.change(name, value),
+            reset: () => this.change(name, null),
+        };
+    }
+
+    private lengthRow(): Row {
+        const slider = makeSlider("n", this.acts("derivation length", String));
+        return {
+            slider,
+            update: (facts) => {
+                const { now, isChanged } = this.value("derivation length", facts.n);
+                const number = Number(now);
+                const most = Number(facts.cost.most);
+                const limit = Number.isFinite(most) && facts.cost.most !== "" ? Math.min(most, 1000) : Math.max(number * 2, 10);
+                slider.set({
+                    value: now, number, least: 0, most: Math.max(limit + (facts.has_view ? deep_room : 0), number, 1), step: 1,
+                    isChanged, description: `${now}, ${this.cost.textContent}`,
+                });
+            },
+        };
+    }
+
+    private factorRow(): Row {
+        const name = "angle factor";
+        const slider = makeSlider("angle", {
+            ...this.acts(name, String), type: (value) => this.change(name, value.replace(/^360\s*\/\s*/, "")),
+        });
+        return {
+            slider,
+            update: () => {
+                const { now, base, isChanged } = this.value(name, "4");
+                const most = Math.max(24, Number(base) * 2, Number(now));
+                slider.set({
+                    value: `360/${now}`, number: Number(now), least: 1, most, step: 1, isChanged,
+                    description: `${rounded(360 / Number(now), 0.01)} degrees`,
+                });
+            },
+        };
+    }
+
+    private numberRow(name: string, label: string, absent: string | null): Row {
+        let step = 0.01;
+        const slider = makeSlider(label, this.acts(name, (number) => rounded(number, step)));
+        return {
+            slider,
+            update: (facts) => {
+                const fact = facts.defines.find((each) => each.name === name)?.value;
+                const { now, base, isChanged } = this.value(name, absent ?? fact ?? "0");
+                const start = readNumber(base) ?? 0;
+                const range = label === "angle" ? { least: 0, most: 180, step: 0.1 } : spread(start);
+                const number = readNumber(now) ?? readNumber(fact ?? "") ?? start;
+                step = range.step;
+                slider.set({
+                    value: now, number, least: Math.min(range.least, number), most: Math.max(range.most, number), step,
+                    isChanged,
+                });
+            },
+        };
+    }
+
+    // The width of the stroke; its unit and colour stay.
+    private strokeRow(): Row {
+        const parse = () => {
+            const { now, base, isChanged } = this.value("stroke", "0.4mm");
+            return { now: splitStroke(now), base: splitStroke(base), isChanged };
+        };
+        const write = (width: string) => {
+            const { now } = parse();
+            this.change("stroke", `${width}${now.unit === "step" ? " step" : now.unit}${now.rest ? ` ${now.rest}` : ""}`);
+        };
+        const slider = makeSlider("stroke", {
+            slide: (number) => write(rounded(number, 0.01)),
+            type: (value) => /^[\d.]+$/.test(value) ? write(value) : this.change("stroke", value && withColour(value, parse().now.rest)),
+            reset: () => this.change("stroke", null),
+        });
+        return {
+            slider,
+            update: () => {
+                const { now, base, isChanged } = parse();
+                const most = Math.max(Number(base.width || 0.4) * 4, Number(now.width || 0));
+                slider.set({
+                    value: now.width === "" ? now.rest : `${now.width} ${now.unit}`, number: Number(now.width || 0), least: 0.01,
+                    most, step: 0.01, isChanged,
+                });
+            },
+        };
+    }
+
+    private showCost(facts: Opened): void {
+        const { cost, extent } = facts;
+        const parts: string[] = [];
+        if (cost.symbols) parts.push(counted(cost.symbols, "symbol"));
+        if (cost.segments) parts.push(counted(cost.segments, "segment"));
+        if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
+        this.cost.replaceChildren(element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."));
+        this.cost.classList.toggle("deep", !cost.is_derivable);
+        byId("facts").textContent = parts.join(" · ");
+        if (cost.is_derivable) return;
+        this.cost.append(element("span", { class: "note" }, facts.has_view
+            ? "Too long to derive: the picture derives only what the view shows."
+            : `Too long to derive: the largest n within the budget is ${count(cost.most)}.`));
+    }
+}
+
+// Numbers and fractions; other expressions have no place on a slider.
+function readNumber(text: string): number | null {
+    const fraction = /^\s*(-?[\d.]+)\s*\/\s*([\d.]+)\s*$/.exec(text);
+    const number = fraction ? Number(fraction[1]) / Number(fraction[2]) : Number(text);
+    return text.trim() !== "" && Number.isFinite(number) ? number : null;
+}
+
+export function splitStroke(value: string): { width: string; unit: string; rest: string } {
+    const parts = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px|step)?\s*(.*)$/.exec(value);
+    return parts ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! } : { width: "", unit: "mm", rest: value.trim() };
+}
+
+function withColour(value: string, colour: string): string {
+    return splitStroke(value).rest === "" ? `${value} ${colour}`.trim() : value;
+}

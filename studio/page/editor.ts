@@ -1,0 +1,199 @@
+// The text of the pattern: every edit changes the work; errors are shown where they are.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, indentLess, toggleComment } from "@codemirror/commands";
+import { bracketMatching, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, lintKeymap, nextDiagnostic, setDiagnostics, type Diagnostic as Finding } from "@codemirror/lint";
+import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
+import { Annotation, EditorState, type Extension, StateEffect, StateField, type Text } from "@codemirror/state";
+import {
+    Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap,
+    lineNumbers, WidgetType,
+} from "@codemirror/view";
+import type { Application } from "./application";
+import { colour_swatches } from "./colour_swatches";
+import { byId, element } from "./elements";
+import { completePattern, hoverHelp } from "./help_in_text";
+import { pattern_colours, pattern_language } from "./pattern_language";
+import type { Diagnostic, Failure } from "./protocol";
+
+type Place = { line: number; column: number; length: number };
+
+const from_outside = Annotation.define<boolean>(); // the text of an undo, a link, a pattern that was opened
+
+// Columns of the libraries count code points.
+function offset(text: Text, line: number, column: number): number {
+    const { from, text: content } = text.line(Math.min(Math.max(line, 1), text.lines));
+    let at = 0;
+    for (const point of content) {
+        if (--column <= 0) break;
+        at += point.length;
+    }
+    return from + at;
+}
+
+// The part of the production or word that sounds.
+const light = StateEffect.define<Place | null>();
+const lit = StateField.define<DecorationSet>({
+    create: () => Decoration.none,
+    update(marks, transaction) {
+        marks = marks.map(transaction.changes);
+        for (const effect of transaction.effects) {
+            if (!effect.is(light)) continue;
+            if (!effect.value) return Decoration.none;
+            const { doc } = transaction.state;
+            const from = offset(doc, effect.value.line, effect.value.column);
+            const to = offset(doc, effect.value.line, effect.value.column + effect.value.length);
+            marks = to > from ? Decoration.set(Decoration.mark({ class: "lit" }).range(from, to)) : Decoration.none;
+        }
+        return marks;
+    },
+    provide: (field) => EditorView.decorations.from(field),
+});
+
+// Messages below their lines; they come when the typing pauses, so that the text does not jump.
+class Message extends WidgetType {
+    constructor(private readonly text: string, private readonly isWarning: boolean) { super(); }
+    override eq(other: Message): boolean { return other.text === this.text && other.isWarning === this.isWarning; }
+    toDOM(): HTMLElement {
+        return element("div", { class: `line-message ${this.isWarning ? "warning" : "error"}` }, this.text);
+    }
+}
+
+const show_messages = StateEffect.define<Diagnostic[]>();
+const messages = StateField.define<DecorationSet>({
+    create: () => Decoration.none,
+    update(marks, transaction) {
+        marks = marks.map(transaction.changes);
+        for (const effect of transaction.effects) {
+            if (!effect.is(show_messages)) continue;
+            const { doc } = transaction.state;
+            const placed = effect.value.filter((each) => each.line >= 1 && each.line <= doc.lines);
+            marks = Decoration.set(placed.map((each) => Decoration.widget({
+                widget: new Message(each.message, each.warning), block: true, side: 1,
+            }).range(doc.line(each.line).to)), true);
+        }
+        return marks;
+    },
+    provide: (field) => EditorView.decorations.from(field),
+});
+
+const look = EditorView.theme({
+    "&": { flex: "1", minHeight: "0", fontSize: "13px" },
+    ".cm-scroller": { fontFamily: "var(--mono)", lineHeight: "1.6" },
+    ".cm-content": { padding: "10px 0", caretColor: "var(--accent)" },
+    ".cm-line": { padding: "0 12px 0 6px" },
+    ".cm-gutters": { background: "transparent", border: "0", color: "var(--ink-faint)" },
+    ".cm-activeLine, .cm-activeLineGutter": { background: "color-mix(in srgb, var(--earth-wash) 45%, transparent)" },
+    ".cm-cursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
+    "&.cm-focused": { outline: "none" },
+    "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground":
+        { background: "var(--mark)" },
+});
+
+export class Editor {
+    readonly view: EditorView;
+    private diagnostics: Diagnostic[] = [];
+    private timer = 0;
+    private readonly strip = element("div", { class: "error-strip", hidden: true });
+
+    constructor(private readonly application: Application) {
+        this.view = new EditorView({
+            state: EditorState.create({ doc: application.store.work.pattern.text, extensions: this.extensions() }),
+            parent: byId("text"),
+        });
+        byId("text").append(this.strip);
+        application.store.subscribe((work) => this.replace(work.pattern.text));
+        application.onChecked((error, diagnostics) => this.check(error, diagnostics));
+        application.onHighlight((place) => this.view.dispatch({ effects: light.of(place) }));
+    }
+
+    private extensions(): Extension[] {
+        const { store } = this.application;
+        const undo = () => (store.undo(), true);
+        const redo = () => (store.redo(), true);
+        return [
+            lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), bracketMatching(),
+            closeBrackets(), lintGutter(), search({ top: true }), highlightSelectionMatches(),
+            EditorView.lineWrapping, pattern_language, syntaxHighlighting(pattern_colours), look, lit, messages,
+            colour_swatches,
+            autocompletion({ override: [completePattern(() => this.application)], icons: false }),
+            hoverHelp(() => this.application),
+            EditorView.contentAttributes.of({ "aria-label": "Text of the pattern", spellcheck: "false" }),
+            keymap.of([
+                { key: "Mod-z", run: undo }, { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
+                { key: "Mod-Shift-z", run: redo }, { key: "Mod-/", run: toggleComment },
+                { key: "Shift-Tab", run: indentLess }, // Tab itself leaves the text
+                { key: "F8", run: nextDiagnostic },
+                ...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...lintKeymap, ...defaultKeymap,
+            ]),
+            EditorView.updateListener.of((update) => {
+                if (!update.docChanged || update.transactions.some((each) => each.annotation(from_outside))) return;
+                const { pattern } = store.work;
+                store.change({ pattern: { ...pattern, text: update.state.doc.toString() } }, "text");
+            }),
+        ];
+    }
+
+    // The text comes from elsewhere: only what differs is replaced, so that the cursor stays.
+    private replace(text: string): void {
+        const now = this.view.state.doc.toString();
+        if (now === text) return;
+        let from = 0;
+        while (from < now.length && from < text.length && now[from] === text[from]) ++from;
+        let end = 0;
+        while (end < now.length - from && end < text.length - from &&
+               now[now.length - 1 - end] === text[text.length - 1 - end]) ++end;
+        this.view.dispatch({
+            changes: { from, to: now.length - end, insert: text.slice(from, text.length - end) },
+            annotations: from_outside.of(true),
+        });
+    }
+
+    private check(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
+        this.diagnostics = diagnostics;
+        const { doc } = this.view.state;
+        const findings = diagnostics.filter((each) => each.line > 0 && each.line <= doc.lines).map((each): Finding => {
+            const from = offset(doc, each.line, each.column);
+            const rest = doc.sliceString(from, doc.lineAt(from).to);
+            const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
+            return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
+        });
+        this.view.dispatch(setDiagnostics(this.view.state, findings));
+        clearTimeout(this.timer);
+        if (findings.length === 0) this.showMessages([]);
+        else this.timer = window.setTimeout(() => this.showMessages(this.diagnostics), 350);
+        this.showStrip(error, diagnostics);
+    }
+
+    private showMessages(diagnostics: Diagnostic[]): void {
+        this.view.dispatch({ effects: show_messages.of(diagnostics) });
+    }
+
+    // Below the text: how many errors there are, the first of them, and errors without a place.
+    private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
+        this.strip.hidden = error === null;
+        if (!error) {
+            if (this.strip.textContent !== "") this.application.say("No errors.");
+            this.strip.replaceChildren();
+            return;
+        }
+        const errors = diagnostics.filter((each) => !each.warning);
+        const first = errors.find((each) => each.line > 0);
+        const message = errors[0]?.message ?? error.message;
+        const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
+        const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
+        this.strip.replaceChildren(element("span", {}, where + message + more));
+        if (first) {
+            const go = element("button", { type: "button", class: "button quiet" }, "Go to it");
+            go.addEventListener("click", () => this.goTo(first));
+            this.strip.append(go);
+        }
+        this.application.say(where + message + more, "error");
+    }
+
+    goTo(place: { line: number; column: number }): void {
+        const at = offset(this.view.state.doc, place.line, place.column);
+        this.view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
+        this.view.focus();
+    }
+}

@@ -1,0 +1,37 @@
+// Numbers as people read them.
+
+/// "3,239", "1.2 million", or what the libraries say: "about 10^24081".
+export function count(text: string): string {
+    if (!/^\d+$/.test(text)) return text;
+    if (text.length > 15) return `about 10^${text.length - 1}`;
+    const number = Number(text);
+    if (number < 1e6) return number.toLocaleString("en");
+    const units: [number, string][] = [[1e12, "trillion"], [1e9, "billion"], [1e6, "million"]];
+    const [size, unit] = units.find(([each]) => number >= each)!;
+    return `${(number / size).toPrecision(3)} ${unit}`;
+}
+
+/// A count with its noun: "1 symbol", "3,239 symbols".
+export function counted(text: string, noun: string): string {
+    return `${count(text)} ${noun}${text === "1" ? "" : "s"}`;
+}
+
+/// The length of a range of decimal texts of any length, for reading.
+export function span(from: string, to: string): string {
+    const size = Math.abs(Number(to) - Number(from));
+    if (!Number.isFinite(size)) return `10^${Math.max(from.replace("-", "").length, to.replace("-", "").length) - 1}`;
+    if (size >= 1e9) return size.toExponential(2).replace(/e\+?/, " × 10^");
+    return size.toLocaleString("en", { maximumSignificantDigits: 6 });
+}
+
+/// A size in bytes.
+export function bytes(size: number): string {
+    if (size < 1000) return `${size} bytes`;
+    return size < 1e6 ? `${(size / 1e3).toFixed(size < 1e4 ? 1 : 0)} kB` : `${(size / 1e6).toFixed(1)} MB`;
+}
+
+/// A number with no more digits than its step asks for.
+export function rounded(number: number, step: number): string {
+    const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+    return String(Number(number.toFixed(digits)));
+}

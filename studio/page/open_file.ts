@@ -1,0 +1,107 @@
+// Files from outside: patterns, collections of Fractint, files of cpfg, scales, and prints that contain their pattern.
+import { RequestFailed, type Studio } from "./context";
+import { openDialog } from "./dialog";
+import { byId, element } from "./elements";
+import { bytes as sizeOf } from "./numbers_shown";
+import { openPattern } from "./opening";
+import type { Imported, Shown } from "./protocol";
+import { keepScale } from "./scales";
+
+const largest_file = 64 * 1024 * 1024;
+
+/// Lets the user choose a file.
+export function askForFile(studio: Studio): void {
+    const input = element("input", { type: "file", hidden: true });
+    input.addEventListener("change", () => { if (input.files?.[0]) void openFile(studio, input.files[0], [...input.files]); });
+    document.body.append(input);
+    input.click();
+    input.remove();
+}
+
+async function openFile(studio: Studio, file: File, all: File[]): Promise<void> {
+    if (file.size > largest_file) {
+        studio.say(`${file.name} has ${sizeOf(file.size)}; files may have up to ${sizeOf(largest_file)}.`, "error");
+        return;
+    }
+    try {
+        const bytes = new Uint8Array(await file.arrayBuffer());
+        if (/\.scl$/i.test(file.name)) await openScale(studio, file.name, bytes);
+        else if (/\.(l|frm|map)$/i.test(file.name)) await openCollection(studio, file.name, bytes, all);
+        else if (/\.(lsys|txt)$/i.test(file.name)) openText(studio, file.name, bytes);
+        else await openPrint(studio, file.name, bytes);
+    } catch (error) {
+        studio.say(`${file.name}: ${error instanceof RequestFailed ? error.failure.message : String(error)}`, "error");
+    }
+}
+
+function openText(studio: Studio, name: string, bytes: Uint8Array): void {
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    openPattern(studio, { name: name.replace(/\.txt$/i, ".lsys"), text, variant: "", settings: [] });
+}
+
+async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
+    await studio.engine.request({ do: "scale", name }, { bytes });
+    keepScale(name, bytes);
+    studio.store.setting("scale", name);
+    studio.say(`The melody now uses the scale ${name}.`);
+}
+
+async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
+    const { json } = await studio.engine.request<Shown>({ do: "show", name }, { bytes });
+    const pattern = { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, variant: json.variant, settings: json.settings };
+    openPattern(studio, pattern);
+}
+
+async function openCollection(studio: Studio, name: string, bytes: Uint8Array, all: File[]): Promise<void> {
+    const view = all.find((each) => /\.v$/i.test(each.name));
+    const { json } = await studio.engine.request<Imported>(
+        { do: "import", name, ...(view ? { view: await view.text() } : {}) }, { bytes });
+    const open = (system: Imported["systems"][number]) => openPattern(
+        studio, { name: `${system.name}.lsys`, text: system.text, variant: "", settings: [] });
+    const [only] = json.systems;
+    if (!only) {
+        studio.say(`${name} contains no L-system. ${json.diagnostics[0]?.message ?? ""}`, "error");
+        return;
+    }
+    if (json.systems.length === 1) {
+        open(only);
+        if (only.losses.length > 0) studio.say(`Left out: ${only.losses.join("; ")}`, "warning");
+        return;
+    }
+    const dialog = openDialog(`${json.systems.length} patterns in ${name}`);
+    const list = element("div", { class: "choices" });
+    for (const system of json.systems) {
+        const entry = element("button", { type: "button", class: "button quiet" }, system.name);
+        if (system.losses.length > 0) entry.title = `Left out: ${system.losses.join("; ")}`;
+        entry.addEventListener("click", () => {
+            dialog.close();
+            open(system);
+        });
+        list.append(entry);
+    }
+    dialog.body.append(list);
+}
+
+/// Files can be dropped anywhere on the page.
+export function acceptDrops(studio: Studio): void {
+    const veil = element("div", { class: "drop-veil", hidden: true, "aria-hidden": "true" },
+        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, or a print made by Sikku"));
+    document.body.append(veil);
+    const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
+    addEventListener("dragover", (event) => {
+        if (!hasFiles(event)) return;
+        event.preventDefault();
+        veil.hidden = false;
+    });
+    addEventListener("dragleave", (event) => { if (!event.relatedTarget) veil.hidden = true; });
+    addEventListener("drop", (event) => {
+        if (!hasFiles(event)) return;
+        event.preventDefault();
+        event.stopPropagation();
+        veil.hidden = true;
+        const files = [...event.dataTransfer!.files];
+        const first = files.find((file) => !/\.v$/i.test(file.name)) ?? files[0];
+        if (first) void openFile(studio, first, files);
+        byId("stage").focus();
+    }, { capture: true });
+}

@@ -1,0 +1,9 @@
+// Opening a pattern in the place of the present one, which stays in the history.
+import type { Studio, Work } from "./context";
+import { titleOf } from "./pattern_text";
+
+export function openPattern(studio: Studio, pattern: Work["pattern"], panel = "map", more: Partial<Work> = {}): void {
+    studio.store.change({ pattern, draw: [], play: [], place: null, locked: [], ...more });
+    studio.store.change({ panel });
+    studio.say(`Opened ${titleOf(pattern)}. Undo returns to the pattern before.`);
+}

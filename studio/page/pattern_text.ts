@@ -1,0 +1,42 @@
+// What the page reads in the text of a pattern without the libraries: the values that sliders return to, and where
+// values are written.
+import type { PatternRequest } from "./protocol";
+
+// Expressions as they stand in `define r = 0.75` or `variant a: r = 0.8, derivation length = 9`.
+function written(line: string, name: string): string | null {
+    const [given, value] = [line.slice(0, line.indexOf("=")).trim(), line.slice(line.indexOf("=") + 1).trim()];
+    return given === name ? value : null;
+}
+
+function escaped(name: string): string {
+    return name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
+}
+
+/// The value that a key or define has in the text, the chosen variant included; null if the text does not set it.
+export function valueInText(pattern: PatternRequest, name: string): string | null {
+    if (pattern.variant) {
+        const line = new RegExp(`^\\s*variant\\s+${escaped(pattern.variant)}\\s*:(.*)$`, "mu").exec(pattern.text);
+        for (const part of line?.[1]!.split(",") ?? []) {
+            const value = written(part, name);
+            if (value !== null) return value;
+        }
+    }
+    const key = new RegExp(`^\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)(.*)$`, "mu").exec(pattern.text);
+    return key ? key[1]!.trim() : null;
+}
+
+/// The text with the settings written into it, so that it says what is shown.
+export function withSettings(pattern: PatternRequest): string {
+    let { text } = pattern;
+    for (const [name, value] of pattern.settings ?? []) {
+        const line = new RegExp(`^(\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)\\s*)(.*)$`, "mu");
+        if (line.test(text)) text = text.replace(line, (_, start: string) => start + value);
+        else text = `${text.replace(/\n*$/, "\n")}${name}: ${value}\n`;
+    }
+    return text;
+}
+
+/// The title of a text, or else its name.
+export function titleOf(pattern: { name: string; text: string }): string {
+    return valueInText({ name: pattern.name, text: pattern.text }, "title") || pattern.name.replace(/\.lsys$/, "");
+}

@@ -1,0 +1,63 @@
+// A name, a slider, the value to type, and a button that takes the value back to what the text says.
+import { button, element } from "./elements";
+
+const reset_icon = "M3 6h6.5a3.5 3.5 0 0 1 0 7H6M3 6l3-3M3 6l3 3";
+
+export interface SliderState {
+    value: string; // as it is written
+    number: number; // where the thumb is
+    least: number;
+    most: number;
+    step: number | "any";
+    isChanged: boolean; // differs from the text
+    description?: string; // read out with the value
+}
+
+export interface Slider {
+    element: HTMLElement;
+    set(state: SliderState): void;
+}
+
+let last = 0;
+
+/// `slide` gets the number of the thumb, `type` the text of the field, `reset` nothing.
+export function makeSlider(label: string, acts: {
+    slide(number: number): void; type(text: string): void; reset(): void;
+}): Slider {
+    const id = `slider-${++last}`;
+    const name = element("label", { for: id, title: label }, label);
+    const range = element("input", { type: "range", id, title: "Double click: as in the text" });
+    const field = element("input", { type: "text", "aria-label": `${label}, value`, spellcheck: "false", autocomplete: "off" });
+    const reset = button(`Reset ${label}`, acts.reset, { kind: "quiet", icon: reset_icon });
+    const row = element("div", { class: "slider" }, name, range, field, reset);
+
+    range.addEventListener("input", () => acts.slide(range.valueAsNumber));
+    range.addEventListener("dblclick", acts.reset);
+    name.addEventListener("dblclick", acts.reset);
+    field.addEventListener("change", () => acts.type(field.value.trim()));
+    field.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") acts.type(field.value.trim());
+        if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+        event.preventDefault();
+        if (event.key === "ArrowUp") range.stepUp();
+        else range.stepDown();
+        acts.slide(range.valueAsNumber);
+    });
+
+    return {
+        element: row,
+        set(state) {
+            range.min = String(state.least);
+            range.max = String(state.most);
+            range.step = String(state.step);
+            range.valueAsNumber = state.number;
+            const share = (Math.min(Math.max(state.number, state.least), state.most) - state.least) / (state.most - state.least || 1);
+            range.style.setProperty("--at", `${(share * 100).toFixed(2)}%`);
+            range.setAttribute("aria-valuetext", state.description ?? state.value);
+            if (document.activeElement !== field || field.value === "") field.value = state.value;
+            else if (Number(field.value) !== Number(state.value)) field.value = state.value;
+            row.classList.toggle("changed", state.isChanged);
+            reset.style.visibility = state.isChanged ? "visible" : "hidden";
+        },
+    };
+}

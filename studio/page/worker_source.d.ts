@@ -1,0 +1,5 @@
+// `import source from "worker:./render_worker.ts"`: the bundle of a worker as text, for a Blob: see build.mjs.
+declare module "worker:*" {
+    const source: string;
+    export default source;
+}
