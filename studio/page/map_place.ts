@@ -1,0 +1,133 @@
+// Where the map looks: coordinates, a scale bar, and fields to go elsewhere.
+import { decimalsOf, limited, pointAt } from "./camera";
+import { exactOf, exactText, grouped, readExact, type Exact } from "./decimal";
+import { button, element } from "./elements";
+import type { MapView } from "./map_view";
+import { sheetOf } from "./sheet";
+import type { Store } from "./context";
+
+/// A coordinate to read, as precise as a pixel; in the middle of very long ones digits are left out.
+function shortText(value: Exact, scale: number): string {
+    const text = exactText(value, decimalsOf(scale));
+    return text.replace("-", "").length > 26 ? `${grouped(text.slice(0, 8))}…${text.slice(-14)}` : grouped(text);
+}
+
+/// So many steps, in few letters.
+export function stepsText(steps: number): string {
+    if (steps >= 1e6) {
+        const exponent = Math.floor(Math.log10(steps));
+        const digits = ["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"];
+        const raised = [...String(exponent)].map((digit) => digits[Number(digit)]).join("");
+        const factor = Math.round(steps / 10 ** exponent);
+        return `${factor === 1 ? "" : `${factor} × `}10${raised} steps`;
+    }
+    const text = grouped(exactText(exactOf(steps), decimalsOf(steps / 10)));
+    return text === "1" ? "1 step" : `${text} steps`;
+}
+
+/// A round length for a bar of at most so many pixels.
+export function barLength(scale: number, most: number): number {
+    const room = scale * most;
+    const power = 10 ** Math.floor(Math.log10(room));
+    return [5, 2, 1].map((factor) => factor * power).find((steps) => steps <= room) ?? power;
+}
+
+export interface PlaceBar {
+    readonly element: HTMLElement;
+    update(pointer: { left: number; top: number } | null): void;
+}
+
+export function makePlaceBar(view: MapView, store: Store): PlaceBar {
+    const bar = element("div", { class: "map-scale", "aria-hidden": "true" });
+    const barText = element("span", { class: "map-scale-text number" });
+    const barLine = element("span", { class: "map-scale-line" });
+    bar.append(barText, barLine);
+    const sheet = element("p", { class: "map-chip map-sheet" });
+    const x = element("span", { class: "number" });
+    const y = element("span", { class: "number" });
+    const whose = element("span", { class: "map-whose" });
+    const toggle = element("button", {
+        type: "button", class: "map-chip map-coordinates", "aria-expanded": "false", "aria-haspopup": "dialog",
+        title: "Exact coordinates: go to a place",
+    }, whose, x, y);
+    const form = makeForm(view, () => open(false));
+    toggle.setAttribute("aria-controls", form.element.id);
+    const whole = element("div", { class: "map-place" }, form.element, bar, sheet, toggle);
+
+    function open(isOpen: boolean): void {
+        form.element.hidden = !isOpen;
+        toggle.setAttribute("aria-expanded", String(isOpen));
+        if (isOpen) form.fill();
+        else toggle.focus();
+    }
+    toggle.addEventListener("click", () => open(form.element.hidden !== false));
+    form.element.addEventListener("keydown", (event) => {
+        if (event.key !== "Escape") return;
+        event.stopPropagation();
+        open(false);
+    });
+
+    return {
+        element: whole,
+        update(pointer) {
+            const isPlane = view.mode === "plane";
+            bar.hidden = !isPlane;
+            sheet.hidden = isPlane;
+            toggle.hidden = !isPlane;
+            if (!isPlane) {
+                sheet.textContent = sheetOf(store.work.draw).name;
+                if (!form.element.hidden) open(false);
+                return;
+            }
+            const { camera, size } = view;
+            const steps = barLength(camera.scale, Math.min(150, size.width * 0.3));
+            barText.textContent = stepsText(steps);
+            barLine.style.width = `${steps / camera.scale}px`;
+            const point = pointer ? pointAt(camera, size, pointer.left, pointer.top) : camera;
+            whose.textContent = pointer ? "Pointer" : "Centre";
+            x.textContent = `x ${shortText(point.x, camera.scale)}`;
+            y.textContent = `y ${shortText(point.y, camera.scale)}`;
+        },
+    };
+}
+
+function makeForm(view: MapView, close: () => void) {
+    const field = (id: string, label: string) => {
+        const input = element("input", { type: "text", id, class: "number", autocomplete: "off", spellcheck: "false" });
+        return { input, row: element("div", { class: "field" }, element("label", { for: id }, label), input) };
+    };
+    const x = field("map-x", "Centre x, in steps");
+    const y = field("map-y", "Centre y, in steps");
+    const scale = field("map-steps", "Steps in a pixel");
+    const wrong = element("p", { class: "note error", role: "alert", hidden: true });
+    const form = element("form", { class: "map-form", id: "map-form", hidden: true, "aria-label": "Go to a place" },
+        x.row, y.row, scale.row, wrong,
+        element("div", { class: "toolbar" },
+            element("button", { type: "submit", class: "button primary" }, "Go there"), button("Close", close, { kind: "quiet" })));
+    form.addEventListener("submit", (event) => {
+        event.preventDefault();
+        const to = { x: readExact(x.input.value), y: readExact(y.input.value), scale: Number(scale.input.value) };
+        const faults = [[x, to.x === null], [y, to.y === null], [scale, !(to.scale > 0 && Number.isFinite(to.scale))]] as const;
+        for (const [each, isWrong] of faults) each.input.setAttribute("aria-invalid", String(isWrong));
+        const fault = faults.find(([, isWrong]) => isWrong);
+        wrong.hidden = !fault;
+        if (fault || to.x === null || to.y === null) {
+            wrong.textContent = fault?.[0] === scale ? "The scale is a number above 0, such as 0.5 or 2e6."
+                : "A coordinate is a decimal number, such as -12.5; it may have any number of digits.";
+            fault?.[0].input.focus();
+            return;
+        }
+        view.travel({ x: to.x, y: to.y, scale: limited(to.scale) });
+    });
+    return {
+        element: form,
+        fill() {
+            const { camera } = view;
+            x.input.value = exactText(camera.x, decimalsOf(camera.scale) + 1);
+            y.input.value = exactText(camera.y, decimalsOf(camera.scale) + 1);
+            scale.input.value = String(Number(camera.scale.toPrecision(6)));
+            x.input.focus();
+            x.input.select();
+        },
+    };
+}

@@ -1,0 +1,110 @@
+// Pictures of the map: those of a whole view, and tiles of the endless plane.
+import type { Answer, Engine } from "./context";
+import type { Options, PatternRequest, Pixels } from "./protocol";
+import { PictureCache, tileName, tileWindow, type Tile, type TileGrid } from "./tiles";
+
+export interface Bitmap {
+    readonly source: CanvasImageSource;
+    readonly width: number;
+    readonly height: number;
+    readonly bytes: number;
+    close(): void;
+}
+
+/// Of the bytes of an answer to `pixels`.
+export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap> {
+    const { width, height } = json;
+    const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
+    const source = await createImageBitmap(new ImageData(values, width, height));
+    return { source, width, height, bytes: width * height * 4, close: () => source.close() };
+}
+
+export function isAbort(error: unknown): boolean {
+    return error instanceof DOMException && error.name === "AbortError";
+}
+
+/// What a tile shows: a pattern and how it is drawn, with a name of its own.
+export interface Subject { readonly name: string; readonly pattern: PatternRequest; readonly options: Options }
+
+const mostBytes = 192 * 1024 * 1024;
+const patience = 400; // milliseconds that a tile may go on for after it has left the view
+
+/// Loads the tiles that are wanted, those in the middle first, and keeps those used last.
+export class TileLoader {
+    readonly cache = new PictureCache<Bitmap>(mostBytes);
+    private readonly running = new Map<string, { stop: AbortController; since: number; subject: string }>();
+    private readonly failed = new Set<string>();
+    private readonly scales = new Map<string, Map<number, number>>(); // of each subject, with when they were wanted
+    private wanted: { subject: Subject; tiles: Tile[]; grid: TileGrid; ratio: number } | null = null;
+    private count = 0;
+
+    constructor(private readonly engine: Engine, private readonly onTile: () => void) {}
+
+    /// The tile's picture, if it is there.
+    picture(subject: string, tile: Tile): Bitmap | undefined {
+        return this.cache.get(`${subject} ${tileName(tile)}`);
+    }
+
+    /// Scales of the subject's tiles that may be there.
+    scalesOf(subject: string): number[] {
+        return [...(this.scales.get(subject)?.keys() ?? [])];
+    }
+
+    /// Replaces what is wanted; null: nothing.
+    want(subject: Subject | null, tiles: Tile[] = [], grid: TileGrid = { side: 0, css: 0 }, ratio = 1): void {
+        this.wanted = subject ? { subject, tiles, grid, ratio } : null;
+        const names = new Set(subject ? tiles.map((tile) => `${subject.name} ${tileName(tile)}`) : []);
+        const now = performance.now();
+        for (const [name, { stop, since, subject: whose }] of this.running) {
+            if (!names.has(name) && (whose !== subject?.name || now - since > patience)) stop.abort();
+        }
+        this.next();
+    }
+
+    /// True while a wanted tile is missing.
+    get isBusy(): boolean { return this.running.size > 0; }
+
+    private next(): void {
+        const wanted = this.wanted;
+        if (!wanted) return;
+        const most = Math.max(1, this.engine.workers - 1);
+        for (const tile of wanted.tiles) {
+            if (this.running.size >= most) return;
+            const name = `${wanted.subject.name} ${tileName(tile)}`;
+            if (this.running.has(name) || this.failed.has(name) || this.cache.has(name)) continue;
+            void this.load(name, tile, wanted);
+        }
+    }
+
+    private async load(name: string, tile: Tile, wanted: NonNullable<TileLoader["wanted"]>): Promise<void> {
+        const stop = new AbortController();
+        const { subject, grid, ratio } = wanted;
+        this.running.set(name, { stop, since: performance.now(), subject: subject.name });
+        try {
+            const answer = await this.engine.request<Pixels>({
+                do: "pixels", width: grid.side, height: grid.side, window: tileWindow(tile, grid), ratio,
+                options: subject.options, pattern: subject.pattern,
+            }, { lane: "back", signal: stop.signal, seconds: 10 });
+            this.cache.add(name, await bitmapOf(answer));
+            this.note(subject.name, tile.scale);
+            this.onTile();
+        } catch (error) {
+            if (!isAbort(error)) this.failed.add(name);
+        } finally {
+            this.running.delete(name);
+            this.next();
+        }
+    }
+
+    // Forgets the scales not used for long: their tiles have left the cache, or will.
+    private note(subject: string, scale: number): void {
+        let scales = this.scales.get(subject);
+        if (!scales) this.scales.set(subject, (scales = new Map()));
+        scales.set(scale, ++this.count);
+        if (scales.size > 80) {
+            const oldest = [...scales].sort(([, one], [, other]) => one - other)[0];
+            if (oldest) scales.delete(oldest[0]);
+        }
+        if (this.scales.size > 40) this.scales.delete([...this.scales.keys()][0]!);
+    }
+}

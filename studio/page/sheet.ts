@@ -1,0 +1,118 @@
+// The page of a print, as its options state it, and how a drawing lies on it.
+import type { Opened, Options } from "./protocol";
+import type { Camera, Size } from "./camera";
+import { exactOf, numberOf, readExact } from "./decimal";
+
+/// Millimetres.
+export interface Sheet { readonly width: number; readonly height: number; readonly margin: number; readonly name: string }
+
+const named: Readonly<Record<string, readonly [number, number]>> = {
+    a0: [841, 1189], a1: [594, 841], a2: [420, 594], a3: [297, 420], a4: [210, 297], a5: [148, 210], a6: [105, 148],
+    letter: [215.9, 279.4], legal: [215.9, 355.6], tabloid: [279.4, 431.8],
+};
+const millimetres: Readonly<Record<string, number>> = { mm: 1, cm: 10, in: 25.4, pt: 25.4 / 72, px: 25.4 / 300 };
+
+export function optionOf(options: Options, name: string): string | undefined {
+    return options.find(([each]) => each === name)?.[1];
+}
+
+/// Of a text such as `12mm`; without a unit, in that unit.
+export function lengthOf(text: string, unit = "mm"): number | null {
+    const match = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px)?\s*$/i.exec(text);
+    const factor = millimetres[(match?.[2] ?? unit).toLowerCase()];
+    return match && factor !== undefined ? Number(match[1]) * factor : null;
+}
+
+function sizeOf(text: string): readonly [number, number] | null {
+    const clean = text.trim().toLowerCase();
+    const known = named[clean];
+    if (known) return known;
+    const match = /^([\d.]+)\s*(mm|cm|in|pt|px)?\s*x\s*([\d.]+)\s*(mm|cm|in|pt|px)?$/.exec(clean);
+    if (!match) return null;
+    const unit = match[4] ?? match[2] ?? "mm";
+    const width = lengthOf(match[1] ?? "", match[2] ?? unit);
+    const height = lengthOf(match[3] ?? "", unit);
+    return width && height ? [width, height] : null;
+}
+
+/// The page of these options: A4 with a margin of 10 mm if they do not say otherwise.
+export function sheetOf(options: Options): Sheet {
+    const text = optionOf(options, "size") ?? "A4";
+    const size = sizeOf(text) ?? named["a4"]!;
+    const isLandscape = optionOf(options, "landscape") !== undefined && size[0] < size[1];
+    const [width, height] = isLandscape ? [size[1], size[0]] : size;
+    const margin = lengthOf(optionOf(options, "margin") ?? "10mm") ?? 10;
+    const letters = named[text.trim().toLowerCase()] ? text.trim().replace(/^a/, "A") : "";
+    const measures = `${round(width)} × ${round(height)} mm`;
+    return { width, height, margin, name: letters ? `${letters}, ${measures}` : measures };
+}
+
+function round(value: number): number {
+    return Math.round(value * 10) / 10;
+}
+
+/// Where the sheet lies in a view: CSS pixels.
+export interface Laid { readonly left: number; readonly top: number; readonly width: number; readonly height: number }
+
+export function laidOut(sheet: Sheet, size: Size): Laid {
+    const narrow = Math.min(size.width, size.height) < 480;
+    const around = narrow ? 16 : 40;
+    const below = narrow ? 60 : 64; // for what is written below the sheet
+    const room = { width: Math.max(40, size.width - 2 * around), height: Math.max(40, size.height - around - below) };
+    const factor = Math.min(room.width / sheet.width, room.height / sheet.height);
+    const width = sheet.width * factor;
+    const height = sheet.height * factor;
+    return { left: (size.width - width) / 2, top: around + (room.height - height) / 2, width, height };
+}
+
+/// What a key of the drawing is: an option, or the pattern's.
+export function styleOf(name: string, facts: Opened, options: Options): string | undefined {
+    return optionOf(options, name) ?? facts.keys.find((key) => key.name === name)?.value;
+}
+
+/// The camera under which the endless plane lies as the drawing does on the sheet; null where that has no answer: for
+/// drawings in space, turned ones, and several on a sheet.
+export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opened, options: Options): Camera | null {
+    const turned = ["rotate", "mirror", "generations"].some((name) => optionOf(options, name) !== undefined);
+    if (turned || !facts.extent || facts.is_spatial) return null;
+    const [x0, y0, x1, y1] = facts.extent.map(readExact);
+    if (x0 == null || y0 == null || x1 == null || y1 == null) return null;
+    const across = numberOf(x1 - x0);
+    const up = numberOf(y1 - y0);
+    if (!(across > 0 || up > 0) || !Number.isFinite(across + up)) return null;
+    const pen = /^\s*([\d.]+)\s*(step|mm|cm|in|pt|px)?/i.exec(styleOf("stroke", facts, options) ?? "0.4mm");
+    const width = pen ? Number(pen[1]) : 0;
+    const isInSteps = pen?.[2]?.toLowerCase() === "step";
+    const inSteps = isInSteps ? width : 0;
+    const inMillimetres = isInSteps ? 0 : (lengthOf(`${width}${pen?.[2] ?? "mm"}`) ?? 0);
+    const share = Number.parseFloat(facts.keys.find((key) => key.name === "scale factor")?.value ?? "100") / 100;
+    const fixed = optionOf(options, "step");
+    const fit = (room: number, extent: number) => (room - 2 * sheet.margin - inMillimetres) / (extent + inSteps);
+    const step = fixed !== undefined ? lengthOf(fixed) : Math.min(fit(sheet.width, across), fit(sheet.height, up)) * share;
+    if (!step || !(step > 0)) return null;
+    const scale = sheet.width / laid.width / step;
+    const right = laid.left + laid.width / 2 - size.width / 2;
+    const down = laid.top + laid.height / 2 - size.height / 2;
+    return { x: (x0 + x1) / 2n - exactOf(right * scale), y: (y0 + y1) / 2n + exactOf(down * scale), scale };
+}
+
+/// Options that a part of the plane has in common with the whole page.
+const ofPlane = new Set(["line", "stroke", "ground", "fill", "palette", "dots", "colour-by", "budget"]);
+
+export function planeOptions(options: Options): Options {
+    return options.filter(([name]) => ofPlane.has(name));
+}
+
+/// True if the drawing is read whole for any part of it.
+export function isComposed(facts: Opened, options: Options): boolean {
+    return optionOf(options, "dots") !== undefined || optionOf(options, "colour-by") !== undefined
+        || facts.keys.some((key) => key.name === "dots" && key.value !== "none");
+}
+
+/// Options of pictures: not those of animations, of plotters and of the press, which pictures refuse.
+const notOfPictures = new Set(["animate", "frames", "frame-time", "hold", "tile", "overlap", "bleed", "marks", "spot", "cmyk",
+    "bits", "screen", "icc", "compression", "dpi", "window", "pens", "hpgl-paper", "profile", "gcode-start", "gcode-end"]);
+
+export function pageOptions(options: Options): Options {
+    return options.filter(([name]) => !notOfPictures.has(name));
+}

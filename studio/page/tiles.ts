@@ -1,0 +1,111 @@
+// Tiles of the endless plane, as those of a web map: squares of so many pixels at a scale, counted from 0 0.
+import { exactOf, exactText, wholes, type Exact } from "./decimal";
+import { decimalsOf, pixelOf, pointAt, type Camera, type Size } from "./camera";
+
+export interface Tile { readonly scale: number; readonly column: bigint; readonly row: bigint } // rows upwards
+
+export interface TileGrid {
+    readonly side: number; // pixels of the picture
+    readonly css: number; // the same in CSS pixels
+}
+
+/// Tiles of whole pixels of the screen.
+export function tileGrid(ratio: number): TileGrid {
+    const side = Math.round(512 * ratio);
+    return { side, css: side / ratio };
+}
+
+export function tileName(tile: Tile): string {
+    return `${tile.scale} ${tile.column} ${tile.row}`;
+}
+
+/// The power of two next to a scale: of tiles that serve while the scale changes.
+export function levelScale(scale: number): number {
+    return 2 ** Math.round(Math.log2(scale));
+}
+
+function unitOf(grid: TileGrid, scale: number): Exact {
+    const unit = exactOf(scale * grid.css);
+    return unit > 0n ? unit : 1n;
+}
+
+/// The tiles of that scale that a view shows, from its middle outwards; at most `most`.
+export function seenTiles(camera: Camera, size: Size, grid: TileGrid, scale: number, most = 400): Tile[] {
+    const unit = unitOf(grid, scale);
+    const low = pointAt(camera, size, 0, size.height);
+    const high = pointAt(camera, size, size.width, 0);
+    const first = { column: wholes(low.x, unit), row: wholes(low.y, unit) };
+    const last = { column: wholes(high.x, unit), row: wholes(high.y, unit) };
+    const columns = Number(last.column - first.column) + 1;
+    const rows = Number(last.row - first.row) + 1;
+    if (!(columns * rows <= most)) return [];
+    const tiles: { tile: Tile; away: number }[] = [];
+    for (let right = 0; right < columns; ++right) {
+        for (let up = 0; up < rows; ++up) {
+            const tile = { scale, column: first.column + BigInt(right), row: first.row + BigInt(up) };
+            const box = tileBox(tile, camera, size, grid);
+            const away = Math.hypot((box.left + box.right - size.width) / 2, (box.top + box.bottom - size.height) / 2);
+            tiles.push({ tile, away });
+        }
+    }
+    return tiles.sort((one, other) => one.away - other.away).map(({ tile }) => tile);
+}
+
+/// Where a tile lies in the view, in CSS pixels.
+export function tileBox(tile: Tile, camera: Camera, size: Size, grid: TileGrid) {
+    const unit = unitOf(grid, tile.scale);
+    const low = pixelOf(camera, size, tile.column * unit, tile.row * unit);
+    const high = pixelOf(camera, size, (tile.column + 1n) * unit, (tile.row + 1n) * unit);
+    return { left: low.left, top: high.top, right: high.left, bottom: low.top };
+}
+
+/// What a tile shows, as the `window` of a request.
+export function tileWindow(tile: Tile, grid: TileGrid): [string, string, string, string] {
+    const unit = unitOf(grid, tile.scale);
+    const decimals = decimalsOf(tile.scale) + 6;
+    const text = (count: bigint) => exactText(count * unit, decimals);
+    return [text(tile.column), text(tile.row), text(tile.column + 1n), text(tile.row + 1n)];
+}
+
+/// Keeps the pictures used last, up to so many bytes.
+export class PictureCache<Picture extends { bytes: number; close(): void }> {
+    private readonly pictures = new Map<string, Picture>(); // the last used last
+    private used = 0;
+
+    constructor(private readonly most: number) {}
+
+    get bytes(): number { return this.used; }
+    get count(): number { return this.pictures.size; }
+
+    has(name: string): boolean { return this.pictures.has(name); }
+
+    /// Uses it.
+    get(name: string): Picture | undefined {
+        const picture = this.pictures.get(name);
+        if (picture) {
+            this.pictures.delete(name);
+            this.pictures.set(name, picture);
+        }
+        return picture;
+    }
+
+    add(name: string, picture: Picture): void {
+        this.remove(name);
+        this.pictures.set(name, picture);
+        this.used += picture.bytes;
+        for (const [oldest] of this.pictures) {
+            if (this.used <= this.most || oldest === name) break;
+            this.remove(oldest);
+        }
+    }
+
+    names(): IterableIterator<string> { return this.pictures.keys(); }
+
+    private remove(name: string): void {
+        const picture = this.pictures.get(name);
+        if (!picture) return;
+        this.pictures.delete(name);
+        this.used -= picture.bytes;
+        picture.close();
+    }
+}
