@@ -1,6 +1,6 @@
 // Builds the studio: one file with its style, its script, its worker and the libraries as WebAssembly.
 //     node build.mjs [--bridge FOLDER] [-o FILE] [--readable]
-// FOLDER holds sikku-bridge.mjs and sikku-bridge.wasm.
+// FOLDER holds sikku-bridge.cjs and sikku-bridge.wasm.
 import { build, transform } from "esbuild";
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -26,7 +26,7 @@ const bridge = resolve(values.bridge);
 async function bundle(entry) {
     const result = await build({
         entryPoints: [resolve(here, "page", entry)],
-        alias: { "sikku-bridge": join(bridge, "sikku-bridge.mjs") },
+        alias: { "sikku-bridge": join(bridge, "sikku-bridge.cjs") },
         bundle: true, write: false, format: "iife", target: "es2022", minify: !values.readable, charset: "utf8",
         legalComments: "none", logLevel: "warning", external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
         define: { "import.meta.url": '""', "import.meta": "{}" }, loader: { ".css": "empty" },

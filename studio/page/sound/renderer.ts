@@ -1,0 +1,91 @@
+// Rendered notes as buffers of the browser: made in a worker, a while before they sound.
+import source from "worker:sound/render_worker.ts";
+import type { Rendered, RenderRequest } from "./render_worker";
+import type { Timbre } from "./timbres";
+import { renderedKey } from "./timbres";
+
+export interface Voiced { buffer: AudioBuffer; frequency: number; loops: boolean }
+
+const most_bytes = 128 * 1024 * 1024;
+
+export class Renderer {
+    private readonly worker: Worker;
+    private readonly ready = new Map<string, Voiced>(); // the ones used last come last
+    private readonly waiting = new Map<string, (() => void)[]>();
+    private bytes = 0;
+
+    constructor(private readonly context: BaseAudioContext) {
+        this.worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+        this.worker.onmessage = (event: MessageEvent<Rendered>) => this.receive(event.data);
+    }
+
+    private name(timbre: string, key: number): string { return `${timbre} ${key}`; }
+
+    /// The buffer for a key, if it is there; otherwise it is asked for.
+    find(timbre: Timbre, key: number): Voiced | null {
+        const name = this.name(timbre.name, renderedKey(timbre, key));
+        const found = this.ready.get(name);
+        if (found) {
+            this.ready.delete(name);
+            this.ready.set(name, found);
+            return found;
+        }
+        this.ask(timbre, key);
+        return this.nearest(timbre, key);
+    }
+
+    /// Something to play for the moment.
+    private nearest(timbre: Timbre, key: number): Voiced | null {
+        const whole = renderedKey(timbre, key);
+        if (timbre.everyKey) return null;
+        for (let away = 1; away <= 12; ++away) {
+            const found = this.ready.get(this.name(timbre.name, whole + away))
+                ?? this.ready.get(this.name(timbre.name, whole - away));
+            if (found) return found;
+        }
+        return null;
+    }
+
+    private ask(timbre: Timbre, key: number, done?: () => void): void {
+        const whole = renderedKey(timbre, key);
+        const name = this.name(timbre.name, whole);
+        const listeners = this.waiting.get(name);
+        if (listeners) {
+            if (done) listeners.push(done);
+            return;
+        }
+        this.waiting.set(name, done ? [done] : []);
+        this.worker.postMessage({ timbre: timbre.name, key: whole, rate: this.context.sampleRate } satisfies RenderRequest);
+    }
+
+    /// Renders all of these, each once.
+    prepare(wanted: Iterable<[Timbre, number]>): Promise<void> {
+        const seen = new Set<string>();
+        const all: Promise<void>[] = [];
+        for (const [timbre, key] of wanted) {
+            const name = this.name(timbre.name, renderedKey(timbre, key));
+            if (seen.has(name) || this.ready.has(name)) continue;
+            seen.add(name);
+            all.push(new Promise((done) => this.ask(timbre, key, done)));
+        }
+        return Promise.all(all).then(() => {});
+    }
+
+    private receive(made: Rendered): void {
+        const name = this.name(made.timbre, made.key);
+        const buffer = this.context.createBuffer(1, Math.max(1, made.data.length), made.rate);
+        buffer.copyToChannel(made.data, 0);
+        this.ready.set(name, { buffer, frequency: made.frequency, loops: made.loops });
+        this.bytes += 4 * made.data.length;
+        for (const [old, voiced] of this.ready) {
+            if (this.bytes <= most_bytes) break;
+            this.ready.delete(old);
+            this.bytes -= 4 * voiced.buffer.length;
+        }
+        const listeners = this.waiting.get(name) ?? [];
+        this.waiting.delete(name);
+        for (const done of listeners) done();
+    }
+
+    close(): void { this.worker.terminate(); }
+}

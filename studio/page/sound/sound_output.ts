@@ -1,0 +1,160 @@
+// Plays notes: a rendered sample through a filter, an envelope, the strip of its voice and the master.
+import { Master } from "./master";
+import type { Melody } from "./melody";
+import type { Voiced } from "./renderer";
+import { keyFrequency } from "./sample";
+import type { Timbre } from "./timbres";
+import { timbreNamed } from "./timbres";
+import type { NoteSink } from "./transport";
+
+/// What a voice is heard through.
+export interface VoiceSettings { timbre: string; volume: number; muted: boolean; solo: boolean }
+
+/// Buffers of timbres: Renderer, or what a test has.
+export interface Buffers { find(timbre: Timbre, key: number): Voiced | null }
+
+interface Strip { gain: GainNode; pan: StereoPannerNode; send: GainNode }
+interface Sounding { source: AudioBufferSourceNode; envelope: GainNode; vibrato: OscillatorNode | null; begin: number; end: number }
+
+const most_sounding = 96;
+
+export class SoundOutput implements NoteSink {
+    readonly master: Master;
+    melody: Melody | null = null;
+    private voices: VoiceSettings[] = [];
+    private strips: Strip[] = [];
+    private sounding: Sounding[] = [];
+
+    constructor(readonly context: BaseAudioContext, private readonly buffers: Buffers) {
+        this.master = new Master(context);
+    }
+
+    setVoices(voices: VoiceSettings[]): void {
+        this.voices = voices;
+        while (this.strips.length < voices.length) this.addStrip();
+        const isSolo = voices.some((voice) => voice.solo);
+        this.strips.forEach((strip, index) => {
+            const voice = voices[index];
+            const isHeard = voice !== undefined && !voice.muted && (!isSolo || voice.solo);
+            const now = this.context.currentTime;
+            const level = isHeard ? voice.volume * voice.volume * 1.25 : 0;
+            strip.gain.gain.setTargetAtTime(level, now, 0.012);
+            strip.send.gain.setTargetAtTime(timbreNamed(voice?.timbre ?? "").reverb, now, 0.012);
+            // Voices sit beside each other, the first in the middle.
+            const place = voices.length < 2 ? 0 : (index % 2 === 0 ? 1 : -1) * 0.5 * Math.min(1, Math.ceil(index / 2) / Math.max(1, (voices.length - 1) / 2));
+            strip.pan.pan.setTargetAtTime(place, now, 0.02);
+        });
+    }
+
+    private addStrip(): void {
+        const gain = this.context.createGain();
+        gain.gain.value = 0;
+        const pan = this.context.createStereoPanner();
+        const send = this.context.createGain();
+        send.gain.value = 0.2;
+        gain.connect(pan);
+        pan.connect(this.master.dry);
+        pan.connect(send).connect(this.master.wet);
+        this.strips.push({ gain, pan, send });
+    }
+
+    /// A silent note costs nothing.
+    private isHeard(voice: number): boolean {
+        const settings = this.voices[voice];
+        if (!settings || settings.muted) return false;
+        return settings.solo || !this.voices.some((each) => each.solo);
+    }
+
+    note(index: number, time: number, seconds: number): void {
+        const melody = this.melody;
+        if (!melody) return;
+        const voice = melody.voice[index];
+        if (!this.isHeard(voice)) return;
+        this.strike(voice, melody.key[index], melody.velocity[index], time, seconds);
+    }
+
+    strike(voice: number, key: number, velocity: number, time: number, seconds: number): void {
+        const timbre = timbreNamed(this.voices[voice].timbre);
+        const voiced = this.buffers.find(timbre, key);
+        if (!voiced) return;
+        const { context } = this;
+        const begin = Math.max(time, context.currentTime);
+        const frequency = keyFrequency(key);
+        const rate = voiced.frequency > 0 ? frequency / voiced.frequency : 1;
+        const source = context.createBufferSource();
+        source.buffer = voiced.buffer;
+        source.loop = voiced.loops;
+        source.playbackRate.value = rate;
+
+        // Loud notes are bright.
+        const force = Math.min(1, velocity / 127);
+        const filter = context.createBiquadFilter();
+        filter.type = "lowpass";
+        filter.Q.value = -3;
+        const [dark, bright] = timbre.brightness;
+        const cutoff = frequency * (dark + (bright - dark) * force ** 1.5);
+        filter.frequency.value = Math.min(0.45 * context.sampleRate, Math.max(700 + 2500 * force, cutoff));
+
+        const level = (velocity / 100) ** 1.3;
+        const envelope = context.createGain();
+        const attack = Math.min(timbre.attack, 0.7 * seconds);
+        const end = begin + seconds;
+        const tau = timbre.release / 5;
+        envelope.gain.setValueAtTime(0, begin);
+        envelope.gain.linearRampToValueAtTime(level, begin + attack);
+        envelope.gain.setTargetAtTime(0, end, tau);
+        source.connect(filter).connect(envelope).connect(this.strips[voice].gain);
+
+        const vibrato = this.vibrato(timbre, source, begin, seconds, rate);
+        const last = end + 9 * tau;
+        // A loop begins anywhere: notes of one key are not copies of each other.
+        source.start(begin, voiced.loops ? ((begin * 7.31) % 1) * voiced.buffer.duration : 0);
+        source.stop(last);
+        vibrato?.stop(last);
+        const sounding: Sounding = { source, envelope, vibrato, begin, end: last };
+        this.sounding.push(sounding);
+        source.onended = () => {
+            envelope.disconnect();
+            const at = this.sounding.indexOf(sounding);
+            if (at >= 0) this.sounding.splice(at, 1);
+        };
+        if (this.sounding.length > most_sounding) this.fade(this.sounding.shift()!, begin, 0.01);
+    }
+
+    private vibrato(timbre: Timbre, source: AudioBufferSourceNode, begin: number, seconds: number, rate: number): OscillatorNode | null {
+        if (!timbre.vibrato || seconds < timbre.vibrato.delay + 0.15) return null;
+        const { hertz, cents, delay } = timbre.vibrato;
+        const oscillator = this.context.createOscillator();
+        oscillator.frequency.value = hertz;
+        const depth = this.context.createGain();
+        depth.gain.setValueAtTime(0, begin + delay);
+        depth.gain.linearRampToValueAtTime(rate * (2 ** (cents / 1200) - 1), begin + delay + 0.4);
+        oscillator.connect(depth).connect(source.playbackRate);
+        oscillator.start(begin);
+        return oscillator;
+    }
+
+    private fade(sounding: Sounding, time: number, tau: number): void {
+        sounding.envelope.gain.cancelScheduledValues(time);
+        sounding.envelope.gain.setTargetAtTime(0, time, tau);
+        sounding.source.stop(time + 9 * tau);
+        sounding.vibrato?.stop(time + 9 * tau);
+    }
+
+    cancel(time: number): void {
+        this.sounding = this.sounding.filter((each) => {
+            if (each.begin <= time) return true;
+            each.envelope.disconnect();
+            each.source.stop();
+            each.vibrato?.stop();
+            return false;
+        });
+    }
+
+    silence(): void {
+        const now = this.context.currentTime;
+        this.cancel(now);
+        for (const each of this.sounding) this.fade(each, now, 0.018);
+        this.sounding = [];
+    }
+}

@@ -1,0 +1,196 @@
+// Time: when each note sounds. Every time is computed from whole ticks and one anchor, so that nothing adds up.
+import type { Melody } from "./melody";
+import { eachSounding, firstFrom } from "./melody";
+
+/// Where notes go. Times are seconds of the clock.
+export interface NoteSink {
+    note(index: number, time: number, seconds: number): void;
+    /// Drops what begins after this time; what sounds goes on.
+    cancel(time: number): void;
+    silence(): void;
+    started?(tick: number, time: number): void;
+    stopped?(time: number): void;
+    clock?(time: number): void; // 24 times in a quarter
+}
+
+export interface Loop { from: number; to: number } // ticks
+
+const lead = 0.06; // seconds from pressing the key to the first note
+const clocks = 24; // in a quarter, as MIDI has it
+
+export class Transport {
+    ahead = 0.2; // seconds that notes are handed over before they sound
+    playing = false;
+    onEnd: () => void = () => {};
+
+    private melody: Melody | null = null;
+    private tempo = 120;
+    private loopRange: Loop | null = null;
+    private anchorTick = 0;
+    private anchorTime = 0;
+    private next = 0; // note
+    private pass = 0; // of the loop
+    private nextClock = 0;
+
+    constructor(private readonly now: () => number, private readonly sinks: NoteSink[]) {}
+
+    get secondsPerTick(): number { return 60 / (this.tempo * (this.melody?.ticks ?? 480)); }
+    get quartersPerMinute(): number { return this.tempo; }
+    get loop(): Loop | null { return this.loopRange; }
+
+    /// The place in the melody at a time of the clock.
+    tickAt(time: number): number {
+        if (!this.playing) return this.anchorTick;
+        const straight = this.anchorTick + Math.max(0, time - this.anchorTime) / this.secondsPerTick;
+        return this.wrapped(straight);
+    }
+
+    private wrapped(straight: number): number {
+        const loop = this.activeLoop();
+        const end = this.melody?.end ?? 0;
+        if (!loop || straight < loop.to) return Math.min(straight, end);
+        return loop.from + ((straight - loop.to) % (loop.to - loop.from));
+    }
+
+    /// A loop that lies behind the anchor is not entered any more.
+    private activeLoop(): Loop | null {
+        return this.loopRange && this.anchorTick < this.loopRange.to ? this.loopRange : null;
+    }
+
+    /// When a tick counted from the anchor without loops sounds.
+    private timeOf(straight: number): number {
+        return this.anchorTime + (straight - this.anchorTick) * this.secondsPerTick;
+    }
+
+    private straight(onset: number): number {
+        const loop = this.activeLoop();
+        if (!loop || this.pass === 0) return onset;
+        return loop.to + (this.pass - 1) * (loop.to - loop.from) + (onset - loop.from);
+    }
+
+    play(): void {
+        if (!this.melody || this.playing) return;
+        if (this.anchorTick >= this.melody.end - 1e-6) this.anchorTick = this.loopRange?.from ?? 0;
+        this.playing = true;
+        this.begin(this.now() + lead);
+        for (const sink of this.sinks) sink.started?.(this.anchorTick, this.anchorTime);
+        this.schedule();
+    }
+
+    pause(): void {
+        if (!this.playing) return;
+        const now = this.now();
+        const tick = this.tickAt(now);
+        this.playing = false;
+        this.anchorTick = tick;
+        for (const sink of this.sinks) {
+            sink.silence();
+            sink.stopped?.(now);
+        }
+    }
+
+    seek(tick: number): void {
+        const target = Math.min(Math.max(0, tick), this.melody?.end ?? 0);
+        this.anchorTick = target;
+        if (!this.playing) return;
+        for (const sink of this.sinks) sink.silence();
+        this.begin(this.now() + lead / 2);
+        for (const sink of this.sinks) sink.started?.(target, this.anchorTime);
+        this.schedule();
+    }
+
+    /// Sounds what began before the anchor, and goes on with what begins there.
+    private begin(time: number): void {
+        const melody = this.melody!;
+        this.anchorTime = time;
+        this.pass = 0;
+        this.next = firstFrom(melody, this.anchorTick);
+        this.nextClock = Math.ceil((this.anchorTick * clocks) / melody.ticks - 1e-9);
+        eachSounding(melody, this.anchorTick, this.anchorTick + 1e-9, (index) => {
+            const left = melody.onset[index] + melody.duration[index] - this.anchorTick;
+            if (melody.onset[index] < this.anchorTick) this.hand(index, time, left);
+        });
+    }
+
+    setTempo(tempo: number): void {
+        if (tempo === this.tempo || !(tempo > 0)) return;
+        this.keepingPlace(() => { this.tempo = tempo; });
+    }
+
+    setLoop(loop: Loop | null): void {
+        this.keepingPlace(() => { this.loopRange = loop && loop.to > loop.from ? loop : null; });
+    }
+
+    setMelody(melody: Melody | null): void {
+        this.keepingPlace(() => { this.melody = melody; });
+        if (!melody && this.playing) this.pause();
+    }
+
+    /// What was handed over and has not begun is handed over again, at its new time.
+    private keepingPlace(change: () => void): void {
+        if (!this.playing || !this.melody) {
+            change();
+            this.anchorTick = Math.min(this.anchorTick, this.melody?.end ?? 0);
+            return;
+        }
+        const now = Math.max(this.now(), this.anchorTime);
+        const tick = this.tickAt(now);
+        change();
+        if (!this.melody) return;
+        for (const sink of this.sinks) sink.cancel(now);
+        this.anchorTick = Math.min(tick, this.melody.end);
+        this.anchorTime = now;
+        this.pass = 0;
+        // A note at this very moment has begun.
+        this.next = firstFrom(this.melody, this.anchorTick + 1e-6);
+        this.nextClock = Math.floor((this.anchorTick * clocks) / this.melody.ticks) + 1;
+        this.schedule();
+    }
+
+    /// Hands over what sounds within the next moment; called every few milliseconds.
+    schedule(): void {
+        const melody = this.melody;
+        if (!this.playing || !melody) return;
+        const now = this.now();
+        const until = now + this.ahead;
+        const loop = this.activeLoop();
+        for (;;) {
+            if (loop && (this.next >= melody.count || melody.onset[this.next] >= loop.to)) {
+                const again = loop.to + this.pass * (loop.to - loop.from);
+                if (this.timeOf(again) > until) break; // the next pass is looked at when its time comes
+                ++this.pass;
+                this.next = firstFrom(melody, loop.from);
+                continue;
+            }
+            if (this.next >= melody.count) break;
+            const onset = melody.onset[this.next];
+            const time = this.timeOf(this.straight(onset));
+            if (time > until) break;
+            const end = loop ? Math.min(onset + melody.duration[this.next], loop.to) : onset + melody.duration[this.next];
+            this.hand(this.next, time, end - onset);
+            ++this.next;
+        }
+        this.sendClocks(until, melody);
+        if (!loop && now >= this.timeOf(melody.end)) this.finish(melody);
+    }
+
+    private hand(index: number, time: number, ticks: number): void {
+        const seconds = Math.max(0.01, ticks * this.secondsPerTick);
+        for (const sink of this.sinks) sink.note(index, time, seconds);
+    }
+
+    private sendClocks(until: number, melody: Melody): void {
+        for (;; ++this.nextClock) {
+            const time = this.timeOf((this.nextClock * melody.ticks) / clocks);
+            if (time > until) break;
+            for (const sink of this.sinks) sink.clock?.(time);
+        }
+    }
+
+    private finish(melody: Melody): void {
+        this.playing = false;
+        this.anchorTick = melody.end;
+        for (const sink of this.sinks) sink.stopped?.(this.now());
+        this.onEnd();
+    }
+}
