@@ -83,6 +83,7 @@ public:
     Cost forecast() const override;
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
+    Pixels make_pixels(const Monitor& monitor);
 
 private:
     Cost forecast(const Grammar& grammar) const;
@@ -277,6 +278,35 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     return made;
 }
 
+Pixels PrintWork::make_pixels(const Monitor& monitor) {
+    const char* const why = "makes several pictures or sheets; a picture in memory is one";
+    if (settings_.generations) refuse_option("generations", "", why);
+    if (settings_.tile) refuse_option("tile", "", why);
+    constexpr std::size_t bytes_of_pixel = 4;
+    Pixels pixels;
+    drawing_.show_pixels = [&](Rendering& rendering, const PixelSize& size) {
+        pixels.width = size.width;
+        pixels.height = size.height;
+        pixels.bytes.resize(bytes_of_pixel * static_cast<std::size_t>(size.width) *
+                            static_cast<std::size_t>(size.height));
+        const auto channels = static_cast<std::size_t>(rendering.channels());
+        std::uint8_t* to = pixels.bytes.data();
+        rendering.watch([&] { monitor.check(); });
+        rendering.render(drawing_.threads, [&](int, int, std::span<const std::uint8_t> rows) {
+            for (std::size_t i = 0; i < rows.size(); i += channels, to += bytes_of_pixel) {
+                const std::uint8_t* from = &rows[i];
+                to[0] = from[0];
+                to[1] = from[channels < 3 ? 0 : 1];
+                to[2] = from[channels < 3 ? 0 : 2];
+                to[3] = channels == bytes_of_pixel ? from[3] : 255;
+            }
+        });
+    };
+    MemoryDestination nowhere;
+    pixels.remarks = make(nowhere, "pixels", monitor, drawing_.threads).remarks;
+    return pixels;
+}
+
 Cost PrintWork::forecast() const {
     if (!settings_.generations) return forecast(document_.grammar());
     // The last generation is the most expensive.
@@ -321,6 +351,15 @@ Cost PrintWork::forecast(const Grammar& given) const {
     return result;
 }
 
+/// @throws SettingError, PatternError
+std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
+                                      const std::filesystem::path& folder = {}) {
+    DrawSettings settings = read_draw_settings(values);
+    if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
+    check_draw_settings(settings, format);
+    return std::make_unique<PrintWork>(document, format, std::move(settings));
+}
+
 class Prints : public Interpreter {
 public:
     Prints() {
@@ -341,11 +380,7 @@ public:
     }
     std::unique_ptr<Work> plan(const Document& document, std::string_view format, const OptionValues& values,
                                const std::filesystem::path& folder) const override {
-        DrawSettings settings = read_draw_settings(values);
-        if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
-        const PrintFormat print = known(format);
-        check_draw_settings(settings, print);
-        return std::make_unique<PrintWork>(document, print, std::move(settings));
+        return plan_print(document, known(format), values, folder);
     }
 
 private:
@@ -367,6 +402,11 @@ const Interpreter& prints() {
 std::string draw(const Document& document, std::string_view format, const OptionValues& values,
                  const Monitor& monitor) {
     return make_in_memory(prints(), document, format, values, monitor);
+}
+
+Pixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor) {
+    const Assignment assigned = assign(prints(), document, values);
+    return plan_print(assigned.document, PrintFormat::png, assigned.options)->make_pixels(monitor);
 }
 
 }  // namespace sikku

@@ -3,8 +3,10 @@
 
 #include "engine/interpreter.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -17,5 +19,15 @@ const Interpreter& prints();
 /// @throws SettingError, PatternError, BudgetError, WordError; std::runtime_error if nothing is drawn
 std::string draw(const Document& document, std::string_view format, const OptionValues& values = {},
                  const Monitor& monitor = {});
+
+/// A picture in memory.
+struct Pixels {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> bytes;  ///< rows from the top; red, green, blue, straight alpha
+    std::vector<Remark> remarks;
+};
+
+/// Draws the pixels of a PNG into memory. @param values  as for draw() @throws as draw()
+Pixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -24,6 +24,14 @@ Document compile(std::string name, std::string text, const Overrides& overrides,
     return document;
 }
 
+bool sets_keys_of(const Interpreter& interpreter, const Document& document) {
+    const auto& keys = document.pattern().keys;
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
+        const KeyInfo* known = find_language_key(key.name);
+        return known && known->owner == interpreter.owner();
+    });
+}
+
 std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
                    const std::string& after) {
     std::string text = "sikku " SIKKU_VERSION ", -n " + std::to_string(grammar.steps()) + before;

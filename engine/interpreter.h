@@ -88,6 +88,9 @@ public:
 Document compile(std::string name, std::string text, const Overrides& overrides,
                  std::span<const Interpreter* const> interpreters, Diagnostics& diagnostics);
 
+/// True if the pattern sets a key that the interpreter owns, as melodies do with `scale`.
+bool sets_keys_of(const Interpreter& interpreter, const Document& document);
+
 /// The command line that makes the same output: `sikku 0.1.0, -n 4 --window … --set '…'`. Outputs store it beside the
 /// text of the pattern.
 /// @param before, after  options of the interpreter, each with a leading blank

@@ -426,7 +426,7 @@ public:
         const ScoreHead head = head_of(settings_, players_, playing);  // numbers the voices of the parts
         NoteCollector collector(static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)));
         play_into(collector, playing);
-        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter};
+        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter, head.parts};
         std::stable_sort(result.notes.begin(), result.notes.end(), [](const Note& a, const Note& b) {
             return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
         });

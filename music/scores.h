@@ -35,6 +35,7 @@ struct NoteList {
     std::int64_t end = 0;     ///< end of the score in ticks, rests included
     double tempo = 120.0;     ///< quarters a minute
     Meter meter;
+    std::vector<Part> parts;
 };
 
 /// Lists the notes of a score with a part for each document. @throws as Work::make(); ScoreError for more notes than

@@ -124,20 +124,12 @@ py::list list_patterns() {
     return list;
 }
 
-bool is_melody(const Document& document) {
-    for (const Key& key : document.pattern().keys) {
-        const KeyInfo* known = find_language_key(key.name);
-        if (known && known->owner == KeyOwner::music) return true;
-    }
-    return false;
-}
-
 void add_documents(py::module_& module) {
     py::class_<Document>(module, "Document", "A pattern that was read, checked and compiled. Immutable.")
         .def_property_readonly("name", [](const Document& self) { return to_text(self.source().name()); })
         .def_property_readonly("source_text", [](const Document& self) { return to_text(self.source().text()); })
         .def_property_readonly("steps", [](const Document& self) { return self.grammar().steps(); })
-        .def_property_readonly("is_melody", &is_melody)
+        .def_property_readonly("is_melody", [](const Document& self) { return sets_keys_of(scores(), self); })
         .def("key", [](const Document& self, const std::string& key) { return to_text(self.text(key)); })
         .def("with_settings", [](const Document& self, const TextPairs& settings) {
             return long_call([&](const Monitor&) { return self.with(to_settings(settings)); });

@@ -81,6 +81,7 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
         return;
     }
     const auto rendering = drawing.rendering(print);
+    if (options.show_pixels) return options.show_pixels(*rendering, pixel_size(print.page, print.dpi));
     report.is_blank = write_picture(*rendering, print, options, output, file);
     report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
 }
@@ -90,7 +91,7 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file, Destination& destination) {
     const DrawOptions options = with_locked_watch(given_options);
-    if (!is_vector(options.format)) prepare_images(options.threads);
+    if (!is_vector(options.format) && !options.show_pixels) prepare_images(options.threads);
     if (grammar.is_spatial() && print.animation) {
         throw std::runtime_error("animations apply only to drawings in the plane");
     }

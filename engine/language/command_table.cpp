@@ -58,7 +58,28 @@ const Row* row_of(const std::string& letter, const CommandSettings& settings) {
     return found == rows.end() ? nullptr : &*found;
 }
 
+constexpr std::array<SymbolHelp, 14> help_rows = {{
+    {"F", "move one step and draw; F(2.5) moves 2.5 steps"},
+    {"f", "move one step without drawing"},
+    {"+ -", "turn by the angle increment; +(60) by 60 degrees"},
+    {"|", "turn around"},
+    {"& ^", "pitch down, up by the angle increment; &(30) by 30 degrees"},
+    {"\\ /", "roll left, right by the angle increment; /(30) by 30 degrees"},
+    {"$", "roll until the turtle's left is level"},
+    {"[ ]", "save the turtle's state, restore it"},
+    {"{ }", "begin and end a filled polygon"},
+    {"# !", "widen the pen by 1.25, narrow it by 0.8; with a parameter, set its width in the unit of stroke"},
+    {"' ;", "next colour; with a parameter, that colour: ;(3)"},
+    {",", "previous colour; with a parameter, that colour"},
+    {"@O", "a disc of radius 1 step; @O(r) of r steps; in space a sphere"},
+    {"@.", "a dot, twice as wide as the line"},
+}};
+
 }  // namespace
+
+std::span<const SymbolHelp> turtle_symbols() {
+    return help_rows;
+}
 
 Command command_of(const SymbolInfo& symbol, const CommandSettings& settings) {
     const Row* const row = row_of(symbol.letter, settings);

@@ -4,7 +4,9 @@
 #include "engine/language/grammar.h"
 
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace sikku {
 
@@ -15,6 +17,14 @@ struct CommandSettings {
     Angle increment;                ///< angle of turns without a parameter
     bool plus_turns_left = false;
 };
+
+/// Symbols of the turtle as help describes them.
+struct SymbolHelp {
+    std::string_view symbols;  ///< separated by blanks: `[ ]`
+    std::string_view help;
+};
+/// In the order of the manual.
+std::span<const SymbolHelp> turtle_symbols();
 
 /// The command of a symbol; Action::pass for a letter without one.
 Command command_of(const SymbolInfo& symbol, const CommandSettings& settings);

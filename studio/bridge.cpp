@@ -1,0 +1,261 @@
+#include "studio/bridge.h"
+
+#include "art/analysis.h"
+#include "art/gallery/json.h"
+#include "art/kolam/kolam_text.h"
+#include "art/prints.h"
+#include "engine/base/keys.h"
+#include "engine/check.h"
+#include "engine/language/command_table.h"
+#include "engine/measure/measurement_text.h"
+#include "music/scores.h"
+#include "studio/bridge_answers.h"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The time at which a request has to stop.
+struct Deadline {
+    Clock::time_point end;
+};
+
+Monitor monitor_of(Deadline& deadline) {
+    return Monitor([](void* context) { return Clock::now() >= static_cast<Deadline*>(context)->end; }, nullptr,
+                   &deadline);
+}
+
+const Interpreter& interpreter_of(const Json& request) {
+    const std::string name = text_of(request, "interpreter");
+    if (name == "draw") return prints();
+    if (name == "play") return scores();
+    throw BadRequest("'interpreter' has to be 'draw' or 'play'");
+}
+
+Json answer_patterns() {
+    Json list = Json::array();
+    for (const LibraryPattern& known : PatternLibrary::bundled().patterns()) {
+        Diagnostics diagnostics;
+        const std::string file = known.name + ".lsys";
+        const Document document =
+            Document::compile(file, read_pattern(PatternFile{file, known.file}), {}, diagnostics);
+        diagnostics.throw_if_errors();
+        list.push_back({{"name", known.name},
+                        {"kind", known.kind},
+                        {"title", document.text("title")},
+                        {"source", document.text("source")},
+                        {"text", document.source().text()},
+                        {"is_melody", sets_keys_of(scores(), document)},
+                        {"is_spatial", document.grammar().is_spatial()}});
+    }
+    return {{"patterns", std::move(list)}};
+}
+
+Json help_of(const Interpreter& interpreter) {
+    static constexpr std::array kinds = {"text", "number", "whole", "flag"};
+    Json options = Json::array();
+    for (const OptionInfo* option : interpreter.options()) {
+        options.push_back({{"name", option->name},
+                           {"help", option->help},
+                           {"value", option->value},
+                           {"group", option->group},
+                           {"unit", option->unit},
+                           {"kind", kinds[static_cast<std::size_t>(option->kind)]},
+                           {"least", option->least},
+                           {"most", option->most},
+                           {"is_list", option->is_list},
+                           {"is_on", option->is_on},
+                           {"is_key", option->is_key},
+                           {"is_alone", option->is_alone},
+                           {"letter", option->letter ? std::string(1, option->letter) : std::string()}});
+    }
+    Json formats = Json::array();
+    for (const FormatName& format : interpreter.formats()) {
+        formats.push_back({{"extension", format.extension},
+                           {"label", format.label},
+                           {"alias", format.alias},
+                           {"is_several", format.is_several},
+                           {"is_text", format.is_text}});
+    }
+    return {{"options", std::move(options)}, {"formats", std::move(formats)}};
+}
+
+Json answer_help() {
+    static constexpr std::array owners = {"engine", "art", "music"};
+    Json keys = Json::array();
+    for (const KeyInfo& key : language_keys()) {
+        keys.push_back({{"name", key.name},
+                        {"owner", owners[static_cast<std::size_t>(key.owner)]},
+                        {"values", key.values},
+                        {"if_absent", key.if_absent},
+                        {"help", key.help}});
+    }
+    Json symbols = Json::array();
+    for (const SymbolHelp& row : turtle_symbols()) {
+        std::string_view rest = row.symbols;
+        while (!rest.empty()) {
+            const std::size_t end = std::min(rest.find(' '), rest.size());
+            symbols.push_back({{"symbol", rest.substr(0, end)}, {"help", row.help}});
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+    }
+    return {{"version", SIKKU_VERSION},
+            {"keys", std::move(keys)},
+            {"symbols", std::move(symbols)},
+            {"draw", help_of(prints())},
+            {"play", help_of(scores())}};
+}
+
+Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes) {
+    const Interpreter& interpreter = interpreter_of(request);
+    const std::string format = text_of(request, "format");
+    const Assignment assigned = assign(interpreter, document_of(request), options_of(request));
+    MemoryDestination memory;
+    const std::string name = output_name(assigned.document, format);
+    const Made made = interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
+    Json outputs = Json::array();
+    for (const auto& [output, content] : memory.outputs()) {
+        outputs.push_back({{"name", output}, {"size", content.size()}});
+        bytes += content;
+    }
+    return {{"outputs", std::move(outputs)}, {"remarks", json_of(made.remarks)}};
+}
+
+Json answer_measure(const Json& request, const Monitor& monitor, std::string& bytes) {
+    constexpr double budget = 200e6;
+    const Document document = document_of(request);
+    const auto watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
+    bytes = measurement_json(document.text("title"), measure(document.grammar(), budget, watch));
+    return Json::parse(bytes);
+}
+
+Json answer_kolam(const Json& request, const Monitor& monitor, std::string& bytes) {
+    constexpr double budget = 200e6;
+    const Document document = document_of(request);
+    bytes = kolam_json(document.text("title"), document.grammar().steps(), examine_kolam(document, budget, monitor));
+    return Json::parse(bytes);
+}
+
+Json answer_check(const Json& request, const Monitor& monitor) {
+    const Json& pattern = member(request, "pattern");
+    const std::array<const Interpreter*, 2> interpreters = {&prints(), &scores()};
+    return {{"diagnostics", json_of(check_pattern(text_of(pattern, "name"), text_of(pattern, "text"), interpreters,
+                                                  monitor))}};
+}
+
+template <typename Number>
+void append_double(std::string& bytes, Number number) {
+    const auto value = static_cast<double>(number);
+    std::array<char, sizeof value> raw;
+    std::memcpy(raw.data(), &value, sizeof value);
+    bytes.append(raw.data(), raw.size());
+}
+
+Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes) {
+    const Assignment assigned = assign(scores(), document_of(request), options_of(request));
+    const NoteList list = list_notes(std::span(&assigned.document, 1), assigned.options, monitor);
+    for (const Note& note : list.notes) {
+        append_double(bytes, note.onset);
+        append_double(bytes, note.duration);
+        append_double(bytes, note.key);
+        append_double(bytes, note.velocity);
+        append_double(bytes, note.voice);
+        append_double(bytes, note.from.x);
+        append_double(bytes, note.from.y);
+        append_double(bytes, note.to.x);
+        append_double(bytes, note.to.y);
+        append_double(bytes, -1);
+    }
+    Json parts = Json::array();
+    for (const Part& part : list.parts) {
+        parts.push_back(
+            {{"name", part.name}, {"scale", part.scale}, {"program", part.program}, {"voices", part.voices}});
+    }
+    return {{"count", list.notes.size()},   {"end", list.end},          {"tempo", list.tempo},
+            {"beats", list.meter.beats},    {"unit", list.meter.unit},  {"ticks", ticks_per_quarter},
+            {"parts", std::move(parts)}};
+}
+
+Json answer(const Json& request, const std::string& file, const Monitor& monitor, std::string& bytes) {
+    const std::string what = text_of(request, "do");
+    if (what == "patterns") return answer_patterns();
+    if (what == "help") return answer_help();
+    if (what == "open") return answer_open(request, monitor);
+    if (what == "make") return answer_make(request, monitor, bytes);
+    if (what == "pixels") return answer_pixels(request, monitor, bytes);
+    if (what == "measure") return answer_measure(request, monitor, bytes);
+    if (what == "kolam") return answer_kolam(request, monitor, bytes);
+    if (what == "check") return answer_check(request, monitor);
+    if (what == "notes") return answer_notes(request, monitor, bytes);
+    if (what == "import") return answer_import(request, file);
+    if (what == "show") return answer_show(request, file);
+    if (what == "grid") return answer_grid(request, monitor);
+    if (what == "command") return answer_command(request);
+    throw BadRequest("unknown request '" + what + "'");
+}
+
+/// What went wrong, as an answer.
+Json failure(const std::string& kind, const std::string& message, Json more = Json::object()) {
+    Json error = {{"kind", kind}, {"message", message}};
+    error.update(more);
+    return {{"error", std::move(error)}};
+}
+
+Json failure_of(const std::function<Json()>& work) {
+    try {
+        return work();
+    } catch (const PatternError& error) {
+        return failure("pattern", error.what(), {{"diagnostics", json_of(error.diagnostics())}});
+    } catch (const SettingError& error) {
+        const std::string value = error.value().empty() ? "" : " " + error.value();
+        return failure("setting", error.option() + value + ": " + error.what(), {{"option", error.option()}});
+    } catch (const BudgetError& error) {
+        return failure("budget", error.what());
+    } catch (const WordError& error) {
+        return failure("word", error.what());
+    } catch (const ScoreError& error) {
+        return failure("score", error.what());
+    } catch (const Stopped&) {
+        return failure("stopped", "this takes too long, and was stopped");
+    } catch (const BadRequest& error) {
+        return failure("request", error.what());
+    } catch (const JsonError& error) {
+        return failure("request", error.what());
+    } catch (const std::bad_alloc&) {
+        return failure("other", "not enough memory");
+    } catch (const std::exception& error) {
+        return failure("other", error.what());
+    }
+}
+
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+
+}  // namespace
+
+Reply request(const std::string& json, const std::string& bytes) {
+    Reply reply;
+    const Json result = failure_of([&] {
+        if (json.size() > most_bytes || bytes.size() > most_bytes) throw BadRequest("over 64 MB");
+        const Json asked = read_json(json);
+        if (!asked.is_object()) throw BadRequest("expected an object");
+        const double seconds = number_of(asked, "seconds", 60);
+        Deadline deadline{Clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000))};
+        return answer(asked, bytes, monitor_of(deadline), reply.bytes);
+    });
+    if (result.contains("error")) reply.bytes.clear();
+    // Messages may quote bytes of patterns that are no UTF-8.
+    reply.json = result.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return reply;
+}
+
+}  // namespace sikku

@@ -1,0 +1,394 @@
+// studio/bridge_document.cpp: patterns of requests: reading, facts, pictures, files of other programs.
+#include "art/drawing/seen_drawing.h"
+#include "art/draw_settings.h"
+#include "art/prints.h"
+#include "art/provenance/provenance.h"
+#include "engine/derivation/forecast.h"
+#include "engine/import/import.h"
+#include "engine/measure/extent.h"
+#include "music/scores.h"
+#include "music/score/midi_texts.h"
+#include "studio/bridge_answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <fstream>
+#include <utility>
+
+namespace sikku {
+
+const Json& member(const Json& request, const std::string& name) {
+    const auto found = request.find(name);
+    if (found == request.end()) throw BadRequest("'" + name + "' is missing");
+    return *found;
+}
+
+std::string text_of(const Json& request, const std::string& name) {
+    const Json& value = member(request, name);
+    if (!value.is_string()) throw BadRequest("'" + name + "' has to be a text");
+    return value.get<std::string>();
+}
+
+std::string text_of(const Json& request, const std::string& name, const std::string& otherwise) {
+    return request.contains(name) ? text_of(request, name) : otherwise;
+}
+
+double number_of(const Json& request, const std::string& name, double otherwise) {
+    if (!request.contains(name)) return otherwise;
+    const Json& value = request[name];
+    if (!value.is_number()) throw BadRequest("'" + name + "' has to be a number");
+    const auto number = value.get<double>();
+    if (!(std::fabs(number) < 1e9)) throw BadRequest("'" + name + "' is too large");
+    return number;
+}
+
+bool flag_of(const Json& request, const std::string& name) {
+    return request.contains(name) && request[name].is_boolean() && request[name].get<bool>();
+}
+
+namespace {
+
+/// Pairs of texts: `[["size", "A3"], …]`.
+std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    if (!request.contains(name)) return pairs;
+    for (const Json& pair : request[name]) {
+        if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) {
+            throw BadRequest("'" + name + "' has to be a list of pairs of texts");
+        }
+        pairs.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
+    }
+    return pairs;
+}
+
+}  // namespace
+
+OptionValues options_of(const Json& request) {
+    OptionValues values;
+    for (auto& [name, text] : pairs_of(request, "options")) values.push_back({name, text});
+    return values;
+}
+
+Document document_of(const Json& request) {
+    struct Kept {
+        Json pattern;
+        Document document;
+    };
+    static std::deque<Kept> kept;
+    constexpr std::size_t most = 16;
+    const Json& pattern = member(request, "pattern");
+    const auto found =
+        std::find_if(kept.begin(), kept.end(), [&](const Kept& each) { return each.pattern == pattern; });
+    if (found != kept.end()) return found->document;
+    Overrides overrides{text_of(pattern, "variant", ""), {}};
+    for (auto& [name, text] : pairs_of(pattern, "settings")) overrides.settings.push_back({name, name, text});
+    const std::array<const Interpreter*, 2> interpreters = {&prints(), &scores()};
+    Diagnostics diagnostics;
+    Document document =
+        compile(text_of(pattern, "name"), text_of(pattern, "text"), overrides, interpreters, diagnostics);
+    diagnostics.throw_if_errors();
+    kept.push_front({pattern, document});
+    if (kept.size() > most) kept.pop_back();
+    return document;
+}
+
+std::string output_name(const Document& document, const std::string& format) {
+    return std::filesystem::path(document.source().name()).stem().string() + "." + format;
+}
+
+Json json_of(const std::vector<Remark>& remarks) {
+    Json list = Json::array();
+    for (const Remark& remark : remarks) list.push_back({{"is_warning", remark.is_warning}, {"text", remark.text}});
+    return list;
+}
+
+Json json_of(const std::vector<Diagnostic>& diagnostics) {
+    Json list = Json::array();
+    for (const Diagnostic& diagnostic : diagnostics) {
+        Json one = {{"line", diagnostic.where.line},
+                    {"column", diagnostic.where.column},
+                    {"message", diagnostic.message},
+                    {"warning", diagnostic.warning}};
+        if (diagnostic.where.line == 0) one["setting"] = diagnostic.file;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+// --- facts ------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// In the text of the pattern itself, not of a setting.
+int line_of(const Document& document, const Span& span) {
+    return span.source == &document.source() ? document.source().place(span.at).line : 0;
+}
+
+Json keys_of(const Document& document) {
+    Json list = Json::array();
+    for (const Key& key : document.pattern().keys) {
+        list.push_back(
+            {{"name", key.name}, {"value", key.value.view()}, {"line", line_of(document, key.name_at)}});
+    }
+    return list;
+}
+
+Json defines_of(const Document& document) {
+    Json list = Json::array();
+    for (const Define& define : document.pattern().defines) {
+        list.push_back({{"name", define.name.view()},
+                        {"value", define.value.view()},
+                        {"line", line_of(document, define.name)}});
+    }
+    return list;
+}
+
+void append_productions(const Document& document, const std::vector<ProductionText>& productions,
+                        std::string_view table, Json& list) {
+    for (const ProductionText& production : productions) {
+        const Place place = document.source().place(production.whole.at);
+        list.push_back({{"line", place.line},
+                        {"column", place.column},
+                        {"length", production.whole.length},
+                        {"predecessor", production.predecessor.view()},
+                        {"successor", production.successor.view()},
+                        {"table", table}});
+    }
+}
+
+Json productions_of(const Document& document) {
+    const Pattern& pattern = document.pattern();
+    Json list = Json::array();
+    append_productions(document, pattern.common, "", list);
+    for (const TableText& table : pattern.tables) append_productions(document, table.productions, table.name.view(), list);
+    append_productions(document, pattern.interpret, "interpret", list);
+    return list;
+}
+
+std::string decimal_text(const Quantity& quantity) {
+    return quantity.digits.empty() ? fmt::format("{}", quantity.value) : quantity.digits;
+}
+
+/// Length of the word, number of segments, and extent, as far as they are known without much work.
+void add_measures(const Document& document, const Monitor& monitor, Json& answer) {
+    constexpr double budget = 2e8;    // of a drawing
+    constexpr double at_once = 3e6;   // nodes that may be visited to tell the facts
+    const Grammar& grammar = document.grammar();
+    Json cost = {{"symbols", ""}, {"segments", ""}, {"is_derivable", true}, {"most", ""}};
+    try {
+        const auto expected = estimate(grammar, true);
+        cost["is_derivable"] = !expected || expected->nodes <= budget;
+        if (expected && expected->nodes > budget) {
+            cost["most"] = fmt::format("{}", largest_affordable(grammar, true, budget));
+        }
+        const Measurement measured =
+            measure(grammar, at_once, [&](std::uint64_t symbols) { monitor.advance(symbols); });
+        cost["symbols"] = decimal_text(measured.symbols);
+        cost["segments"] = decimal_text(measured.drawn);
+        if (measured.geometry && measured.geometry->ink) {
+            Json extent = Json::array();
+            for (const Quantity& side : *measured.geometry->ink) extent.push_back(decimal_text(side));
+            answer["extent"] = std::move(extent);
+        }
+    } catch (const BudgetError&) {  // then they stay unknown
+    } catch (const WordError&) {    // the drawing reports it
+    }
+    answer["cost"] = std::move(cost);
+}
+
+bool has_view(const Document& document) {
+    try {
+        DrawOptions options;
+        options.window = parse_window("0,0,1,1");
+        std::string why;
+        const Grammar grammar = shorten(document.grammar());
+        return seen_parts(grammar, read_print_style(document, {}), options, why).has_value();
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+Json answer_open(const Json& request, const Monitor& monitor) {
+    const Document document = document_of(request);
+    Json variants = Json::array();
+    for (const Variant& variant : document.pattern().variants) variants.push_back(variant.name.view());
+    Json answer = {{"title", document.text("title")},
+                   {"source", document.text("source")},
+                   {"n", fmt::format("{}", document.grammar().steps())},
+                   {"seed", fmt::format("{}", document.grammar().seed())},
+                   {"variants", std::move(variants)},
+                   {"defines", defines_of(document)},
+                   {"keys", keys_of(document)},
+                   {"productions", productions_of(document)},
+                   {"warnings", json_of(document.warnings())},
+                   {"is_melody", sets_keys_of(scores(), document)},
+                   {"is_spatial", document.grammar().is_spatial()},
+                   {"is_random", document.grammar().is_stochastic()},
+                   {"has_view", has_view(document)}};
+    add_measures(document, monitor, answer);
+    return answer;
+}
+
+// --- pictures ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// The options that concern the look of a drawing, and, for the whole page, the page; the others concern files.
+OptionValues shown_options(const OptionValues& all, bool is_page) {
+    static constexpr std::array look = {"mirror", "rotate", "dots", "dot-spacing", "colour-by", "budget", "view"};
+    static constexpr std::array page = {"size", "margin", "landscape", "fit", "step", "window", "border"};
+    const auto is_in = [](const auto& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    OptionValues shown;
+    for (const OptionValue& value : all) {
+        const OptionInfo* option = find_option(prints().options(), value.name);
+        if (!option || option->is_key || is_in(look, value.name) || (is_page && is_in(page, value.name))) {
+            shown.push_back(value);
+        }
+    }
+    return shown;
+}
+
+constexpr double most_side = 16'384;
+constexpr double most_pixels = 40e6;
+constexpr double dpi_of_css = 96;
+constexpr double mm_of_inch = 25.4;
+
+}  // namespace
+
+Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes) {
+    const Document document = document_of(request);
+    const double width = number_of(request, "width", 0);
+    const double height = number_of(request, "height", 0);
+    if (!(width >= 1 && height >= 1 && width <= most_side && height <= most_side && width * height <= most_pixels)) {
+        throw BadRequest("'width' and 'height' have to be 1 to 16384, and at most 40 million pixels");
+    }
+    const bool is_window = request.contains("window");
+    OptionValues values = shown_options(options_of(request), !is_window);
+    if (is_window) {
+        const double dpi = dpi_of_css * number_of(request, "ratio", 1);
+        std::string window;
+        for (const Json& side : request["window"]) {
+            if (!side.is_string()) throw BadRequest("'window' has to be four texts");
+            window += (window.empty() ? "" : ",") + side.get<std::string>();
+        }
+        const auto millimetres = [&](double pixels) { return fmt::format("{}", std::round(pixels) * mm_of_inch / dpi); };
+        values.push_back({"size", millimetres(width) + "x" + millimetres(height) + "mm"});
+        values.push_back({"margin", "0mm"});
+        values.push_back({"dpi", fmt::format("{}", dpi)});
+        values.push_back({"window", window});
+    } else {
+        OptionValues own;  // without keys and defines of the pattern
+        std::copy_if(values.begin(), values.end(), std::back_inserter(own), [](const OptionValue& value) {
+            return find_option(prints().options(), value.name) != nullptr;
+        });
+        const Page page = read_draw_settings(own).page;
+        const double dpi = std::min(width / page.width, height / page.height) * mm_of_inch;
+        values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
+    }
+    const Pixels pixels = draw_pixels(document, values, monitor);
+    bytes.assign(pixels.bytes.begin(), pixels.bytes.end());
+    return {{"width", pixels.width}, {"height", pixels.height}, {"remarks", json_of(pixels.remarks)}};
+}
+
+// --- files ------------------------------------------------------------------------------------------------------
+
+Json answer_import(const Json& request, const std::string& file) {
+    const auto source = std::make_shared<const Source>(text_of(request, "name"), file);
+    const std::string view_text = text_of(request, "view", "");
+    const SourcePointer view = view_text.empty() ? nullptr : std::make_shared<const Source>("view", view_text);
+    const auto format = import_format(file);
+    if (!format) throw std::runtime_error(source->name() + ": neither a cpfg file nor a Fractint collection");
+    Diagnostics diagnostics;
+    const auto systems = *format == ImportFormat::cpfg ? import_cpfg(source, view, diagnostics)
+                                                       : import_fractint(source, diagnostics);
+    Json list = Json::array();
+    for (const ImportedSystem& system : systems) {
+        list.push_back({{"name", import_file_name(system.name)},
+                        {"line", system.line},
+                        {"text", system.pattern},
+                        {"losses", system.losses}});
+    }
+    return {{"systems", std::move(list)}, {"diagnostics", json_of(diagnostics.sorted())}};
+}
+
+Json answer_show(const Json& request, const std::string& file) {
+    // The extension does not matter: formats are recognised by their first bytes.
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / "sikku-shown-file";
+    std::ofstream(path, std::ios::binary).write(file.data(), static_cast<std::streamsize>(file.size()));
+    std::optional<Provenance> found;
+    try {
+        found = read_provenance(path);
+        if (!found && is_midi_file(path)) {
+            MidiTexts texts = read_midi_texts({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
+            if (!texts.pattern.empty()) found = Provenance{std::move(texts.pattern), std::move(texts.made)};
+        }
+    } catch (...) {
+        std::filesystem::remove(path);
+        throw;
+    }
+    std::filesystem::remove(path);
+    if (!found) throw std::runtime_error(text_of(request, "name") + ": this file contains no pattern");
+    return {{"text", found->pattern}, {"made", found->made}};
+}
+
+namespace {
+
+/// As a shell reads it.
+std::string quoted(const std::string& text) {
+    const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char byte) {
+        return std::isalnum(byte) != 0 || std::string_view("_-./:,=@%+").find(static_cast<char>(byte)) != std::string_view::npos;
+    });
+    if (is_plain) return text;
+    std::string result = "'";
+    for (const char byte : text) {
+        if (byte == '\'') {
+            result += "'\\''";
+        } else {
+            result += byte;
+        }
+    }
+    return result + "'";
+}
+
+}  // namespace
+
+Json answer_command(const Json& request) {
+    const Json& pattern = member(request, "pattern");
+    const std::string format = text_of(request, "format");
+    const std::string name = text_of(pattern, "name");
+    std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted(name);
+    const std::string variant = text_of(pattern, "variant", "");
+    if (!variant.empty()) command += " --variant " + quoted(variant);
+    for (const auto& [key, value] : pairs_of(pattern, "settings")) {
+        if (key == "derivation length") {
+            command += " -n " + quoted(value);
+        } else if (key == "seed") {
+            command += " --seed " + quoted(value);
+        } else {
+            command += " --set " + quoted(key + "=" + value);
+        }
+    }
+    for (const OptionValue& value : options_of(request)) {
+        if (value.text == "false") {
+            command += " --no-" + value.name;
+        } else if (value.text == "true") {
+            command += " --" + value.name;
+        } else {
+            const OptionInfo* option = find_option(prints().options(), value.name);
+            const bool is_optional = option && option->value.starts_with('[');  // as `--dots[=SIZE COLOUR]`
+            command += " --" + value.name + (is_optional ? "=" : " ") + quoted(value.text);
+        }
+    }
+    const std::string stem = std::filesystem::path(name).stem().string();
+    return {{"command", command + " -o " + quoted(stem + "." + format)}};
+}
+
+}  // namespace sikku

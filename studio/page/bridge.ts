@@ -1,0 +1,34 @@
+// Calls the WebAssembly module: see studio/wasm/module.cpp.
+import { makeZlib } from "./zlib";
+
+export interface RawAnswer { json: string; bytes: Uint8Array }
+export type Bridge = (json: string, bytes?: Uint8Array) => RawAnswer;
+
+/// Starts the module. `makeModule` is the default export of sikku-bridge.cjs; `hooks` may hold `instantiateWasm`.
+export async function startBridge(makeModule: (hooks: object) => Promise<any>, hooks: object = {}): Promise<Bridge> {
+    const module = await makeModule({ zlib: makeZlib(), ...hooks });
+    const encoder = new TextEncoder();
+    const decoder = new TextDecoder();
+    const put = (bytes: Uint8Array): number => {
+        const at: number = module._malloc(Math.max(bytes.length, 1));
+        module.HEAPU8.set(bytes, at);
+        return at;
+    };
+    const none = new Uint8Array(0);
+    return (json, bytes = none) => {
+        const text = encoder.encode(json);
+        const textAt = put(text);
+        const bytesAt = put(bytes);
+        try {
+            module._sikku_request(textAt, text.length, bytesAt, bytes.length);
+        } finally {
+            module._free(textAt);
+            module._free(bytesAt);
+        }
+        const taken = (at: number, size: number): Uint8Array => module.HEAPU8.slice(at, at + size);
+        return {
+            json: decoder.decode(taken(module._sikku_json(), module._sikku_json_size())),
+            bytes: taken(module._sikku_bytes(), module._sikku_bytes_size()),
+        };
+    };
+}

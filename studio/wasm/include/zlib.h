@@ -1,0 +1,36 @@
+// studio/wasm/include/zlib.h: what the libraries use of zlib, served by pako, zlib in JavaScript, which makes the same
+// bytes: see studio/page/zlib.ts.
+#pragma once
+
+#include <cstddef>
+
+extern "C" {
+
+using Bytef = unsigned char;
+using uInt = unsigned int;
+using uLong = unsigned long;
+
+struct z_stream {
+    const Bytef* next_in;
+    uInt avail_in;
+    Bytef* next_out;
+    uInt avail_out;
+    int handle;  ///< number of the stream in JavaScript
+};
+
+enum { Z_NO_FLUSH = 0, Z_FULL_FLUSH = 3, Z_FINISH = 4 };
+enum { Z_OK = 0, Z_STREAM_END = 1 };
+enum { Z_DEFLATED = 8, Z_DEFAULT_STRATEGY = 0, Z_FILTERED = 1 };
+
+int deflateInit2(z_stream* stream, int level, int method, int window_bits, int memory_level, int strategy);
+int deflateReset(z_stream* stream);
+int deflate(z_stream* stream, int flush);
+int deflateEnd(z_stream* stream);
+int inflateInit(z_stream* stream);
+int inflateInit2(z_stream* stream, int window_bits);
+int inflate(z_stream* stream, int flush);
+int inflateEnd(z_stream* stream);
+uLong adler32_z(uLong checksum, const Bytef* bytes, std::size_t count);
+uLong crc32(uLong checksum, const Bytef* bytes, uInt count);
+
+}  // extern "C"
