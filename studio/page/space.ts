@@ -1,5 +1,386 @@
-import type { MakePanel } from "./context";
+// The panel that shows a drawing as a model in space: to be turned, lit, and grown.
+import type { MakePanel, Studio, Work } from "./context";
+import { button, element } from "./elements";
+import { between, eyeText, readEye, type Eye } from "./eye";
+import { Growth, type Grown } from "./growth";
+import { isStill } from "./map_view";
+import { addOrbit } from "./orbit";
+import { isAbort } from "./pictures";
+import type { Opened } from "./protocol";
+import { styleOf } from "./sheet";
+import { Stage, type Staged } from "./space_stage";
 
-export const makeSpacePanel: MakePanel = () => ({
-    name: "space", label: "Space", element: document.createElement("div"), show() {}, hide() {},
-});
+const mostSegments = 150_000; // a model of more would take hundreds of megabytes
+const growing = 700; // milliseconds for each derivation length
+const turning = 380; // milliseconds in which one model turns into the next
+const front: Eye = { azimuth: 0, elevation: 0, distance: null };
+const usualLight = { azimuth: -38, elevation: 46 };
+
+const icons = {
+    play: "M5 3.2v9.6l8-4.8z",
+    pause: "M5 3v10M11 3v10",
+    turn: "M13.5 8a5.5 5.5 0 1 1-1.8-4.1M13.5 1.8v2.7h-2.7",
+    reset: "M3 8l5-5 5 5M4.5 6.8V13h7V6.8",
+};
+
+export const makeSpacePanel: MakePanel = (studio) => {
+    const panel = element("div", { class: "space" });
+    let view: SpaceView | null = null;
+    let hasFailed = false;
+    return {
+        name: "space", label: "Space", element: panel,
+        show() {
+            if (!view && !hasFailed) {
+                view = SpaceView.make(studio, panel);
+                hasFailed = view === null;
+                if (hasFailed) {
+                    panel.append(element("div", { class: "empty" }, element("p", {},
+                        "This browser offers no WebGL2, which draws models. Prints of drawings in space work without it; "
+                        + "so do models as OBJ and GLB files.")));
+                }
+            }
+            view?.show();
+        },
+        hide() { view?.hide(); },
+    };
+};
+
+class SpaceView {
+    private readonly growth: Growth;
+    private readonly note = element("p", { class: "note space-note", role: "status", hidden: true });
+    private readonly slider = element("input", { type: "range", id: "space-n", min: 0, max: 1, step: 1 });
+    private readonly count = element("output", { class: "number space-n", for: "space-n" });
+    private readonly facts = element("p", { class: "space-facts number" });
+    private readonly play: HTMLButtonElement;
+    private readonly turn: HTMLButtonElement;
+    private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
+    private readonly use: HTMLButtonElement;
+
+    private isShown = false;
+    private work: Work;
+    private opened: Opened | null = null;
+    private subject = "";
+    private eye: Eye = front;
+    private zoom = 1;
+    private shift: [number, number] = [0, 0];
+    private light = usualLight;
+    private n = 0;
+    private most = 0;
+    private model: Grown | null = null;
+    private before: { model: Grown; since: number } | null = null; // that turns into this one
+    private whole: Staged | null = null; // what the picture is arranged for
+    private isTurning = false;
+    private isGrowing = false;
+    private grownAt = 0;
+    private frame = 0;
+    private last = 0;
+    private asked = 0;
+
+    static make(studio: Studio, panel: HTMLElement): SpaceView | null {
+        const canvas = element("canvas", {
+            class: "space-canvas", tabindex: 0, role: "img", "aria-label": "Model", "aria-describedby": "space-hint",
+        });
+        try {
+            const stage = Stage.on(canvas);
+            return stage && new SpaceView(studio, panel, canvas, stage);
+        } catch (error) {
+            console.error(error);
+            return null;
+        }
+    }
+
+    private constructor(
+        private readonly studio: Studio, panel: HTMLElement, private readonly canvas: HTMLCanvasElement,
+        private readonly stage: Stage,
+    ) {
+        this.growth = new Growth(studio.engine, stage);
+        this.work = studio.store.work;
+        this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
+        this.turn = button("Turn around", () => this.spin(!this.isTurning), { icon: icons.turn });
+        this.use = button("Use this view for prints", () => this.useView(), { kind: "primary" });
+        panel.append(canvas, element("p", { class: "unseen", id: "space-hint" },
+            "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right mouse button or "
+            + "with Alt moves the light."), this.note, this.facts, this.makeTools(), this.makeLight());
+        this.wire();
+    }
+
+    private makeTools(): HTMLElement {
+        const reset = button("Reset the view (0)", () => this.reset(), { icon: icons.reset });
+        this.perspective.addEventListener("change", () => {
+            this.eye = { ...this.eye, distance: this.perspective.checked ? 4 : null };
+            this.draw();
+        });
+        return element("div", { class: "space-tools" },
+            element("div", { class: "space-growth" }, this.play,
+                element("label", { for: "space-n" }, "Growth"), this.slider, this.count),
+            element("div", { class: "toolbar" }, this.turn, reset,
+                element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"), this.use));
+    }
+
+    private makeLight(): HTMLElement {
+        const row = (id: string, label: string, least: number, most: number, value: number, act: (value: number) => void) => {
+            const input = element("input", { type: "range", id, min: least, max: most, step: 1, value });
+            input.addEventListener("input", () => {
+                act(Number(input.value));
+                this.draw();
+            });
+            return { input, row: element("div", { class: "field" }, element("label", { for: id }, label), input) };
+        };
+        const around = row("space-light-around", "Direction", -180, 180, usualLight.azimuth,
+            (azimuth) => { this.light = { ...this.light, azimuth }; });
+        const height = row("space-light-height", "Height", 5, 90, usualLight.elevation,
+            (elevation) => { this.light = { ...this.light, elevation }; });
+        this.showLight = () => {
+            for (const [{ input }, value] of [[around, this.light.azimuth], [height, this.light.elevation]] as const) {
+                input.value = String(Math.round(value));
+                const [least, most] = [Number(input.min), Number(input.max)];
+                input.style.setProperty("--at", `${(100 * (value - least)) / (most - least)}%`);
+            }
+        };
+        this.showLight();
+        return element("details", { class: "space-light" }, element("summary", {}, "Light"),
+            element("div", { class: "space-light-fields" }, around.row, height.row));
+    }
+
+    private showLight: () => void = () => {};
+
+    private wire(): void {
+        const { canvas, studio } = this;
+        addOrbit(canvas, {
+            turn: (right, up) => {
+                this.eye = {
+                    ...this.eye, azimuth: between(this.eye.azimuth + right),
+                    elevation: Math.max(-90, Math.min(90, this.eye.elevation + up)),
+                };
+                this.draw();
+            },
+            shift: (right, down) => {
+                this.shift = [
+                    Math.max(-2, Math.min(2, this.shift[0] + (2 * right) / canvas.clientWidth)),
+                    Math.max(-2, Math.min(2, this.shift[1] - (2 * down) / canvas.clientHeight)),
+                ];
+                this.draw();
+            },
+            zoom: (factor) => {
+                this.zoom = Math.max(0.3, Math.min(40, this.zoom * factor));
+                this.draw();
+            },
+            light: (right, up) => {
+                const { azimuth, elevation } = this.light;
+                this.light = { azimuth: between(azimuth + right), elevation: Math.max(5, Math.min(90, elevation + up)) };
+                this.draw();
+            },
+            reset: () => this.reset(),
+            stop: () => this.spin(false),
+        });
+        this.slider.addEventListener("input", () => {
+            this.grow(false);
+            this.seek(Number(this.slider.value));
+        });
+        canvas.addEventListener("webglcontextlost", () => {
+            this.hide();
+            this.problem("The graphics driver has lost the model. Reload the page to see it again.");
+        });
+        new ResizeObserver(() => this.draw()).observe(canvas);
+        new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+        studio.onOpened((facts, work) => this.open(facts, work));
+    }
+
+    show(): void {
+        this.isShown = true;
+        if (this.studio.opened) this.open(this.studio.opened.facts, this.studio.opened.work);
+    }
+
+    hide(): void {
+        this.isShown = false;
+        this.grow(false);
+        this.spin(false);
+        cancelAnimationFrame(this.frame);
+        this.frame = 0;
+    }
+
+    private problem(text: string): void {
+        this.note.textContent = text;
+        this.note.hidden = text === "";
+    }
+
+    // A new text, or new values: the last model stays until the next has come.
+    private open(facts: Opened, work: Work): void {
+        if (!this.isShown) return;
+        const { name } = Growth.subject(work);
+        const isOther = work.pattern.name !== this.work.pattern.name || this.opened === null;
+        const n = Number(facts.n);
+        const isSame = name === this.subject && n === this.most;
+        this.work = work;
+        this.opened = facts;
+        this.subject = name;
+        if (isOther) this.reset();
+        if (isSame && this.model) return this.draw();
+        this.grow(false);
+        this.most = n;
+        this.slider.max = String(n);
+        this.seek(n);
+    }
+
+    private get refusal(): string {
+        const facts = this.opened;
+        if (!facts) return "";
+        const segments = Number(facts.cost.segments);
+        if (!facts.cost.is_derivable) return "This drawing is too large for a model. A smaller derivation length has one.";
+        if (!(segments > mostSegments)) return "";
+        return `This drawing has ${segments.toLocaleString("en")} segments; models are shown up to `
+            + `${mostSegments.toLocaleString("en")}. A smaller derivation length has one.`;
+    }
+
+    private seek(n: number): void {
+        this.n = n;
+        this.slider.value = String(n);
+        this.slider.style.setProperty("--at", `${this.most > 0 ? (100 * n) / this.most : 100}%`);
+        this.count.textContent = `n = ${n}`;
+        void this.load(n);
+    }
+
+    private async load(n: number): Promise<void> {
+        const { work } = this;
+        const asked = ++this.asked;
+        const refusal = n === this.most ? this.refusal : "";
+        if (refusal) {
+            this.problem(refusal);
+            return;
+        }
+        try {
+            const model = await this.growth.make(work, n, { key: "space" });
+            if (asked !== this.asked) return;
+            this.take(model, n);
+            this.problem(model === "empty" && n === this.most ? "This pattern draws nothing." : "");
+        } catch (error) {
+            if (isAbort(error) || asked !== this.asked) return;
+            this.problem(error instanceof Error ? error.message : String(error));
+        }
+    }
+
+    private take(model: Grown, n: number): void {
+        if (this.model && this.model !== model && !isStill() && this.isGrowing) {
+            this.before = { model: this.model, since: performance.now() };
+        }
+        this.model = model;
+        if (model !== "empty" && n === this.most) this.whole = model;
+        this.facts.textContent = model === "empty" ? "Nothing yet"
+            : `${model.triangles.toLocaleString("en").replaceAll(",", "\u202f")} triangles`;
+        this.describe();
+        this.draw();
+    }
+
+    private describe(): void {
+        const facts = this.opened;
+        this.canvas.setAttribute("aria-label", [
+            `Model of ${facts?.title || "the drawing"}`, `derivation length ${this.n}`,
+            `seen from ${Math.round(between(this.eye.azimuth))} degrees around, ${Math.round(this.eye.elevation)} degrees up`,
+        ].join(", "));
+    }
+
+    // --- motion
+
+    private reset(): void {
+        const text = this.opened ? styleOf("view", this.opened, this.work.draw) : undefined;
+        this.eye = readEye(text ?? "front") ?? front;
+        this.zoom = 1;
+        this.shift = [0, 0];
+        this.light = usualLight;
+        this.draw();
+    }
+
+    private spin(isTurning: boolean): void {
+        if (this.isTurning === isTurning) return;
+        this.isTurning = isTurning;
+        this.turn.setAttribute("aria-pressed", String(isTurning));
+        this.last = performance.now();
+        this.draw();
+    }
+
+    private grow(isGrowing: boolean): void {
+        if (this.isGrowing === isGrowing) return;
+        this.isGrowing = isGrowing;
+        this.play.setAttribute("aria-pressed", String(isGrowing));
+        this.play.setAttribute("aria-label", isGrowing ? "Stop growing" : "Grow");
+        this.play.title = isGrowing ? "Stop growing" : "Grow";
+        this.play.querySelector("path")?.setAttribute("d", isGrowing ? icons.pause : icons.play);
+        if (!isGrowing) return;
+        if (this.n >= this.most) this.seek(0);
+        this.grownAt = performance.now();
+        void this.lookAhead();
+        this.draw();
+    }
+
+    // The next models, before they are wanted.
+    private async lookAhead(): Promise<void> {
+        const { work } = this;
+        for (let n = this.n; n <= this.most && this.isGrowing && work === this.work; ++n) {
+            try {
+                await this.growth.make(work, n, { key: "space-ahead", isAhead: true });
+            } catch {
+                return;
+            }
+        }
+    }
+
+    private advance(now: number): void {
+        if (this.isTurning) {
+            this.eye = { ...this.eye, azimuth: between(this.eye.azimuth + Math.min(60, now - this.last) * 0.018) };
+        }
+        if (this.before && now - this.before.since > turning) this.before = null;
+        if (this.isGrowing && now - this.grownAt > growing) {
+            if (this.n >= this.most) {
+                this.grow(false);
+            } else if (this.growth.kept(this.work, this.n + 1)) {
+                this.grownAt = now;
+                this.seek(this.n + 1);
+            }
+        }
+        this.last = now;
+    }
+
+    private draw(): void {
+        if (!this.isShown || this.frame) return;
+        this.frame = requestAnimationFrame((now) => {
+            this.frame = 0;
+            this.advance(now);
+            this.paint(now);
+            if (this.isTurning || this.isGrowing || this.before) this.draw();
+        });
+    }
+
+    private paint(now: number): void {
+        const { canvas } = this;
+        const ratio = Math.min(2, window.devicePixelRatio || 1);
+        const width = Math.round(canvas.clientWidth * ratio);
+        const height = Math.round(canvas.clientHeight * ratio);
+        if (width === 0 || height === 0) return;
+        if (canvas.width !== width || canvas.height !== height) {
+            canvas.width = width;
+            canvas.height = height;
+        }
+        this.perspective.checked = this.eye.distance !== null;
+        this.showLight();
+        const current = this.model;
+        const frame = this.whole ?? (current !== "empty" ? current : null);
+        if (!frame) return;
+        const share = this.before ? Math.min(1, (now - this.before.since) / turning) : 1;
+        const models = [
+            ...(this.before && this.before.model !== "empty" ? [{ model: this.before.model, presence: 1 - share }] : []),
+            ...(current && current !== "empty" ? [{ model: current, presence: share }] : []),
+        ];
+        this.stage.draw({
+            models, frame, eye: this.eye, zoom: this.zoom, shift: this.shift, light: this.light,
+            isDark: document.documentElement.dataset["theme"] === "dark",
+        });
+    }
+
+    private useView(): void {
+        const view = eyeText(this.eye);
+        const draw = this.work.draw.filter(([name]) => name !== "view");
+        this.studio.store.change({ draw: [...draw, ["view", view]] }, "view");
+        this.work = this.studio.store.work;
+        this.studio.say(`Prints are drawn from here: view ${view}.`);
+    }
+}

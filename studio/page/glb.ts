@@ -1,0 +1,122 @@
+// Reads the models that the libraries write: binary glTF 2.0 of one node and one mesh, with positions, normals and a
+// plain colour for each primitive. Everything is checked before it is used.
+
+export interface ModelPart {
+    positions: Float32Array; // three for each corner
+    normals: Float32Array;
+    corners: Uint32Array; // three for each triangle
+    colour: [number, number, number, number]; // linear, 0 to 1
+    isTwoSided: boolean;
+}
+
+export interface Model {
+    parts: ModelPart[];
+    low: [number, number, number]; // of all positions
+    high: [number, number, number];
+    triangles: number;
+    bytes: number;
+}
+
+export class BadModel extends Error {
+    constructor(what: string) { super(`the model cannot be read: ${what}`); }
+}
+
+const mostParts = 4096;
+const mostJson = 64 * 1024 * 1024;
+
+type Json = { [name: string]: unknown };
+
+function fail(what: string): never {
+    throw new BadModel(what);
+}
+
+function list(json: Json, name: string): Json[] {
+    const value = json[name];
+    if (!Array.isArray(value) || value.length > 4 * mostParts) fail(`no list of ${name}`);
+    return value as Json[];
+}
+
+function whole(value: unknown, what: string, absent?: number): number {
+    if (value === undefined && absent !== undefined) return absent;
+    if (typeof value !== "number" || !Number.isSafeInteger(value) || value < 0) fail(`${what} is not a whole number`);
+    return value as number;
+}
+
+export function readModel(bytes: Uint8Array): Model {
+    const { json, binary } = chunks(bytes);
+    const accessors = list(json, "accessors");
+    const views = list(json, "bufferViews");
+    const materials = list(json, "materials");
+    const mesh = list(json, "meshes")[0] ?? fail("no mesh");
+    const primitives = list(mesh, "primitives");
+    if (primitives.length > mostParts) fail("too many parts");
+
+    const numbers = (index: unknown, type: string, component: number) => {
+        const accessor = accessors[whole(index, "an accessor")] ?? fail("an accessor is missing");
+        if (accessor["type"] !== type || accessor["componentType"] !== component) fail("an accessor of another type");
+        const view = views[whole(accessor["bufferView"], "a view")] ?? fail("a view is missing");
+        const count = whole(accessor["count"], "a count") * (type === "VEC3" ? 3 : 1);
+        const start = whole(view["byteOffset"], "an offset", 0) + whole(accessor["byteOffset"], "an offset", 0);
+        const room = whole(view["byteLength"], "a length") - whole(accessor["byteOffset"], "an offset", 0);
+        if (view["byteStride"] !== undefined) fail("a view with gaps");
+        if (count * 4 > room || start + count * 4 > binary.byteLength) fail("a view beyond the end");
+        return binary.slice(start, start + count * 4).buffer as ArrayBuffer; // aligned
+    };
+
+    const low: [number, number, number] = [Infinity, Infinity, Infinity];
+    const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+    let triangles = 0;
+    const parts = primitives.map((primitive): ModelPart => {
+        if (whole(primitive["mode"], "a mode", 4) !== 4) fail("a part without triangles");
+        const attributes = (primitive["attributes"] ?? {}) as Json;
+        const positions = new Float32Array(numbers(attributes["POSITION"], "VEC3", 5126));
+        const normals = new Float32Array(numbers(attributes["NORMAL"], "VEC3", 5126));
+        const corners = new Uint32Array(numbers(primitive["indices"], "SCALAR", 5125));
+        if (normals.length !== positions.length || corners.length % 3) fail("corners without a normal");
+        const count = positions.length / 3;
+        for (const corner of corners) if (corner >= count) fail("a corner that is missing");
+        for (let index = 0; index < positions.length; ++index) {
+            const value = positions[index]!;
+            if (!Number.isFinite(value)) fail("a position that is not finite");
+            const axis = index % 3;
+            if (value < low[axis]!) low[axis] = value;
+            if (value > high[axis]!) high[axis] = value;
+        }
+        triangles += corners.length / 3;
+        const material = materials[whole(primitive["material"], "a material")] ?? fail("a material is missing");
+        return { positions, normals, corners, colour: colourOf(material), isTwoSided: material["doubleSided"] === true };
+    });
+    if (triangles === 0) fail("no triangles");
+    return { parts, low, high, triangles, bytes: binary.byteLength };
+}
+
+function colourOf(material: Json): ModelPart["colour"] {
+    const surface = (material["pbrMetallicRoughness"] ?? {}) as Json;
+    const factor = surface["baseColorFactor"] ?? [1, 1, 1, 1];
+    const isColour = Array.isArray(factor) && factor.length === 4
+        && factor.every((value) => typeof value === "number" && value >= 0 && value <= 1);
+    if (!isColour) fail("a colour that is none");
+    return factor as ModelPart["colour"];
+}
+
+// The header, the text and the numbers.
+function chunks(bytes: Uint8Array): { json: Json; binary: Uint8Array } {
+    const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    if (bytes.byteLength < 28 || data.getUint32(0, true) !== 0x46546c67) fail("not binary glTF");
+    if (data.getUint32(4, true) !== 2) fail("another version of glTF");
+    if (data.getUint32(8, true) !== bytes.byteLength) fail("its length is wrong");
+    const textLength = data.getUint32(12, true);
+    if (data.getUint32(16, true) !== 0x4e4f534a || textLength > mostJson) fail("no text");
+    const next = 20 + textLength;
+    if (textLength % 4 || next + 8 > bytes.byteLength) fail("the text is cut off");
+    const binaryLength = data.getUint32(next, true);
+    if (data.getUint32(next + 4, true) !== 0x004e4942 || next + 8 + binaryLength > bytes.byteLength) fail("no numbers");
+    let json: unknown;
+    try {
+        json = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes.subarray(20, next)));
+    } catch {
+        fail("its text is not JSON");
+    }
+    if (typeof json !== "object" || json === null || Array.isArray(json)) fail("its text is not an object");
+    return { json: json as Json, binary: bytes.subarray(next + 8, next + 8 + binaryLength) };
+}

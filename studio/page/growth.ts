@@ -1,0 +1,79 @@
+// Models of a pattern at its derivation lengths, made when they are wanted and kept.
+import { RequestFailed, type Engine, type Work } from "./context";
+import { readModel } from "./glb";
+import { isAbort } from "./pictures";
+import type { Made, PatternRequest } from "./protocol";
+import { optionOf } from "./sheet";
+import type { Stage, Staged } from "./space_stage";
+
+const mostBytes = 256 * 1024 * 1024;
+const modelSettings = ["line", "stroke", "fill", "palette", "budget"]; // options that a model depends on
+
+/// What is there at a derivation length; `empty`: nothing is drawn yet.
+export type Grown = Staged | "empty";
+
+export class Growth {
+    private readonly models = new Map<string, Grown>(); // the last used last
+    private used = 0;
+
+    constructor(private readonly engine: Engine, private readonly stage: Stage) {}
+
+    /// What models of the work depend on, derivation length apart.
+    static subject(work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
+        const settings = work.pattern.settings.filter(([name]) => name !== "derivation length");
+        const options = modelSettings.flatMap((name): [string, string][] => {
+            const value = optionOf(work.draw, name);
+            return value === undefined ? [] : [[name, value]];
+        });
+        const pattern = { ...work.pattern, settings };
+        return { pattern, options, name: JSON.stringify([pattern, options]) };
+    }
+
+    /// The model, if it is there already.
+    kept(work: Work, n: number): Grown | undefined {
+        const name = `${n} ${Growth.subject(work).name}`;
+        const model = this.models.get(name);
+        if (model) {
+            this.models.delete(name);
+            this.models.set(name, model);
+        }
+        return model;
+    }
+
+    /// Throws what the libraries say of a drawing that has no model.
+    async make(work: Work, n: number, options: { key: string; isAhead?: boolean }): Promise<Grown> {
+        const kept = this.kept(work, n);
+        if (kept) return kept;
+        const { pattern, options: settings, name } = Growth.subject(work);
+        const numbered = { ...pattern, settings: [...pattern.settings!, ["derivation length", String(n)] as [string, string]] };
+        let model: Grown;
+        try {
+            const { bytes } = await this.engine.request<Made>(
+                { do: "make", interpreter: "draw", format: "glb", options: settings, pattern: numbered },
+                { key: options.key, lane: options.isAhead ? "back" : "front" });
+            model = this.stage.add(readModel(bytes));
+        } catch (error) {
+            if (isAbort(error) || !(error instanceof RequestFailed) || !isEmpty(error)) throw error;
+            model = "empty";
+        }
+        this.keep(`${n} ${name}`, model);
+        return model;
+    }
+
+    private keep(name: string, model: Grown): void {
+        if (this.models.has(name)) return;
+        this.models.set(name, model);
+        this.used += model === "empty" ? 0 : model.bytes;
+        for (const [oldest, other] of this.models) {
+            if (this.used <= mostBytes || oldest === name) break;
+            this.models.delete(oldest);
+            if (other === "empty") continue;
+            this.used -= other.bytes;
+            this.stage.remove(other);
+        }
+    }
+}
+
+function isEmpty({ message }: RequestFailed): boolean {
+    return message.startsWith("nothing to draw") || message.startsWith("there is nothing to model");
+}
