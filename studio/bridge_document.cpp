@@ -379,7 +379,7 @@ Json answer_command(const Json& request) {
     for (const OptionValue& value : options_of(request)) {
         if (value.text == "false") {
             command += " --no-" + value.name;
-        } else if (value.text == "true") {
+        } else if (value.text == "true" || value.text.empty()) {
             command += " --" + value.name;
         } else {
             const OptionInfo* option = find_option(prints().options(), value.name);

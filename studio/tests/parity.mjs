@@ -1,0 +1,207 @@
+// Compares the libraries as WebAssembly with the native ones and with the program, byte for byte.
+//     node parity.mjs NATIVE_BUILD [--quick]
+// NATIVE_BUILD has bin/sikku and bin/sikku-bridge; the module is in build/studio.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, join, resolve } from "node:path";
+import { loadBridge, root } from "./load_bridge.mjs";
+
+const build = resolve(process.argv[2] ?? join(root, "build/dev"));
+const is_quick = process.argv.includes("--quick");
+const failures = [];
+const counts = new Map();
+
+/// Asks the native program, one request after the other.
+function native_bridge() {
+    const program = spawn(join(build, "bin/sikku-bridge"), { stdio: ["pipe", "pipe", "inherit"] });
+    let buffer = Buffer.alloc(0);
+    let wanted = null;
+    program.stdout.on("data", (data) => {
+        buffer = Buffer.concat([buffer, data]);
+        wanted?.();
+    });
+    const taken = async (find) => {
+        for (;;) {
+            const found = find();
+            if (found) return found;
+            await new Promise((ready, fail) => {
+                wanted = ready;
+                program.once("exit", () => fail(new Error("the native bridge ended")));
+            });
+            program.removeAllListeners("exit");
+        }
+    };
+    return {
+        async ask(json, bytes) {
+            const text = Buffer.from(json);
+            program.stdin.write(`${text.length} ${bytes.length}\n`);
+            program.stdin.write(text);
+            program.stdin.write(bytes);
+            const sizes = await taken(() => {
+                const end = buffer.indexOf(10);
+                if (end < 0) return null;
+                const head = buffer.subarray(0, end).toString().split(" ").map(Number);
+                buffer = buffer.subarray(end + 1);
+                return head;
+            });
+            return taken(() => {
+                if (buffer.length < sizes[0] + sizes[1]) return null;
+                const reply = {
+                    json: buffer.subarray(0, sizes[0]).toString(),
+                    bytes: Buffer.from(buffer.subarray(sizes[0], sizes[0] + sizes[1])),
+                };
+                buffer = buffer.subarray(sizes[0] + sizes[1]);
+                return reply;
+            });
+        },
+        end: () => program.stdin.end(),
+    };
+}
+
+const native = native_bridge();
+const web = await loadBridge();
+
+function fail(request, what) {
+    failures.push(`${request.do} ${request.format ?? ""} ${request.pattern?.name ?? request.name ?? ""}: ${what}`);
+}
+
+/// Where two texts differ.
+function difference(a, b) {
+    let at = 0;
+    while (at < a.length && a[at] === b[at]) ++at;
+    return `native …${a.slice(Math.max(at - 40, 0), at + 60)}… web …${b.slice(Math.max(at - 40, 0), at + 60)}…`;
+}
+
+/// Returns the native reply. Pixels may differ by one level.
+async function compare(request, bytes = Buffer.alloc(0)) {
+    const kind = `${request.do} ${request.format ?? ""}`.trim();
+    counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    const json = JSON.stringify(request);
+    const expected = await native.ask(json, bytes);
+    const got = web(json, bytes);
+    if (expected.json !== got.json) fail(request, difference(expected.json, got.json));
+    else if (request.do === "pixels") {
+        let most = 0;
+        for (let i = 0; i < expected.bytes.length; ++i) most = Math.max(most, Math.abs(expected.bytes[i] - got.bytes[i]));
+        if (expected.bytes.length !== got.bytes.length || most > 1) fail(request, `pixels differ by ${most}`);
+    } else if (request.format !== "png" && Buffer.compare(expected.bytes, got.bytes) !== 0) {
+        fail(request, difference(expected.bytes.toString("latin1"), Buffer.from(got.bytes).toString("latin1")));
+    }
+    return expected;
+}
+
+// Vector formats, models, scores. Bytes of pictures differ as their writers do; `pixels` compares what they show.
+const drawn = ["svg", "pdf", "hpgl", "gcode", "obj", "glb"];
+const played = ["mid", "musicxml", "ly", "notes.svg", "html"];
+
+async function compare_pattern(pattern, rich) {
+    await compare({ do: "open", pattern });
+    for (const format of rich ? drawn : ["svg"]) await compare({ do: "make", interpreter: "draw", format, pattern });
+    for (const format of rich ? played : ["mid"]) await compare({ do: "make", interpreter: "play", format, pattern });
+    await compare({ do: "measure", pattern });
+    await compare({ do: "kolam", pattern });
+    await compare({ do: "check", pattern });
+    if (rich) await compare({ do: "pixels", width: 300, height: 300, pattern });
+    if (rich) await compare({ do: "notes", pattern });
+}
+
+const { patterns } = JSON.parse((await compare({ do: "patterns" })).json);
+await compare({ do: "help" });
+for (const { name, text } of patterns) {
+    await compare_pattern({ name: `${name}.lsys`, text, settings: [] }, !is_quick);
+}
+
+// Variants, and other options.
+for (const { name, text } of patterns) {
+    const { variants, has_view } = JSON.parse(
+        (await compare({ do: "open", pattern: { name: `${name}.lsys`, text, settings: [["seed", "7"]] } })).json);
+    const pattern = { name: `${name}.lsys`, text, settings: [] };
+    for (const variant of variants ?? []) {
+        await compare({ do: "make", interpreter: "draw", format: "svg", pattern: { ...pattern, variant } });
+    }
+    const options = [["size", "A3"], ["landscape", "true"], ["margin", "7mm"], ["rotate", "17"], ["stroke", "0.4mm navy"]];
+    await compare({ do: "make", interpreter: "draw", format: "svg", options, pattern });
+    if (has_view) {
+        const window = ["-3.5", "-2.25", "40", "41.25"];
+        const deep = { ...pattern, settings: [["derivation length", "40"]] };
+        await compare({ do: "pixels", width: 256, height: 256, window, pattern: is_quick ? pattern : deep });
+    }
+}
+
+// Damaged patterns: pieces cut out, doubled, exchanged; characters replaced. The same ones every time.
+let state = 1;
+const random = (below) => {
+    state = (Math.imul(state, 1103515245) + 12345) >>> 0;
+    return (state >>> 8) % below;
+};
+const damage = (text) => {
+    for (let round = 0; round < 1 + random(3); ++round) {
+        const at = random(text.length);
+        const end = Math.min(at + 1 + random(12), text.length);
+        const piece = text.slice(at, end);
+        const strange = ["[", "]", "(", ")", "--", ":", "\u00e9", "\u0000", "\n", "999999999", "{", "@", "é", "-1e309"];
+        text = [
+            text.slice(0, at) + text.slice(end),
+            text.slice(0, end) + piece + text.slice(end),
+            text.slice(0, at) + strange[random(strange.length)] + text.slice(end),
+            text.slice(0, at) + strange[random(strange.length)] + text.slice(at),
+        ][random(4)];
+    }
+    return text;
+};
+for (let i = 0; i < (is_quick ? 60 : 200); ++i) {
+    const { name, text } = patterns[random(patterns.length)];
+    await compare_pattern({ name: `${name}.lsys`, text: damage(text), settings: [] }, false);
+}
+
+// Grids, and systems of other programs.
+for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3"]) {
+    for (const symmetry of ["none", "C2", "C4", "mirror-x", "D4"]) {
+        for (const single_line of [false, true]) await compare({ do: "grid", grid, symmetry, single_line, seed: "5" });
+    }
+}
+const imports = join(root, "tests/corpus/import");
+for (const name of readdirSync(imports, { recursive: true })) {
+    if (/\.(l|frm)$/.test(name)) await compare({ do: "import", name: basename(name) }, readFileSync(join(imports, name)));
+}
+
+// What the program writes.
+const folder = mkdtempSync(join(tmpdir(), "sikku-parity-"));
+const sikku = (...command) => execFileSync(join(build, "bin/sikku"), command, { maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
+const asked = (request) => {
+    const reply = web(JSON.stringify(request));
+    return JSON.parse(reply.json).error ? null : Buffer.from(reply.bytes);
+};
+const same = (request, run) => {
+    const kind = `program ${request.do}`;
+    counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    let expected = null;
+    try {
+        expected = run();
+    } catch { /* both have to refuse */ }
+    const got = asked(request);
+    if ((expected === null) !== (got === null)) fail(request, `only ${got === null ? "the program" : "the web build"} has a result`);
+    else if (got !== null && Buffer.compare(expected, got) !== 0) fail(request, `differs from the program: ${difference(expected.toString("latin1"), got.toString("latin1"))}`);
+};
+for (const { name, text } of patterns.filter((_, i) => !is_quick || i % 4 === 0)) {
+    const pattern = { name: `${name}.lsys`, text, settings: [] };
+    const written = (command, format) => {
+        const file = join(folder, `${name}.${format}`);
+        sikku("-q", command, name, "-o", file);
+        return readFileSync(file);
+    };
+    same({ do: "make", interpreter: "draw", format: "svg", pattern }, () => written("draw", "svg"));
+    same({ do: "make", interpreter: "draw", format: "pdf", pattern }, () => written("draw", "pdf"));
+    same({ do: "make", interpreter: "play", format: "mid", pattern }, () => written("play", "mid"));
+    same({ do: "measure", pattern }, () => sikku("-q", "measure", name, "--json"));
+    same({ do: "kolam", pattern }, () => sikku("-q", "kolam", name, "--json"));
+}
+rmSync(folder, { recursive: true });
+native.end();
+
+for (const [kind, count] of counts) console.log(`${kind}: ${count}`);
+for (const failure of failures.slice(0, 40)) console.log(`DIFFERENT: ${failure}`);
+const total = [...counts.values()].reduce((sum, count) => sum + count, 0);
+console.log(`${total - failures.length} of ${total} equal`);
+process.exit(failures.length > 0 ? 1 : 0);
