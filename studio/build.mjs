@@ -7,7 +7,7 @@ import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
-import { constants, deflateRawSync } from "node:zlib";
+import { deflateRawSync } from "node:zlib";
 import { notices } from "./notices.mjs";
 
 const most_bytes = 2 * 1024 * 1024;
@@ -67,25 +67,28 @@ async function style() {
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
-const [script, worker, css] = await Promise.all([bundle("main.ts"), bundle("worker.ts"), style()]);
-const wasm = readFileSync(join(bridge, "sikku-bridge.wasm"));
-const libraries = deflateRawSync(wasm, { level: 9, memLevel: 9, strategy: constants.Z_DEFAULT_STRATEGY }).toString("base64");
+// What the page unpacks when it opens: see page/embedded.ts.
+function packed(contents) {
+    return deflateRawSync(contents, { level: 9, memLevel: 9 }).toString("base64");
+}
+
+const boot = await bundle("boot.ts");
 const parts = {
-    "studio.css": css,
-    "worker.ts": worker,
-    "main.ts": script,
-    libraries,
-    "script-hash": `'sha256-${createHash("sha256").update(script).digest("base64")}'`,
+    style: await style(),
+    boot,
+    "script-hash": `'sha256-${createHash("sha256").update(boot).digest("base64")}'`,
+    script: packed(await bundle("main.ts")),
+    worker: packed(await bundle("worker.ts")),
+    libraries: packed(readFileSync(join(bridge, "sikku-bridge.wasm"))),
 };
-const page = readFileSync(join(here, "page/studio.html"), "utf8")
-    .replace(/\{\{([a-z.-]+)\}\}/g, (_, name) => parts[name] ?? (() => { throw new Error(`unknown part ${name}`); })());
+const page = readFileSync(join(here, "page/studio.html"), "utf8").replace(/\{\{([a-z-]+)\}\}/g, (_, name) => parts[name]);
 
 mkdirSync(dirname(resolve(values.output)), { recursive: true });
 writeFileSync(values.output, page);
-const size = Buffer.byteLength(page);
 const thousands = (count) => count.toLocaleString("en");
-console.log(`${values.output}: ${thousands(size)} bytes (libraries ${thousands(libraries.length)}, ` +
-    `script ${thousands(script.length)}, worker ${thousands(worker.length)}, style ${thousands(css.length)})`);
+const sizes = ["libraries", "script", "worker", "style"].map((name) => `${name} ${thousands(parts[name].length)}`);
+const size = Buffer.byteLength(page);
+console.log(`${values.output}: ${thousands(size)} bytes (${sizes.join(", ")})`);
 if (size > most_bytes) {
     console.error(`the page is larger than ${thousands(most_bytes)} bytes`);
     process.exitCode = 1;

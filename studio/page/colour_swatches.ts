@@ -33,7 +33,7 @@ class Swatch extends WidgetType {
 
 const matcher = new MatchDecorator({
     regexp: /#(?:[\da-fA-F]{8}|[\da-fA-F]{6}|[\da-fA-F]{3,4})\b/g,
-    decoration: (match) => Decoration.widget({ widget: new Swatch(match[0]), side: -1 }),
+    decorate: (add, from, _to, match) => add(from, from, Decoration.widget({ widget: new Swatch(match[0]), side: -1 })),
 });
 
 export const colour_swatches: Extension = ViewPlugin.fromClass(class {

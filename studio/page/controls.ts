@@ -197,7 +197,7 @@ export class Controls {
         const { cost, extent } = facts;
         const parts: string[] = [];
         if (cost.symbols) parts.push(counted(cost.symbols, "symbol"));
-        if (cost.segments) parts.push(counted(cost.segments, "segment"));
+        if (cost.segments && cost.segments !== "0") parts.push(counted(cost.segments, "segment"));
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
         this.cost.replaceChildren(element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."));
         this.cost.classList.toggle("deep", !cost.is_derivable);

@@ -2,6 +2,7 @@
 // the last of them waits, so that a slider that moves sees its pictures in order and never a queue of them.
 import type { Answer, Engine, RequestOptions } from "./context";
 import { RequestFailed } from "./context";
+import { scriptAddress, unpack } from "./embedded";
 import type { Failure, Request } from "./protocol";
 
 export type ToWorker = { module: WebAssembly.Module } | { id: number; json: string; bytes?: Uint8Array };
@@ -41,7 +42,7 @@ export class Pool implements Engine {
     private readonly scales = new Map<string, { json: string; bytes: Uint8Array }>(); // files that every worker knows
     private last = 0;
 
-    constructor(private readonly module: WebAssembly.Module, private readonly source: string, readonly workers: number) {
+    constructor(private readonly module: WebAssembly.Module, private readonly address: string, readonly workers: number) {
         for (let index = 0; index < workers; ++index) this.seats.push(this.seat());
     }
 
@@ -136,7 +137,7 @@ export class Pool implements Engine {
     }
 
     private seat(): Seat {
-        const worker = startWorker(this.source);
+        const worker = new Worker(this.address);
         const seat: Seat = { worker, job: null, timer: 0, isReady: false };
         worker.onmessage = (event: MessageEvent<FromWorker>) => this.receive(seat, event.data);
         worker.onerror = (event) => {
@@ -181,27 +182,11 @@ export class Pool implements Engine {
     }
 }
 
-let worker_address = "";
-
-function startWorker(source: string): Worker {
-    worker_address ||= URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-    return new Worker(worker_address);
-}
-
-function embedded(name: string): string {
-    return document.getElementById(name)!.textContent!.trim();
-}
-
-async function unpack(base64: string): Promise<ArrayBuffer> {
-    const text = atob(base64);
-    const bytes = new Uint8Array(text.length);
-    for (let index = 0; index < text.length; ++index) bytes[index] = text.charCodeAt(index);
-    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
-}
-
 /// Starts the libraries that the page carries.
 export async function startEngine(): Promise<Engine> {
-    const module = await WebAssembly.compile(await unpack(embedded("sikku-libraries")));
+    const [module, address] = await Promise.all([
+        unpack("sikku-libraries").then((bytes) => WebAssembly.compile(bytes)), scriptAddress("sikku-worker"),
+    ]);
     const workers = Math.max(2, Math.min(navigator.hardwareConcurrency || 2, most_workers));
-    return new Pool(module, embedded("sikku-worker"), workers);
+    return new Pool(module, address, workers);
 }

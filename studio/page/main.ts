@@ -2,14 +2,23 @@
 import { Application } from "./application";
 import { makeBenchPanel } from "./bench";
 import type { Work } from "./context";
+import { Controls } from "./controls";
+import { Editor } from "./editor";
+import { byId } from "./elements";
 import { startEngine } from "./engine";
 import { makeGalleryPanel } from "./gallery";
+import { applyTheme, makeLayout } from "./layout";
 import { makeMapPanel } from "./map";
+import { acceptDrops } from "./open_file";
+import { openPattern } from "./opening";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
 import type { Help, Patterns } from "./protocol";
+import { restoreScales } from "./scales";
+import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
 import { History } from "./store";
+import { makeTools } from "./tools";
 import { makeVariationsPanel } from "./variations";
 
 const first_text = `title: Snake kolam
@@ -30,10 +39,23 @@ const first: Work = {
     draw: [], play: [], place: null, panel: "map",
 };
 
+// Patterns that the program wrote into the page: `sikku studio PATTERN…`.
+function embedded(): Work["pattern"][] {
+    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
+    return list.map(({ name, text }) => ({ name, text, variant: "", settings: [] }));
+}
+
 async function main(): Promise<void> {
+    applyTheme();
+    makeLayout();
     const store = new History(first);
     const engine = await startEngine();
     const application = new Application(engine, store);
+    restoreScales(engine);
+    new Editor(application);
+    new Controls(application);
+    for (const pattern of embedded()) if (pattern.text !== store.work.pattern.text) openPattern(application, pattern);
+    const opening = application.open();
     const [patterns, help] = await Promise.all([
         engine.request<Patterns>({ do: "patterns" }), engine.request<Help>({ do: "help" }),
     ]);
@@ -42,7 +64,13 @@ async function main(): Promise<void> {
     new Panels(application, [
         makeMapPanel, makeSpacePanel, makeVariationsPanel, makePlayPanel, makeBenchPanel, makeGalleryPanel,
     ]);
-    void application.open();
+    makeTools(application);
+    acceptDrops(application);
+    await opening;
+    watchLinks(application);
 }
 
-void main();
+main().catch((error: unknown) => {
+    byId("message").dataset["kind"] = "error";
+    byId("message").textContent = `The studio could not start: ${String(error)}`;
+});

@@ -1,0 +1,219 @@
+// Export of what is on the screen, in every format of the program, or as the command that makes the same file.
+import type { Application } from "./application";
+import { RequestFailed } from "./context";
+import { openDialog, type Dialog } from "./dialog";
+import { button, element } from "./elements";
+import { bytes as sizeOf } from "./numbers_shown";
+import { drawOptions, windowOnScreen } from "./on_screen";
+import { optionGroups } from "./option_fields";
+import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
+import { drawInto } from "./thumbnails";
+
+type Interpreter = "draw" | "play";
+interface Choice { interpreter: Interpreter; format: FormatHelp; group: string }
+
+const groups: [string, Interpreter, RegExp][] = [
+    ["Print", "draw", /^(svg|pdf)$/], ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc)$/],
+    ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/], ["Model", "draw", /^(obj|glb|gltf)$/], ["Score", "play", /./],
+];
+const pattern_format: FormatHelp = {
+    extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true,
+};
+const types: Record<string, string> = {
+    svg: "image/svg+xml", pdf: "application/pdf", png: "image/png", gif: "image/gif", mid: "audio/midi",
+    musicxml: "application/vnd.recordare.musicxml+xml", html: "text/html", glb: "model/gltf-binary", wav: "audio/wav",
+    obj: "model/obj", flac: "audio/flac",
+};
+const pause = 200; // milliseconds after a change before the file is made again
+
+let chosen = "draw svg"; // remembered while the page is open
+
+function choicesOf(application: Application): Choice[] {
+    const facts = application.opened?.facts;
+    const { draw, play } = application.help;
+    const all = [...draw.formats.map((format) => ({ interpreter: "draw" as const, format })),
+        ...(facts?.is_melody === false && facts.is_spatial ? [] : play.formats).map((format) => ({ interpreter: "play" as const, format }))];
+    const rows = all.map((row): Choice => ({
+        ...row, group: groups.find(([, interpreter, names]) => interpreter === row.interpreter && names.test(row.format.extension))?.[0] ?? "Other",
+    }));
+    const ordered = groups.flatMap(([group]) => rows.filter((row) => row.group === group));
+    return [...ordered.filter((row) => row.group !== "Model" || facts?.is_spatial),
+        ...rows.filter((row) => row.group === "Other"), { interpreter: "draw", format: pattern_format, group: "Pattern" }];
+}
+
+class Export {
+    private readonly choices: Choice[];
+    private choice: Choice;
+    private timer = 0;
+    private made: { names: string[]; parts: Uint8Array[] } | null = null;
+    private isWindow: boolean;
+
+    private readonly dialog: Dialog;
+    private readonly preview = element("canvas", { class: "export-preview", width: 440, height: 440, role: "img", "aria-label": "The page" });
+    private readonly options = element("div", { class: "export-options" });
+    private readonly remarks = element("ul", { class: "remarks", "aria-live": "polite" });
+    private readonly command = element("code", { class: "command", tabindex: 0 });
+    private readonly save = button("Save", () => this.saveFiles(), { kind: "primary" });
+
+    constructor(private readonly application: Application) {
+        this.choices = choicesOf(application);
+        this.choice = this.choices.find((each) => this.nameOf(each) === chosen) ?? this.choices[0]!;
+        this.isWindow = windowOnScreen(application) !== null;
+        const unsubscribe = application.store.subscribe(() => this.refreshSoon());
+        this.dialog = openDialog("Export", { wide: true, closed: () => { unsubscribe(); clearTimeout(this.timer); } });
+        this.dialog.body.classList.add("export");
+        const copy = button("Copy", () => void navigator.clipboard.writeText(this.command.textContent ?? "")
+            .then(() => application.say("The command is copied.")), { kind: "quiet" });
+        this.dialog.body.append(this.formats(), element("div", { class: "export-page" }, this.preview, this.windowSwitch()),
+            element("div", { class: "export-side" }, this.remarks,
+                element("div", { class: "command-row" }, element("span", { class: "label" }, "As a command"), this.command, copy),
+                this.options));
+        this.dialog.footer.append(this.save);
+        this.choose(this.choice);
+    }
+
+    private nameOf(choice: Choice): string { return `${choice.interpreter} ${choice.format.extension}`; }
+
+    private formats(): HTMLElement {
+        const fields = [...new Set(this.choices.map((each) => each.group))].map((group) => {
+            const labels = this.choices.filter((each) => each.group === group).map((each) => {
+                const radio = element("input", { type: "radio", name: "format", class: "unseen" });
+                radio.checked = each === this.choice;
+                radio.addEventListener("change", () => this.choose(each));
+                return element("label", { class: "format", title: each.format.label }, radio,
+                    element("span", {}, each.format.label || each.format.extension.toUpperCase()), element("small", {}, `.${each.format.extension}`));
+            });
+            return element("fieldset", {}, element("legend", {}, group), ...labels);
+        });
+        return element("div", { class: "formats" }, ...fields);
+    }
+
+    private windowSwitch(): HTMLElement {
+        const box = element("input", { type: "checkbox" });
+        box.checked = this.isWindow;
+        box.addEventListener("change", () => {
+            this.isWindow = box.checked;
+            this.refreshSoon();
+        });
+        const label = element("label", { class: "switch" }, box, "Only the part in view");
+        label.hidden = !this.isWindow;
+        return label;
+    }
+
+    private choose(choice: Choice): void {
+        this.choice = choice;
+        chosen = this.nameOf(choice);
+        this.showOptions();
+        this.refresh();
+    }
+
+    // Groups that the format is about are open.
+    private showOptions(): void {
+        const { interpreter, format, group } = this.choice;
+        const { store, help } = this.application;
+        this.options.hidden = format === pattern_format;
+        const act = (name: string, value: string | null) => {
+            const options = store.work[interpreter].filter(([each]) => each !== name);
+            if (value !== null) options.push([name, value]);
+            store.change({ [interpreter]: options });
+        };
+        const made = optionGroups(help[interpreter].options, store.work[interpreter], act);
+        const about = { Print: /^page|layout/i, Plotter: /plotter/i, Picture: /picture|pixel/i, Model: /^page/i, Score: /^page|passage|score/i }[group];
+        for (const each of made) if (about?.test(each.dataset["group"]!)) each.setAttribute("open", "");
+        this.options.replaceChildren(...made);
+    }
+
+    private refreshSoon(): void {
+        clearTimeout(this.timer);
+        this.save.disabled = true;
+        this.timer = window.setTimeout(() => this.refresh(), pause);
+    }
+
+    private refresh(): void {
+        this.save.disabled = true;
+        this.save.textContent = "Making…";
+        this.made = null;
+        if (this.choice.format === pattern_format) this.offerPattern();
+        else void this.make();
+        void this.showPreview();
+    }
+
+    private optionsNow(): Options {
+        return this.choice.interpreter === "draw" ? drawOptions(this.application, this.isWindow) : this.application.store.work.play;
+    }
+
+    private async make(): Promise<void> {
+        const { interpreter, format } = this.choice;
+        const { engine, store } = this.application;
+        const request = { interpreter, format: format.extension, options: this.optionsNow(), pattern: store.work.pattern };
+        try {
+            void this.showCommand(request);
+            const { json, bytes } = await engine.request<Made>({ do: "make", ...request }, { key: "export", seconds: 60 });
+            let from = 0;
+            const parts = json.outputs.map(({ size }) => bytes.subarray(from, from += size));
+            this.offer(json.outputs.map((output) => output.name), parts);
+            this.showRemarks(json.remarks);
+        } catch (error) {
+            if (!(error instanceof RequestFailed)) return;
+            this.save.textContent = "Save";
+            const { option, message } = error.failure;
+            this.showRemarks([{ is_warning: true, text: option ? `${option}: ${message}` : message }]);
+        }
+    }
+
+    private offer(names: string[], parts: Uint8Array[]): void {
+        this.made = { names, parts };
+        const size = sizeOf(parts.reduce((sum, part) => sum + part.length, 0));
+        this.save.textContent = names.length === 1 ? `Save ${names[0]} (${size})` : `Save ${names.length} files (${size})`;
+        this.save.disabled = names.length === 0;
+    }
+
+    private offerPattern(): void {
+        const { pattern } = this.application.store.work;
+        this.command.parentElement!.hidden = true;
+        this.showRemarks(pattern.settings.length > 0
+            ? [{ is_warning: false, text: "Values chosen beside the text are not part of it; “Write into the text” puts them there." }] : []);
+        this.offer([pattern.name], [new TextEncoder().encode(pattern.text)]);
+    }
+
+    private async showCommand(request: {
+        interpreter: Interpreter; format: string; options: Options; pattern: PatternRequest;
+    }): Promise<void> {
+        try {
+            const { json } = await this.application.engine.request<Command>({ do: "command", ...request }, { key: "export-command" });
+            this.command.textContent = json.command;
+            this.command.parentElement!.hidden = false;
+        } catch {
+            this.command.parentElement!.hidden = true;
+        }
+    }
+
+    private showRemarks(remarks: Made["remarks"]): void {
+        this.remarks.replaceChildren(...remarks.map(({ is_warning, text }) => element("li", { class: is_warning ? "note warning" : "note" }, text)));
+    }
+
+    private async showPreview(): Promise<void> {
+        const isDrawn = this.choice.interpreter === "draw" && this.choice.format !== pattern_format;
+        this.preview.hidden = !isDrawn;
+        if (!isDrawn) return;
+        try {
+            await drawInto(this.preview, this.application.engine, this.application.store.work.pattern, this.optionsNow(), { key: "export-preview" });
+        } catch {
+            // the remarks say why
+        }
+    }
+
+    private saveFiles(): void {
+        const { made } = this;
+        if (!made) return;
+        made.names.forEach((name, at) => {
+            const type = types[name.slice(name.lastIndexOf(".") + 1)] ?? (this.choice.format.is_text ? "text/plain" : "application/octet-stream");
+            this.application.save(name, made.parts[at]!, type);
+        });
+        this.application.say(`Saved ${made.names.join(", ")}.`);
+    }
+}
+
+export function openExport(application: Application): void {
+    new Export(application);
+}

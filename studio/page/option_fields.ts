@@ -1,0 +1,82 @@
+// Fields for the options of prints and scores, from the one table of the libraries: names, values, limits and help.
+import { element } from "./elements";
+import type { OptionHelp, Options } from "./protocol";
+
+// What the page itself takes care of.
+const elsewhere = new Set(["steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help", "page"]);
+
+export interface OptionAct { (name: string, value: string | null): void }
+
+let last = 0;
+
+export function offered(options: OptionHelp[]): OptionHelp[] {
+    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // style is the pattern's
+}
+
+function capital(text: string): string {
+    return text.slice(0, 1).toUpperCase() + text.slice(1);
+}
+
+// The help ends in the default: `page size (A4)`.
+function defaultOf(option: OptionHelp): string {
+    return /\(([^()]+)\)$/.exec(option.help)?.[1] ?? "";
+}
+
+// Values that are listed: `grbl|z`.
+function choicesOf(option: OptionHelp): string[] {
+    return /^[a-z\d]+(\|[a-z\d]+)+$/.test(option.value) ? option.value.split("|") : [];
+}
+
+/// The field of one option; `value` is undefined if the option is not set.
+export function optionField(option: OptionHelp, value: string | undefined, act: OptionAct): HTMLElement {
+    const id = `option-${++last}`;
+    const help = element("p", { class: "option-help", id: `${id}-help` }, capital(option.help));
+    const name = capital(option.name.replaceAll("-", " "));
+    const onlyValue = /^[a-z]+$/.test(option.value) ? option.value : "";
+    const hasBox = option.kind === "flag" || option.value.startsWith("[") || onlyValue !== "";
+    if (hasBox) {
+        const on = onlyValue || "true";
+        const box = element("input", { type: "checkbox", id, "aria-describedby": help.id });
+        box.checked = value === undefined ? option.is_on : value !== "false";
+        box.addEventListener("change", () => act(option.name, box.checked === option.is_on ? null : box.checked ? on : "false"));
+        const row = element("div", { class: "field" }, element("label", { class: "switch", for: id }, box, name), help);
+        if (!option.value.startsWith("[")) return row;
+        const detail = element("input", {
+            type: "text", "aria-label": `${name}, value`, placeholder: option.value.slice(1, -1).toLowerCase(), spellcheck: "false",
+            value: value === undefined || value === "true" ? "" : value,
+        });
+        detail.addEventListener("change", () => {
+            box.checked = true;
+            act(option.name, detail.value.trim() || "true");
+        });
+        row.insertBefore(detail, help);
+        return row;
+    }
+    const choices = choicesOf(option);
+    const input = choices.length > 0
+        ? element("select", { id, "aria-describedby": help.id },
+            ...["", ...choices].map((each) => element("option", { value: each }, each || defaultOf(option) || "as usual")))
+        : element("input", {
+            type: "text", id, placeholder: defaultOf(option), spellcheck: "false",
+            inputmode: option.kind === "text" ? null : "decimal", "aria-describedby": help.id,
+        });
+    input.value = value ?? "";
+    input.addEventListener("change", () => act(option.name, input.value.trim() || null));
+    return element("div", { class: "field" }, element("label", { for: id }, name), input, help);
+}
+
+/// All options of the table in their groups, closed; a group with options that are set says how many.
+export function optionGroups(options: OptionHelp[], values: Options, act: OptionAct): HTMLElement[] {
+    const groups = new Map<string, OptionHelp[]>();
+    for (const option of offered(options)) {
+        const group = option.group || "Page";
+        groups.set(group, [...(groups.get(group) ?? []), option]);
+    }
+    return [...groups].map(([group, members]) => {
+        const fields = members.map((option) => optionField(option, values.find(([name]) => name === option.name)?.[1], act));
+        const set = members.filter((option) => values.some(([name]) => name === option.name)).length;
+        return element("details", { class: "group", "data-group": group },
+            element("summary", {}, capital(group.replace(/:$/, "")) + (set > 0 ? ` (${set} set)` : "")),
+            element("div", { class: "fields" }, ...fields));
+    });
+}
