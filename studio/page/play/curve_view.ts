@@ -1,0 +1,234 @@
+// The curve as it sounds: the whole path faint, what has sounded in the colour of its voice, what sounds bright, and
+// the place where the music is.
+import type { Melody } from "../sound/melody";
+import { eachSounding } from "../sound/melody";
+import type { Ink } from "./surface";
+import { readInk, Surface } from "./surface";
+import { voiceColour } from "./voice_colours";
+
+const room = 28; // pixels around the curve
+const chunk = 2000; // notes between two looks at the time
+const budget = 7; // milliseconds of a frame for long paths
+
+export class CurveView {
+    private readonly surface: Surface;
+    private melody: Melody | null = null;
+    private ink: Ink = readInk();
+    private faint: CanvasRenderingContext2D | null = null;
+    private done: CanvasRenderingContext2D | null = null;
+    private faintCount = 0; // notes that the layers show
+    private doneCount = 0;
+    private byEnd = new Uint32Array(0);
+    private before: Int32Array = new Int32Array(0); // the note that leads to each, without a jump
+    private scale = 1; // pixels in a turtle step
+    private left = 0;
+    private top = 0;
+    private muted: (voice: number) => boolean = () => false;
+
+    constructor(readonly canvas: HTMLCanvasElement, private readonly redraw: () => void) {
+        this.surface = new Surface(canvas, () => this.reset());
+    }
+
+    show(melody: Melody | null): void {
+        this.melody = melody;
+        this.byEnd = new Uint32Array(0);
+        if (melody) {
+            const end = (i: number) => melody.onset[i] + melody.duration[i];
+            this.byEnd = Uint32Array.from({ length: melody.count }, (_, i) => i).sort((a, b) => end(a) - end(b) || a - b);
+            this.before = leading(melody);
+        }
+        this.reset();
+    }
+
+    setMuted(muted: (voice: number) => boolean): void {
+        this.muted = muted;
+        this.reset();
+    }
+
+    reset(): void {
+        this.surface.fit();
+        this.ink = readInk();
+        this.faint = this.surface.layer();
+        this.done = this.surface.layer();
+        this.faintCount = this.doneCount = 0;
+        if (this.melody) this.place(this.melody);
+        this.redraw();
+    }
+
+    private place(melody: Melody): void {
+        const [x0, y0, x1, y1] = melody.box;
+        const width = Math.max(1e-9, x1 - x0);
+        const height = Math.max(1e-9, y1 - y0);
+        this.scale = Math.min((this.surface.width - 2 * room) / width, (this.surface.height - 2 * room) / height, 64);
+        this.left = this.surface.width / 2 - (this.scale * (x0 + x1)) / 2;
+        this.top = this.surface.height / 2 + (this.scale * (y0 + y1)) / 2;
+    }
+
+    private x(value: number): number { return this.left + this.scale * value; }
+    private y(value: number): number { return this.top - this.scale * value; }
+    private get thickness(): number { return Math.min(6, Math.max(1.3, this.scale * 0.17)); }
+
+    /// True if some of it is left for the next frame.
+    draw(tick: number): boolean {
+        const { surface, melody, faint, done } = this;
+        const { context } = surface;
+        context.clearRect(0, 0, surface.width, surface.height);
+        if (!melody || !faint || !done) return false;
+        const until = performance.now() + budget;
+        this.drawFaint(melody, faint, until);
+        this.drawDone(melody, done, tick, until);
+        surface.put(faint);
+        surface.put(done);
+        this.drawSounding(melody, tick);
+        return this.faintCount < melody.count || this.isBehind(melody, tick);
+    }
+
+    private drawFaint(melody: Melody, layer: CanvasRenderingContext2D, until: number): void {
+        layer.strokeStyle = this.ink.strong;
+        layer.globalAlpha = this.ink.isDark ? 0.42 : 0.5;
+        layer.lineWidth = Math.min(2, this.thickness * 0.55);
+        layer.lineCap = "round";
+        layer.lineJoin = "round";
+        while (this.faintCount < melody.count && performance.now() < until) {
+            const end = Math.min(melody.count, this.faintCount + chunk);
+            layer.beginPath();
+            for (let i = this.faintCount; i < end; ++i) this.trace(melody, layer, i, 1);
+            layer.stroke();
+            this.faintCount = end;
+        }
+    }
+
+    /// The run that leads to the note, and the note's piece up to a share of it.
+    private trace(melody: Melody, layer: CanvasRenderingContext2D, i: number, share: number): void {
+        const { path } = melody;
+        const before = this.before[i];
+        const x0 = path[4 * i];
+        const y0 = path[4 * i + 1];
+        if (before >= 0) {
+            layer.moveTo(this.x(path[4 * before + 2]), this.y(path[4 * before + 3]));
+            layer.lineTo(this.x(x0), this.y(y0));
+        } else {
+            layer.moveTo(this.x(x0), this.y(y0));
+        }
+        layer.lineTo(this.x(x0 + share * (path[4 * i + 2] - x0)), this.y(y0 + share * (path[4 * i + 3] - y0)));
+    }
+
+    private ended(melody: Melody, at: number, tick: number): boolean {
+        const i = this.byEnd[at];
+        return melody.onset[i] + melody.duration[i] <= tick;
+    }
+
+    private isBehind(melody: Melody, tick: number): boolean {
+        return this.doneCount < melody.count && this.ended(melody, this.doneCount, tick);
+    }
+
+    private drawDone(melody: Melody, layer: CanvasRenderingContext2D, tick: number, until: number): void {
+        if (this.doneCount > 0 && !this.ended(melody, this.doneCount - 1, tick)) {
+            layer.clearRect(0, 0, this.surface.width, this.surface.height); // back to an earlier place
+            this.doneCount = 0;
+        }
+        layer.lineCap = "round";
+        layer.lineJoin = "round";
+        layer.lineWidth = this.thickness;
+        while (this.isBehind(melody, tick) && performance.now() < until) {
+            const begin = this.doneCount;
+            while (this.doneCount < begin + chunk && this.isBehind(melody, tick)) ++this.doneCount;
+            for (let voice = 0; voice < melody.voices; ++voice) {
+                layer.strokeStyle = voiceColour(voice, this.ink.isDark);
+                layer.globalAlpha = this.muted(voice) ? 0.18 : 0.85;
+                layer.beginPath();
+                let isEmpty = true;
+                for (let at = begin; at < this.doneCount; ++at) {
+                    const i = this.byEnd[at];
+                    if (melody.voice[i] !== voice) continue;
+                    this.trace(melody, layer, i, 1);
+                    isEmpty = false;
+                }
+                if (!isEmpty) layer.stroke();
+            }
+        }
+    }
+
+    private drawSounding(melody: Melody, tick: number): void {
+        const { context } = this.surface;
+        context.lineCap = "round";
+        context.lineJoin = "round";
+        if (tick <= 0 && melody.count > 0) this.drawHead(melody, 0, 0);
+        eachSounding(melody, tick, tick + 1e-6, (i) => {
+            if (melody.onset[i] > tick) return;
+            const share = Math.min(1, (tick - melody.onset[i]) / melody.duration[i]);
+            const isMuted = this.muted(melody.voice[i]);
+            context.strokeStyle = voiceColour(melody.voice[i], this.ink.isDark);
+            for (const [width, alpha] of isMuted ? [[1, 0.3]] : [[3.6, 0.16], [2.2, 0.3], [1.25, 1]]) {
+                context.globalAlpha = alpha;
+                context.lineWidth = this.thickness * width;
+                context.beginPath();
+                this.trace(melody, context, i, share);
+                context.stroke();
+            }
+            context.globalAlpha = 1;
+            if (!isMuted) this.drawHead(melody, i, share);
+        });
+        context.globalAlpha = 1;
+    }
+
+    private drawHead(melody: Melody, i: number, share: number): void {
+        const { context } = this.surface;
+        const { path } = melody;
+        const x = this.x(path[4 * i] + share * (path[4 * i + 2] - path[4 * i]));
+        const y = this.y(path[4 * i + 1] + share * (path[4 * i + 3] - path[4 * i + 1]));
+        const radius = Math.max(4.5, this.thickness * 1.1);
+        const colour = voiceColour(melody.voice[i], this.ink.isDark);
+        context.globalAlpha = 0.22;
+        context.fillStyle = colour;
+        context.beginPath();
+        context.arc(x, y, radius * 2.3, 0, 2 * Math.PI);
+        context.fill();
+        context.globalAlpha = 1;
+        context.beginPath();
+        context.arc(x, y, radius, 0, 2 * Math.PI);
+        context.fillStyle = this.ink.isDark ? "#fff6e8" : "#fffdf8";
+        context.fill();
+        context.lineWidth = 2;
+        context.strokeStyle = colour;
+        context.stroke();
+    }
+
+    /// The tick of the piece that is nearest to a place of the canvas, within 40 pixels.
+    tickAt(x: number, y: number): number | null {
+        const { melody } = this;
+        if (!melody) return null;
+        let nearest = 40 * 40;
+        let found: number | null = null;
+        for (let i = 0; i < melody.count; ++i) {
+            const x0 = this.x(melody.path[4 * i]);
+            const y0 = this.y(melody.path[4 * i + 1]);
+            const dx = this.x(melody.path[4 * i + 2]) - x0;
+            const dy = this.y(melody.path[4 * i + 3]) - y0;
+            const length = dx * dx + dy * dy;
+            const share = length > 0 ? Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / length)) : 0;
+            const distance = (x - x0 - share * dx) ** 2 + (y - y0 - share * dy) ** 2;
+            if (distance < nearest) {
+                nearest = distance;
+                found = melody.onset[i] + Math.min(share, 0.999) * melody.duration[i];
+            }
+        }
+        return found;
+    }
+}
+
+/// The note of the same voice from whose end a straight run leads to each note; -1 where the curve jumps.
+function leading(melody: Melody): Int32Array {
+    const before = new Int32Array(melody.count).fill(-1);
+    const last = new Int32Array(melody.voices).fill(-1);
+    for (let i = 0; i < melody.count; ++i) {
+        const old = last[melody.voice[i]];
+        if (old >= 0) {
+            const aside = Math.abs(melody.path[4 * i] - melody.path[4 * old + 2]) > 1e-6;
+            const up = Math.abs(melody.path[4 * i + 1] - melody.path[4 * old + 3]) > 1e-6;
+            if (!(aside && up)) before[i] = old;
+        }
+        last[melody.voice[i]] = i;
+    }
+    return before;
+}

@@ -1,0 +1,59 @@
+// A canvas that fills its element at the resolution of the screen.
+
+export interface Ink { paper: string; raised: string; line: string; strong: string; ink: string; soft: string; faint: string; accent: string; isDark: boolean }
+
+/// The page's colours, as they are now.
+export function readInk(): Ink {
+    const style = getComputedStyle(document.documentElement);
+    const of = (name: string) => style.getPropertyValue(`--${name}`).trim();
+    return {
+        paper: of("sunken"), raised: of("raised"), line: of("line"), strong: of("line-strong"), ink: of("ink"),
+        soft: of("ink-soft"), faint: of("ink-faint"), accent: of("accent"),
+        isDark: document.documentElement.dataset["theme"] === "dark",
+    };
+}
+
+export class Surface {
+    readonly context: CanvasRenderingContext2D;
+    width = 1; // CSS pixels
+    height = 1;
+    ratio = 1;
+
+    constructor(readonly canvas: HTMLCanvasElement, changed: () => void) {
+        this.context = canvas.getContext("2d")!;
+        new ResizeObserver(() => {
+            if (this.fit()) changed();
+        }).observe(canvas);
+    }
+
+    /// True if the size is another.
+    fit(): boolean {
+        const { clientWidth, clientHeight } = this.canvas;
+        const ratio = Math.min(3, window.devicePixelRatio || 1);
+        if (clientWidth === 0 || clientHeight === 0) return false;
+        if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return false;
+        this.width = clientWidth;
+        this.height = clientHeight;
+        this.ratio = ratio;
+        this.canvas.width = Math.round(clientWidth * ratio);
+        this.canvas.height = Math.round(clientHeight * ratio);
+        this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+        return true;
+    }
+
+    /// Another canvas of the same size, to keep what does not change.
+    layer(): CanvasRenderingContext2D {
+        const canvas = document.createElement("canvas");
+        canvas.width = this.canvas.width;
+        canvas.height = this.canvas.height;
+        const context = canvas.getContext("2d")!;
+        context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+        return context;
+    }
+
+    put(layer: CanvasRenderingContext2D): void {
+        this.context.drawImage(layer.canvas, 0, 0, this.width, this.height);
+    }
+}
+
+export const prefersStillness = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
