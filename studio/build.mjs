@@ -45,13 +45,14 @@ const notices_as_module = {
     },
 };
 
-// `worker:./file.ts` is the bundle of that file as a text.
+// `worker:sound/file.ts` is the bundle of that file as a text.
 const workers_as_text = {
     name: "workers",
     setup(plugins) {
-        plugins.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => ({
-            path: join(resolveDir, path.slice("worker:".length)), namespace: "worker",
-        }));
+        plugins.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => {
+            const file = path.slice("worker:".length);
+            return { path: resolve(file.startsWith(".") ? resolveDir : join(here, "page"), file), namespace: "worker" };
+        });
         plugins.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => ({
             contents: await bundle(path), loader: "text",
         }));

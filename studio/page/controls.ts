@@ -47,7 +47,7 @@ export class Controls {
         const reset = button("Reset all", () => store.change({ pattern: { ...store.work.pattern, settings: [] } }),
             { kind: "quiet" });
         this.actions = element("div", { class: "toolbar value-actions" }, write, reset);
-        byId("values").append(this.variantField, this.list, this.cost, this.seed.element, this.colours.element, this.actions);
+        byId("values").append(this.variantField, this.list, this.seed.element, this.colours.element, this.actions);
         application.onOpened((facts) => this.show(facts));
         application.onChecked((error) => byId("values").classList.toggle("stale", error !== null));
         // The thumb follows the hand at once, not when the libraries have answered.
@@ -85,7 +85,8 @@ export class Controls {
             return [name, this.numberRow(name, isDefine ? name : "angle", isDefine ? null : "90")];
         }));
         const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
-        this.list.replaceChildren(...[...this.rows.values()].map((row) => row.slider.element));
+        const [length, ...others] = [...this.rows.values()].map((row) => row.slider.element);
+        this.list.replaceChildren(length!, this.cost, ...others);
         if (focused) document.getElementById(focused)?.focus();
     }
 
@@ -201,7 +202,6 @@ export class Controls {
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
         this.cost.replaceChildren(element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."));
         this.cost.classList.toggle("deep", !cost.is_derivable);
-        byId("facts").textContent = parts.join(" · ");
         if (cost.is_derivable) return;
         this.cost.append(element("span", { class: "note" }, facts.has_view
             ? "Too long to derive: the picture derives only what the view shows."

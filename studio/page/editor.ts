@@ -12,7 +12,7 @@ import {
 import type { Application } from "./application";
 import { colour_swatches } from "./colour_swatches";
 import { byId, element } from "./elements";
-import { completePattern, hoverHelp } from "./help_in_text";
+import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure } from "./protocol";
 
@@ -117,7 +117,7 @@ export class Editor {
             EditorView.lineWrapping, pattern_language, syntaxHighlighting(pattern_colours), look, lit, messages,
             colour_swatches,
             autocompletion({ override: [completePattern(() => this.application)], icons: false }),
-            hoverHelp(() => this.application),
+            hoverHelp(() => this.application), cursorHelp(() => this.application),
             EditorView.contentAttributes.of({ "aria-label": "Text of the pattern", spellcheck: "false" }),
             keymap.of([
                 { key: "Mod-z", run: undo }, { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
@@ -158,6 +158,8 @@ export class Editor {
             const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
             return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
         });
+        const errors = diagnostics.filter((each) => !each.warning).length;
+        byId("facts").textContent = error === null ? "No errors" : errors === 1 || errors === 0 ? "1 error" : `${errors} errors`;
         this.view.dispatch(setDiagnostics(this.view.state, findings));
         clearTimeout(this.timer);
         if (findings.length === 0) this.showMessages([]);

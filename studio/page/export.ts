@@ -3,7 +3,7 @@ import type { Application } from "./application";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, element } from "./elements";
-import { bytes as sizeOf } from "./numbers_shown";
+import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
@@ -23,6 +23,10 @@ const types: Record<string, string> = {
     svg: "image/svg+xml", pdf: "application/pdf", png: "image/png", gif: "image/gif", mid: "audio/midi",
     musicxml: "application/vnd.recordare.musicxml+xml", html: "text/html", glb: "model/gltf-binary", wav: "audio/wav",
     obj: "model/obj", flac: "audio/flac",
+};
+// Groups of options that are open when a format of the group is chosen.
+const openAtFirst: Record<string, RegExp> = {
+    Print: /^Page/, Plotter: /^(Page|Plotter)/, Picture: /^(Page|Picture)/, Model: /^Page/, Score: /^Passage/,
 };
 const pause = 200; // milliseconds after a change before the file is made again
 
@@ -64,11 +68,10 @@ class Export {
         this.dialog.body.classList.add("export");
         const copy = button("Copy", () => void navigator.clipboard.writeText(this.command.textContent ?? "")
             .then(() => application.say("The command is copied.")), { kind: "quiet" });
-        this.dialog.body.append(this.formats(), element("div", { class: "export-page" }, this.preview, this.windowSwitch()),
-            element("div", { class: "export-side" }, this.remarks,
-                element("div", { class: "command-row" }, element("span", { class: "label" }, "As a command"), this.command, copy),
-                this.options));
-        this.dialog.footer.append(this.save);
+        this.dialog.body.append(this.formats(), this.options,
+            element("div", { class: "export-page" }, this.preview, this.windowSwitch(), this.remarks));
+        this.dialog.footer.append(
+            element("div", { class: "command-row" }, element("span", { class: "label" }, "As a command"), this.command, copy), this.save);
         this.choose(this.choice);
     }
 
@@ -81,7 +84,7 @@ class Export {
                 radio.checked = each === this.choice;
                 radio.addEventListener("change", () => this.choose(each));
                 return element("label", { class: "format", title: each.format.label }, radio,
-                    element("span", {}, each.format.label || each.format.extension.toUpperCase()), element("small", {}, `.${each.format.extension}`));
+                    element("span", {}, capital(each.format.label || each.format.extension)), element("small", {}, `.${each.format.extension}`));
             });
             return element("fieldset", {}, element("legend", {}, group), ...labels);
         });
@@ -117,9 +120,10 @@ class Export {
             if (value !== null) options.push([name, value]);
             store.change({ [interpreter]: options });
         };
-        const made = optionGroups(help[interpreter].options, store.work[interpreter], act);
-        const about = { Print: /^page|layout/i, Plotter: /plotter/i, Picture: /picture|pixel/i, Model: /^page/i, Score: /^page|passage|score/i }[group];
-        for (const each of made) if (about?.test(each.dataset["group"]!)) each.setAttribute("open", "");
+        const isSpatial = this.application.opened?.facts.is_spatial ?? false;
+        const made = optionGroups(
+            help[interpreter].options.filter((option) => isSpatial || option.name !== "view"), store.work[interpreter], act, interpreter === "draw" ? "Page" : "Passage");
+        for (const each of made) if (openAtFirst[group]?.test(each.dataset["group"]!)) each.setAttribute("open", "");
         this.options.replaceChildren(...made);
     }
 

@@ -1,5 +1,5 @@
 // The bundled patterns as starting points, with their pictures, drawn as they come into sight.
-import type { MakePanel, Studio } from "./context";
+import { type MakePanel, RequestFailed, type Studio } from "./context";
 import { button, element } from "./elements";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
@@ -29,6 +29,12 @@ class Card {
         return words.every((word) => all.includes(word));
     }
 
+    // Axiom and productions instead of a picture.
+    private wordCard(): HTMLElement {
+        const lines = this.entry.text.split("\n").filter((line) => /-->|^axiom:/.test(line)).slice(0, 12);
+        return element("span", { class: "picture words", "aria-hidden": "true" }, lines.join("\n"));
+    }
+
     async draw(studio: Studio): Promise<void> {
         if (this.isDrawn) return;
         this.isDrawn = true;
@@ -36,7 +42,8 @@ class Card {
             await drawInto(this.canvas, studio.engine, { name: `${this.entry.name}.lsys`, text: this.entry.text }, []);
             this.canvas.classList.add("drawn");
         } catch (error) {
-            this.element.title = String(error);
+            this.canvas.replaceWith(this.wordCard()); // a system of words only
+            if (!(error instanceof RequestFailed)) this.isDrawn = false;
         }
     }
 }

@@ -1,7 +1,7 @@
 // Help where it is needed: keys and symbols explained on hovering, and completed. All texts come from the libraries.
 import type { Completion, CompletionContext, CompletionResult, CompletionSource } from "@codemirror/autocomplete";
-import type { Extension } from "@codemirror/state";
-import { hoverTooltip } from "@codemirror/view";
+import { type Extension, StateEffect, StateField } from "@codemirror/state";
+import { EditorView, hoverTooltip, keymap, showTooltip, type Tooltip } from "@codemirror/view";
 import type { Application } from "./application";
 import { element } from "./elements";
 import { kindOf } from "./pattern_language";
@@ -90,14 +90,47 @@ function explainSymbol(application: Application, symbol: string, start: number) 
     return { from: start, to: start + symbol.length, dom };
 }
 
+function tooltipAt(application: Application, view: EditorView, position: number): Tooltip | null {
+    if (!application.help) return null; // the libraries are starting
+    const line = view.state.doc.lineAt(position);
+    const found = explain(application, line.text, position - line.from);
+    return found && { pos: line.from + found.from, end: line.from + found.to, above: true, create: () => ({ dom: found.dom }) };
+}
+
 /// Explains keys, symbols and defines under the pointer.
 export function hoverHelp(where: Where): Extension {
-    return hoverTooltip((view, position) => {
-        const application = where();
-        if (!application.help) return null;
-        const line = view.state.doc.lineAt(position);
-        const found = explain(application, line.text, position - line.from);
-        if (!found) return null;
-        return { pos: line.from + found.from, end: line.from + found.to, above: true, create: () => ({ dom: found.dom }) };
-    }, { hoverTime: 350 });
+    return hoverTooltip((view, position) => tooltipAt(where(), view, position), { hoverTime: 350 });
+}
+
+const show_help = StateEffect.define<Tooltip | null>();
+const shown_help = StateField.define<Tooltip | null>({
+    create: () => null,
+    update(tooltip, transaction) {
+        for (const effect of transaction.effects) if (effect.is(show_help)) return effect.value;
+        return transaction.docChanged || transaction.selection ? null : tooltip;
+    },
+    provide: (field) => showTooltip.from(field),
+});
+
+/// F1 explains what the cursor is at, and reads it out; Escape closes the explanation.
+export function cursorHelp(where: Where): Extension {
+    return [shown_help, keymap.of([
+        {
+            key: "F1",
+            run(view) {
+                const tooltip = tooltipAt(where(), view, view.state.selection.main.head);
+                view.dispatch({ effects: show_help.of(tooltip) });
+                where().say(tooltip?.create(view).dom.innerText ?.replaceAll("\n", " ") ?? "There is no help for this place.");
+                return true;
+            },
+        },
+        {
+            key: "Escape",
+            run(view) {
+                if (!view.state.field(shown_help)) return false;
+                view.dispatch({ effects: show_help.of(null) });
+                return true;
+            },
+        },
+    ])];
 }

@@ -1,5 +1,6 @@
 // The history as a list of pictures: a click returns to a step.
 import type { Application } from "./application";
+import type { Work } from "./context";
 import { place } from "./dialog";
 import { element } from "./elements";
 import { drawInto } from "./thumbnails";
@@ -46,13 +47,15 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     opener.addEventListener("click", () => popover.togglePopover());
 
     let timer = 0;
-    application.onOpened((_, work) => {
+    const drawSoon = (work: Work) => {
         clearTimeout(timer);
         timer = window.setTimeout(() => void drawStep(application, work), rest);
-    });
+    };
+    application.onOpened((_, work) => drawSoon(work));
+    if (application.opened && !store.history[store.position]?.picture) drawSoon(application.opened.work);
 }
 
-async function drawStep(application: Application, work: Application["store"]["work"]): Promise<void> {
+async function drawStep(application: Application, work: Work): Promise<void> {
     const canvas = element("canvas", { width: picture_size, height: picture_size });
     try {
         await drawInto(canvas, application.engine, work.pattern, work.draw, { key: "history" });

@@ -67,6 +67,7 @@ async function main(): Promise<void> {
     makeTools(application);
     acceptDrops(application);
     await opening;
+    if (byId("message").textContent === "Starting…") application.say("");
     watchLinks(application);
 }
 

@@ -35,3 +35,8 @@ export function rounded(number: number, step: number): string {
     const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
     return String(Number(number.toFixed(digits)));
 }
+
+/// With a capital letter at the beginning.
+export function capital(text: string): string {
+    return text.slice(0, 1).toUpperCase() + text.slice(1);
+}

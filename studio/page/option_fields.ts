@@ -1,9 +1,11 @@
 // Fields for the options of prints and scores, from the one table of the libraries: names, values, limits and help.
 import { element } from "./elements";
+import { capital } from "./numbers_shown";
 import type { OptionHelp, Options } from "./protocol";
 
 // What the page itself takes care of.
-const elsewhere = new Set(["steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help", "page"]);
+const elsewhere = new Set(["fit", "steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help"]);
+const page_sizes = ["A0", "A1", "A2", "A3", "A4", "A5", "A6", "letter", "legal", "tabloid"];
 
 export interface OptionAct { (name: string, value: string | null): void }
 
@@ -13,13 +15,9 @@ export function offered(options: OptionHelp[]): OptionHelp[] {
     return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // style is the pattern's
 }
 
-function capital(text: string): string {
-    return text.slice(0, 1).toUpperCase() + text.slice(1);
-}
-
 // The help ends in the default: `page size (A4)`.
 function defaultOf(option: OptionHelp): string {
-    return /\(([^()]+)\)$/.exec(option.help)?.[1] ?? "";
+    return option.value.includes(",") ? "" : /\(([^()]+)\)$/.exec(option.help)?.[1] ?? "";
 }
 
 // Values that are listed: `grbl|z`.
@@ -62,21 +60,26 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
         });
     input.value = value ?? "";
     input.addEventListener("change", () => act(option.name, input.value.trim() || null));
-    return element("div", { class: "field" }, element("label", { for: id }, name), input, help);
+    const field = element("div", { class: "field" }, element("label", { for: id }, name), input, help);
+    if (option.name === "size") {
+        input.setAttribute("list", `${id}-list`);
+        field.append(element("datalist", { id: `${id}-list` }, ...page_sizes.map((each) => element("option", { value: each }))));
+    }
+    return field;
 }
 
 /// All options of the table in their groups, closed; a group with options that are set says how many.
-export function optionGroups(options: OptionHelp[], values: Options, act: OptionAct): HTMLElement[] {
+export function optionGroups(options: OptionHelp[], values: Options, act: OptionAct, first = "Page"): HTMLElement[] {
     const groups = new Map<string, OptionHelp[]>();
     for (const option of offered(options)) {
-        const group = option.group || "Page";
+        const group = option.group || first;
         groups.set(group, [...(groups.get(group) ?? []), option]);
     }
     return [...groups].map(([group, members]) => {
         const fields = members.map((option) => optionField(option, values.find(([name]) => name === option.name)?.[1], act));
         const set = members.filter((option) => values.some(([name]) => name === option.name)).length;
         return element("details", { class: "group", "data-group": group },
-            element("summary", {}, capital(group.replace(/:$/, "")) + (set > 0 ? ` (${set} set)` : "")),
+            element("summary", {}, capital(group) + (set > 0 ? ` (${set} set)` : "")),
             element("div", { class: "fields" }, ...fields));
     });
 }

@@ -52,6 +52,7 @@ export class Panels {
         }
         this.tab(panel).scrollIntoView({ block: "nearest", inline: "nearest" });
         this.shown = panel;
+        byId("workbench").dataset["panel"] = panel.name;
         panel.element.hidden = false;
         panel.show();
     }

@@ -16,6 +16,7 @@ const icons = {
     undo: "M3 6h6.5a3.5 3.5 0 0 1 0 7H6M3 6l3-3M3 6l3 3",
     redo: "M13 6H6.5a3.5 3.5 0 0 0 0 7H10M13 6l-3-3M13 6l-3 3",
     history: "M8 4.5V8l2.5 1.5M2.8 6A5.5 5.5 0 1 1 2.5 8M2.5 3v3h3",
+    open: "M2 12.5v-9h4l1.5 2H14v7zM2 7.5h12",
     share: "M8 9.5v-7M5.2 5 8 2.2 10.8 5M3.5 8v5.5h9V8",
     more: "M3.5 8h.01M8 8h.01M12.5 8h.01",
 };
@@ -51,6 +52,7 @@ function shortcutsOf(application: Application): Shortcut[] {
         })),
         { keys: "Alt+T", label: "Go to the text", everywhere: true, act: () => document.querySelector<HTMLElement>(".cm-content")?.focus() },
         { keys: "Ctrl+Space", label: "Complete a key, in the text" },
+        { keys: "F1", label: "Explain the key or symbol at the cursor, in the text" },
         { keys: "F8", label: "Next error, in the text" },
         { keys: "Ctrl+F", label: "Search, in the text" },
         { keys: "?", label: "This list", act: () => openShortcuts(shortcutsOf(application)) },
@@ -63,7 +65,7 @@ export function makeTools(application: Application): void {
     const undo = button(`Undo (${shown("Ctrl+Z")})`, () => store.undo(), { kind: "quiet", icon: icons.undo });
     const redo = button(`Redo (${shown("Ctrl+Shift+Z")})`, () => store.redo(), { kind: "quiet", icon: icons.redo });
     const steps = button("History", () => {}, { kind: "quiet", icon: icons.history });
-    const open = button("Open", () => {}, {});
+    const open = button("Open", () => {}, { icon: icons.open, shows: true });
     const share = button("Share", () => openShare(application), { icon: icons.share, shows: true });
     const save = button("Export", () => openExport(application), { kind: "primary" });
     const more = button("More", () => {}, { kind: "quiet", icon: icons.more });
