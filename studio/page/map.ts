@@ -67,7 +67,7 @@ export const makeMapPanel: MakePanel = (studio) => {
 // What the picture shows, for those who do not see it.
 function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement): () => void {
     let timer = 0;
-    let measured: { facts: Opened; isClosed: boolean } | null = null;
+    let measured: { facts: Opened | null; isClosed: boolean } | null = null;
     async function measure(facts: Opened): Promise<void> {
         const pattern = studio.opened!.work.pattern;
         try {

@@ -116,9 +116,23 @@ export class MapView {
 
     setFacts(facts: Opened, work: Work): void {
         this.facts = { facts, pattern: work.pattern };
+        if (!facts.extent && !facts.is_spatial) void this.measure(facts, work);
         if (this.mode === "plane" && facts.is_spatial) this.mode = "page";
         this.refresh();
         this.draw();
+    }
+
+    // Of splines, the extent is that of the points that guide them.
+    private async measure(facts: Opened, { pattern }: Work): Promise<void> {
+        try {
+            const { json } = await this.studio.engine.request<{ box?: (string | number)[] }>({ do: "measure", pattern },
+                { key: "map-extent", seconds: 3 });
+            const box = json.box?.map((side) => exactText(readExact(String(side)) ?? 0n));
+            if (box?.length !== 4 || this.facts?.facts !== facts) return;
+            this.setFacts({ ...facts, extent: box as [string, string, string, string] }, this.studio.opened?.work ?? this.work);
+        } catch {
+            // too long to be measured: the drawing has a page only
+        }
     }
 
     /// The facts of the work that is shown; null while they are unknown.

@@ -8,7 +8,7 @@ import { addOrbit } from "./orbit";
 import { isAbort } from "./pictures";
 import type { Opened } from "./protocol";
 import { styleOf } from "./sheet";
-import { Stage, type Staged } from "./space_stage";
+import { fittingHalf, Stage, type Staged } from "./space_stage";
 
 const mostSegments = 150_000; // a model of more would take hundreds of megabytes
 const growing = 700; // milliseconds for each derivation length
@@ -61,6 +61,7 @@ class SpaceView {
     private opened: Opened | null = null;
     private subject = "";
     private eye: Eye = front;
+    private half = 0; // of the picture; 0: to be found
     private zoom = 1;
     private shift: [number, number] = [0, 0];
     private light = usualLight;
@@ -97,7 +98,7 @@ class SpaceView {
         this.work = studio.store.work;
         this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
         this.turn = button("Turn around", () => this.spin(!this.isTurning), { icon: icons.turn });
-        this.use = button("Use this view for prints", () => this.useView(), { kind: "primary" });
+        this.use = button("Use this view for prints", () => this.useView());
         panel.append(canvas, element("p", { class: "unseen", id: "space-hint" },
             "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right mouse button or "
             + "with Alt moves the light."), this.note, this.facts, this.makeTools(), this.makeLight());
@@ -214,7 +215,10 @@ class SpaceView {
         this.work = work;
         this.opened = facts;
         this.subject = name;
-        if (isOther) this.reset();
+        if (isOther) {
+            this.whole = null;
+            this.reset();
+        }
         if (isSame && this.model) return this.draw();
         this.grow(false);
         this.most = n;
@@ -222,9 +226,17 @@ class SpaceView {
         this.seek(n);
     }
 
+    private get isSpline(): boolean {
+        return this.opened !== null && !!styleOf("line", this.opened, this.work.draw)?.startsWith("spline");
+    }
+
     private get refusal(): string {
         const facts = this.opened;
         if (!facts) return "";
+        if (this.isSpline) {
+            return "Models have straight lines, and this pattern draws a spline. With the line set to straight it has a model, "
+                + "if its symbols draw steps.";
+        }
         const segments = Number(facts.cost.segments);
         if (!facts.cost.is_derivable) return "This drawing is too large for a model. A smaller derivation length has one.";
         if (!(segments > mostSegments)) return "";
@@ -243,9 +255,12 @@ class SpaceView {
     private async load(n: number): Promise<void> {
         const { work } = this;
         const asked = ++this.asked;
-        const refusal = n === this.most ? this.refusal : "";
-        if (refusal) {
+        const refusal = this.refusal;
+        if (refusal && (n === this.most || this.isSpline)) {
+            this.model = null;
+            this.facts.textContent = "";
             this.problem(refusal);
+            this.draw();
             return;
         }
         try {
@@ -264,7 +279,10 @@ class SpaceView {
             this.before = { model: this.model, since: performance.now() };
         }
         this.model = model;
-        if (model !== "empty" && n === this.most) this.whole = model;
+        if (model !== "empty" && n === this.most) {
+            if (this.whole === null) this.half = 0;
+            this.whole = model;
+        }
         this.facts.textContent = model === "empty" ? "Nothing yet"
             : `${model.triangles.toLocaleString("en").replaceAll(",", "\u202f")} triangles`;
         this.describe();
@@ -285,6 +303,7 @@ class SpaceView {
         const text = this.opened ? styleOf("view", this.opened, this.work.draw) : undefined;
         this.eye = readEye(text ?? "front") ?? front;
         this.zoom = 1;
+        this.half = 0;
         this.shift = [0, 0];
         this.light = usualLight;
         this.draw();
@@ -365,13 +384,18 @@ class SpaceView {
         const current = this.model;
         const frame = this.whole ?? (current !== "empty" ? current : null);
         if (!frame) return;
+        // The controls cover the bottom of the picture.
+        const covered = Math.min(height / 3, 78 * ratio);
+        if (this.half === 0) this.half = fittingHalf(frame, this.eye, width, height - covered * 1.6) * Math.min(width, height)
+            / Math.min(width, height - covered * 1.6);
         const share = this.before ? Math.min(1, (now - this.before.since) / turning) : 1;
         const models = [
             ...(this.before && this.before.model !== "empty" ? [{ model: this.before.model, presence: 1 - share }] : []),
             ...(current && current !== "empty" ? [{ model: current, presence: share }] : []),
         ];
         this.stage.draw({
-            models, frame, eye: this.eye, zoom: this.zoom, shift: this.shift, light: this.light,
+            models, frame, eye: this.eye, half: this.half, zoom: this.zoom,
+            shift: [this.shift[0], this.shift[1] + covered / height], light: this.light,
             isDark: document.documentElement.dataset["theme"] === "dark",
         });
     }

@@ -108,5 +108,6 @@ void main() {
     float fade = 1.0 - smoothstep(0.25, 1.0, length(away));
     float dark = (1.0 - sunshine(lit_at, 0.0008)) * strength * fade;
     vec4 pool = soil * fade * fade;
-    pixel = (vec4(pool.rgb * (1.0 - dark), pool.a + (1.0 - pool.a) * dark)) * presence;
+    vec3 shadow = vec3(0.20, 0.12, 0.07);
+    pixel = vec4(mix(pool.rgb, shadow, dark), pool.a + (1.0 - pool.a) * dark) * presence;
 }`;

@@ -18,6 +18,7 @@ export interface Scene {
     readonly models: readonly { model: Staged; presence: number }[]; // 0 to 1: one may turn into another
     readonly frame: { low: Vector; high: Vector }; // what the picture is arranged for
     readonly eye: Eye;
+    readonly half: number; // of the shorter side of the picture, in steps, at zoom 1
     readonly zoom: number;
     readonly shift: readonly [number, number]; // of the picture, in halves of it
     readonly light: { azimuth: number; elevation: number };
@@ -146,7 +147,7 @@ export class Stage {
         const radius = radiusOf(scene.frame);
         const sun = this.shine(scene, middle, radius);
         const smaller = Math.min(width, height);
-        const half = radius * 1.04 / scene.zoom;
+        const half = scene.half / scene.zoom;
         const frame = axes(scene.eye.azimuth, scene.eye.elevation);
         const seen = { across: half * width / smaller, up: half * height / smaller, deep: radius * 4 };
         const aim = moved(middle, frame, -scene.shift[0] * seen.across, -scene.shift[1] * seen.up);
@@ -231,7 +232,7 @@ export class Stage {
         gl.uniform1f(at("reach"), radius * 1.9);
         gl.uniform1f(at("texel"), 2.5 / shadowSide);
         gl.uniform1i(at("shadows"), 0);
-        gl.uniform1f(at("strength"), scene.isDark ? 0.55 : 0.3);
+        gl.uniform1f(at("strength"), scene.isDark ? 0.6 : 0.36);
         gl.uniform1f(at("presence"), presence);
         const [red, green, blue, alpha] = scene.isDark ? [0.34, 0.27, 0.22, 0.55] : [0.86, 0.78, 0.66, 0.55];
         gl.uniform4f(at("soil"), red! * alpha!, green! * alpha!, blue! * alpha!, alpha!);
@@ -262,6 +263,19 @@ export function middleOf({ low, high }: { low: Vector; high: Vector }): Vector {
 
 export function radiusOf({ low, high }: { low: Vector; high: Vector }): number {
     return Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2 || 1;
+}
+
+/// Half the shorter side of a picture that shows the frame from all around at that elevation.
+export function fittingHalf(
+    { low, high }: { low: Vector; high: Vector }, { elevation, distance }: Eye, width: number, height: number,
+): number {
+    const around = Math.hypot(high[0] - low[0], high[2] - low[2]) / 2;
+    const tall = (high[1] - low[1]) / 2;
+    const tilt = Math.abs(elevation) * Math.PI / 180;
+    const up = tall * Math.cos(tilt) + around * Math.sin(tilt);
+    const smaller = Math.min(width, height);
+    const nearer = distance === null ? 1 : 1 + 0.5 / distance;
+    return 1.08 * nearer * Math.max(around * smaller / width, up * smaller / height) || 1;
 }
 
 function moved(point: Vector, { right, up }: ReturnType<typeof axes>, across: number, along: number): Vector {

@@ -1,5 +1,415 @@
-import type { MakePanel } from "./context";
+// The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click takes one.
+import type { MakePanel, Studio, Work } from "./context";
+import { button, element } from "./elements";
+import type { Opened } from "./protocol";
+import { filters, searchVariants, type Found } from "./sheet_of_variants";
+import {
+    mutantOf, parametersOf, productionsOf, rangeOf, seedVariant, sheetVariants, valuesOf, type Axis, type Parameter, type Variant,
+} from "./variants";
 
-export const makeVariationsPanel: MakePanel = () => ({
-    name: "variations", label: "Variations", element: document.createElement("div"), show() {}, hide() {},
-});
+type Mode = "mutations" | "values" | "seeds";
+
+const count = 24;
+const columns = 6;
+const mostTried = 480;
+const modes: readonly { mode: Mode; label: string }[] = [
+    { mode: "mutations", label: "Mutations" }, { mode: "values", label: "Two values" }, { mode: "seeds", label: "Seeds" },
+];
+const lockPath = "M4.5 7.5V5.2a3.5 3.5 0 0 1 7 0v2.3M3.5 7.5h9v6.5h-9z";
+
+export const makeVariationsPanel: MakePanel = (studio) => {
+    const variations = new Variations(studio);
+    return {
+        name: "variations", label: "Variations", element: variations.element,
+        show: () => variations.show(), hide: () => variations.hide(),
+    };
+};
+
+class Variations {
+    readonly element = element("div", { class: "variations" });
+    private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
+    private readonly settings = element("div", { class: "variations-settings" });
+    private readonly status = element("p", { class: "variations-status", role: "status" });
+    private readonly sheet = element("div", { class: "variations-sheet", role: "group", "aria-label": "Variants" });
+    private readonly again: HTMLButtonElement;
+    private readonly fromHere: HTMLButtonElement;
+
+    private isShown = false;
+    private mode: Mode = "mutations";
+    private readonly filters = new Set<string>();
+    private readonly kept = new Set<string>(["derivation length", "seed"]);
+    private readonly axes: { across: AxisChoice | null; down: AxisChoice | null } = { across: null, down: null };
+    private base: { facts: Opened; work: Work } | null = null; // what is varied
+    private adopted: Work["pattern"] | null = null; // that this panel put into the work
+    private first = 0; // index of the first candidate
+    private tried = 0;
+    private search: AbortController | null = null;
+    private timer = 0;
+
+    constructor(private readonly studio: Studio) {
+        const segmented = element("div", { class: "segmented", role: "group", "aria-label": "What varies" });
+        for (const { mode, label } of modes) {
+            const made = element("button", { type: "button", "aria-pressed": String(mode === this.mode) }, label);
+            made.addEventListener("click", () => this.setMode(mode));
+            this.modeButtons.set(mode, made);
+            segmented.append(made);
+        }
+        const chips = filters.map(({ name, label, help }) => {
+            const chip = element("button", { type: "button", class: "chip", "aria-pressed": "false", title: help }, label);
+            chip.addEventListener("click", () => {
+                if (!this.filters.delete(name)) this.filters.add(name);
+                chip.setAttribute("aria-pressed", String(this.filters.has(name)));
+                this.restart();
+            });
+            return chip;
+        });
+        this.again = button("Next 24", () => this.more());
+        this.fromHere = button("Vary the one taken", () => this.adopt(), { kind: "primary" });
+        this.fromHere.hidden = true;
+        this.element.append(
+            element("div", { class: "variations-bar" }, segmented,
+                element("div", { class: "variations-filters", role: "group", "aria-label": "Show only" },
+                    element("span", { class: "variations-word" }, "Only"), ...chips),
+                element("div", { class: "variations-actions" }, this.status, this.fromHere, this.again)),
+            this.settings, this.sheet);
+        this.sheet.addEventListener("keydown", (event) => this.move(event));
+        studio.onOpened((facts, work) => this.opened(facts, work));
+    }
+
+    show(): void {
+        this.isShown = true;
+        const { opened } = this.studio;
+        if (!opened) return;
+        if (!this.base || (opened.work.pattern !== this.base.work.pattern && opened.work.pattern !== this.adopted)) {
+            this.setBase(opened.facts, opened.work);
+        }
+    }
+
+    hide(): void {
+        this.isShown = false;
+        clearTimeout(this.timer);
+        this.search?.abort();
+    }
+
+    private opened(facts: Opened, work: Work): void {
+        if (!this.isShown) return;
+        if (work.pattern === this.adopted) {
+            this.fromHere.hidden = false;
+            return;
+        }
+        if (work.pattern === this.base?.work.pattern) return this.markTaken();
+        clearTimeout(this.timer);
+        this.timer = window.setTimeout(() => this.setBase(facts, work), 250);
+    }
+
+    private setBase(facts: Opened, work: Work): void {
+        const isOther = work.pattern.name !== this.base?.work.pattern.name;
+        this.base = { facts, work };
+        this.adopted = null;
+        this.fromHere.hidden = true;
+        if (isOther) {
+            this.kept.clear();
+            for (const name of ["derivation length", "seed"]) this.kept.add(name);
+            this.axes.across = this.axes.down = null;
+        }
+        this.restart();
+    }
+
+    // The variant that was taken becomes what is varied.
+    private adopt(): void {
+        const { opened } = this.studio;
+        if (opened) this.setBase(opened.facts, opened.work);
+        this.sheet.querySelector<HTMLElement>("button")?.focus();
+    }
+
+    private setMode(mode: Mode): void {
+        this.mode = mode;
+        for (const [each, made] of this.modeButtons) made.setAttribute("aria-pressed", String(each === mode));
+        this.restart();
+    }
+
+    private restart(): void {
+        this.first = 0;
+        this.showSettings();
+        void this.run();
+    }
+
+    private more(): void {
+        this.first += Math.max(this.tried, count);
+        void this.run();
+    }
+
+    // --- what varies
+
+    private showSettings(): void {
+        const base = this.base;
+        if (!base) return;
+        const had = document.activeElement instanceof HTMLElement && this.settings.contains(document.activeElement)
+            ? document.activeElement.id : "";
+        this.settings.replaceChildren();
+        this.again.hidden = this.mode === "values";
+        if (this.mode === "mutations") this.settings.append(this.lockRow(base.facts));
+        if (this.mode === "values") this.settings.append(...this.axisRows(base.facts));
+        if (this.mode === "seeds" && !base.facts.is_random) {
+            this.settings.append(element("p", { class: "note" },
+                "This pattern makes no random choices, so every seed draws the same. Productions with weights do: "
+                + "F --> FF : 0.8"));
+        }
+        this.settings.hidden = this.settings.childElementCount === 0;
+        if (had !== "") document.getElementById(had)?.focus();
+    }
+
+    private lockRow(facts: Opened): HTMLElement {
+        const row = element("div", { class: "variations-locks", role: "group", "aria-label": "Keep as it is" },
+            element("span", { class: "variations-word" }, "Keep"));
+        for (const parameter of [...parametersOf(facts), ...productionsOf(facts)]) {
+            const text = parameter.kind === "production" ? shortened(parameter.label, 24)
+                : `${parameter.label}${parameter.label.endsWith("/") ? "" : " "}${parameter.value}`;
+            const isKept = this.kept.has(parameter.name);
+            const chip = element("button", {
+                type: "button", class: "chip", id: `keep-${parameter.name.replace(/\W+/g, "-")}`, "aria-pressed": String(isKept),
+                title: parameter.label,
+            }, lockIcon(), element("span", { class: parameter.kind === "production" ? "mono" : "" }, text));
+            chip.addEventListener("click", () => {
+                if (!this.kept.delete(parameter.name)) this.kept.add(parameter.name);
+                this.restart();
+            });
+            row.append(chip);
+        }
+        return row;
+    }
+
+    private axisRows(facts: Opened): HTMLElement[] {
+        const parameters = parametersOf(facts);
+        const preferred = [...parameters].sort((one, other) => rank(one) - rank(other));
+        const choice = (old: AxisChoice | null, parameter: Parameter): AxisChoice =>
+            parameters.some(({ name }) => name === old?.parameter.name) ? old!
+                : { parameter, ...rangeOf(parameter, facts.cost.most) };
+        this.axes.across = choice(this.axes.across, preferred[0]!);
+        this.axes.down = choice(this.axes.down, preferred[1] ?? preferred[0]!);
+        const row = (which: "across" | "down", label: string) => {
+            const axis = this.axes[which]!;
+            const select = element("select", { id: `vary-${which}`, "aria-label": `${label}: value` },
+                ...parameters.map(({ name, label: text }) =>
+                    element("option", { value: name, selected: name === axis.parameter.name }, text)));
+            select.addEventListener("change", () => {
+                const parameter = parameters.find(({ name }) => name === select.value)!;
+                this.axes[which] = { parameter, ...rangeOf(parameter, facts.cost.most) };
+                this.restart();
+            });
+            const end = (name: "from" | "to") => {
+                const input = element("input", {
+                    type: "text", inputmode: "decimal", class: "number", id: `vary-${which}-${name}`, value: String(axis[name]),
+                    "aria-label": `${label}: ${name}`,
+                });
+                input.addEventListener("change", () => {
+                    const value = Number(input.value);
+                    const isWrong = input.value.trim() === "" || !Number.isFinite(value);
+                    input.setAttribute("aria-invalid", String(isWrong));
+                    if (isWrong) return;
+                    this.axes[which] = { ...axis, [name]: value };
+                    this.restart();
+                });
+                return input;
+            };
+            return element("div", { class: "variations-axis" }, element("span", { class: "variations-word" }, label), select,
+                end("from"), element("span", { class: "variations-word", "aria-hidden": "true" }, "to"), end("to"));
+        };
+        return [row("across", "Across"), row("down", "Down")];
+    }
+
+    private axis(choice: AxisChoice, most: number): Axis {
+        return { parameter: choice.parameter, values: valuesOf(choice.parameter, choice.from, choice.to, most) };
+    }
+
+    // --- the sheet
+
+    private async run(): Promise<void> {
+        this.search?.abort();
+        const search = this.search = new AbortController();
+        const base = this.base;
+        if (!base || !this.isShown) return;
+        const { pattern, draw } = base.work;
+        const plan = this.plan(base);
+        if (!plan) {
+            this.sheet.replaceChildren();
+            this.status.textContent = "";
+            return;
+        }
+        this.status.textContent = "Looking …";
+        const cells = this.prepare(plan.cells, plan.headings);
+        const found: Found[] = [];
+        let tried = 0;
+        const side = 160;
+        const ratio = Math.min(2, Math.max(1, window.devicePixelRatio || 1));
+        const start = performance.now();
+        const add = (one: Found) => {
+            if (search.signal.aborted) return;
+            found.push(one);
+            found.sort((left, right) => left.index - right.index);
+            if (plan.isFixed) this.fill(cells[one.index]!, one);
+            else found.slice(0, count).forEach((each, at) => this.fill(cells[at]!, each));
+        };
+        try {
+            tried = await searchVariants(this.studio.engine, {
+                candidates: plan.candidates, count: plan.cells, most: plan.isFixed ? plan.cells : mostTried,
+                side: Math.round(side * ratio), ratio, filters: this.filters, draw, isDistinct: !plan.isFixed && this.mode === "mutations",
+                signal: search.signal, onFound: add, onTried: () => {},
+            });
+        } catch (error) {
+            if (search.signal.aborted) return;
+            this.studio.say(`The variants cannot be drawn: ${error instanceof Error ? error.message : String(error)}`, "error");
+        }
+        if (search.signal.aborted) return;
+        this.tried = tried;
+        for (const cell of cells) cell.classList.remove("waits");
+        const shown = Math.min(found.length, plan.cells);
+        this.element.dataset["milliseconds"] = String(Math.round(performance.now() - start));
+        this.status.textContent = shown === plan.cells ? ""
+            : shown === 0 ? `None of ${tried} variants is valid${this.filters.size > 0 ? " and passes the filters" : ""}`
+            : plan.isFixed ? `${shown} of ${plan.cells} are valid` : `${shown} found among ${tried}`;
+        this.markTaken(pattern);
+        const focused = cells.find((cell) => cell.tabIndex === 0 && !cell.disabled);
+        if (!focused) cells.find((cell) => !cell.disabled)?.setAttribute("tabindex", "0");
+    }
+
+    private plan(base: { facts: Opened; work: Work }): Plan | null {
+        const { facts, work: { pattern } } = base;
+        if (this.mode === "seeds") {
+            if (!facts.is_random) return null;
+            const from = BigInt(/^\d+$/.test(facts.seed) ? facts.seed : "0") + BigInt(this.first);
+            return { cells: count, isFixed: false, candidates: (index) => [seedVariant(pattern, from, index)] };
+        }
+        if (this.mode === "mutations") {
+            const seed = 1;
+            const isAllKept = [...parametersOf(facts), ...productionsOf(facts)].every(({ name }) => this.kept.has(name));
+            if (isAllKept) return null;
+            return {
+                cells: count, isFixed: false,
+                candidates: (index) => {
+                    const mutant = mutantOf(pattern, facts, this.kept, seed, this.first + index);
+                    return mutant ? [mutant] : [];
+                },
+            };
+        }
+        if (!this.axes.across || !this.axes.down) return null;
+        const across = this.axis(this.axes.across, columns);
+        const down = this.axis(this.axes.down, count / columns);
+        const wide = across.values.length;
+        return {
+            cells: wide * down.values.length, isFixed: true, headings: { across, down },
+            candidates: (index) => sheetVariants(pattern, across, down, index % wide, Math.floor(index / wide)),
+        };
+    }
+
+    // Empty cells, so that nothing moves while pictures come.
+    private prepare(cells: number, headings?: Plan["headings"]): HTMLButtonElement[] {
+        this.sheet.classList.toggle("of-values", !!headings);
+        this.sheet.style.setProperty("--columns", String(headings ? headings.across.values.length : columns));
+        const made = Array.from({ length: cells }, (_, index) => {
+            const cell = element("button", { type: "button", class: "card variant waits", disabled: true, tabindex: index === 0 ? 0 : -1 },
+                element("canvas", { class: "picture", width: 1, height: 1, "aria-hidden": "true" }),
+                element("span", { class: "caption" }, "\u00a0"));
+            cell.addEventListener("click", () => this.take(cell));
+            return cell;
+        });
+        if (!headings) {
+            this.sheet.replaceChildren(...made);
+            return made;
+        }
+        const { across, down } = headings;
+        const children: HTMLElement[] = [element("span", { class: "variations-corner", "aria-hidden": "true" },
+            `${down.parameter.label} ↓  ${across.parameter.label} →`)];
+        for (const value of across.values) children.push(element("span", { class: "variations-heading number" }, value));
+        down.values.forEach((value, row) => {
+            children.push(element("span", { class: "variations-heading row number" }, value));
+            children.push(...made.slice(row * across.values.length, (row + 1) * across.values.length));
+        });
+        this.sheet.replaceChildren(...children);
+        return made;
+    }
+
+    private readonly variants = new WeakMap<HTMLElement, Variant>();
+
+    private fill(cell: HTMLButtonElement, { variant, picture }: Found): void {
+        if (this.variants.get(cell) === variant) return;
+        this.variants.set(cell, variant);
+        const canvas = cell.querySelector("canvas")!;
+        canvas.width = picture.width;
+        canvas.height = picture.height;
+        canvas.getContext("2d")!.putImageData(picture, 0, 0);
+        const caption = cell.querySelector(".caption")!;
+        caption.textContent = variant.label;
+        cell.title = variant.label;
+        cell.setAttribute("aria-label", `Take ${variant.label}`);
+        cell.disabled = false;
+        cell.classList.remove("waits");
+    }
+
+    private take(cell: HTMLButtonElement): void {
+        const variant = this.variants.get(cell);
+        if (!variant) return;
+        this.adopted = variant.pattern;
+        this.studio.store.change({ pattern: variant.pattern });
+        this.adopted = this.studio.store.work.pattern;
+        this.studio.say(`Taken: ${variant.label}`);
+        this.markTaken();
+        for (const each of this.cells) each.tabIndex = each === cell ? 0 : -1;
+    }
+
+    private get cells(): HTMLButtonElement[] { return [...this.sheet.querySelectorAll<HTMLButtonElement>(".variant")]; }
+
+    private markTaken(pattern = this.studio.store.work.pattern): void {
+        const text = JSON.stringify(pattern);
+        for (const cell of this.cells) {
+            const variant = this.variants.get(cell);
+            cell.setAttribute("aria-pressed", String(variant !== undefined && JSON.stringify(variant.pattern) === text));
+        }
+    }
+
+    private move(event: KeyboardEvent): void {
+        const cells = this.cells;
+        const at = cells.indexOf(event.target as HTMLButtonElement);
+        if (at < 0) return;
+        const tops = new Set(cells.map((cell) => cell.offsetTop));
+        const wide = Math.max(1, Math.round(cells.length / tops.size));
+        const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: wide, ArrowUp: -wide, Home: -at, End: cells.length - 1 - at }[event.key];
+        if (step === undefined) return;
+        event.preventDefault();
+        const sign = Math.sign(step) || 1;
+        let to = at + step;
+        while (cells[to]?.disabled) to += sign;
+        const next = cells[to];
+        if (!next) return;
+        for (const each of cells) each.tabIndex = each === next ? 0 : -1;
+        next.focus();
+    }
+}
+
+interface AxisChoice { readonly parameter: Parameter; readonly from: number; readonly to: number }
+
+interface Plan {
+    readonly cells: number;
+    readonly isFixed: boolean; // each candidate has its own cell
+    readonly candidates: (index: number) => readonly Variant[] | null;
+    readonly headings?: { across: Axis; down: Axis };
+}
+
+// Which values to begin with.
+function rank({ kind }: Parameter): number {
+    return { define: 0, angle: 1, n: 2, seed: 3, production: 4 }[kind];
+}
+
+function shortened(text: string, most: number): string {
+    return text.length > most ? `${text.slice(0, most - 1)}…` : text;
+}
+
+function lockIcon(): SVGSVGElement {
+    const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    svg.setAttribute("viewBox", "0 0 16 16");
+    svg.setAttribute("aria-hidden", "true");
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.setAttribute("d", lockPath);
+    svg.append(path);
+    return svg;
+}

@@ -1,0 +1,24 @@
+// Chance that can be repeated: the same seed gives the same numbers.
+
+export class Chance {
+    private state: number;
+
+    constructor(seed: number, index = 0) {
+        this.state = (Math.imul(seed | 0, 0x9e3779b1) ^ Math.imul((index | 0) + 1, 0x85ebca6b)) >>> 0;
+        for (let round = 0; round < 3; ++round) this.share();
+    }
+
+    /// At least 0, below 1.
+    share(): number { // mulberry32
+        this.state = (this.state + 0x6d2b79f5) >>> 0;
+        let mixed = this.state;
+        mixed = Math.imul(mixed ^ (mixed >>> 15), mixed | 1);
+        mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
+        return ((mixed ^ (mixed >>> 14)) >>> 0) / 4294967296;
+    }
+
+    /// A whole number from 0, below `count`.
+    below(count: number): number { return Math.floor(this.share() * count); }
+
+    one<Item>(items: readonly Item[]): Item { return items[this.below(items.length)]!; }
+}

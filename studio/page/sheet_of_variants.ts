@@ -1,0 +1,125 @@
+// Finds valid variants and draws them small: those that fail, draw nothing, cost too much or do not pass the filters
+// are left out.
+import { RequestFailed, type Engine, type Work } from "./context";
+import { isAbort } from "./pictures";
+import type { Options, Pixels } from "./protocol";
+import type { Variant } from "./variants";
+
+export interface Filter { readonly name: string; readonly label: string; readonly help: string }
+
+export const filters: readonly Filter[] = [
+    { name: "closed", label: "Closed", help: "Only lines that end where they begin" },
+    { name: "single", label: "Single line", help: "Only drawings of one line" },
+    { name: "avoiding", label: "Self-avoiding", help: "Only lines that never meet themselves" },
+    { name: "kolam", label: "Kolam", help: "Only kolams: every dot encircled, every line closed, nothing drawn twice" },
+];
+
+interface Examined { kolam: boolean; lines: number; open_lines: number; meetings: number; reused_edges: number }
+
+/// A variant that has been found, with its picture as RGBA bytes.
+export interface Found { readonly index: number; readonly variant: Variant; readonly picture: ImageData }
+
+export interface Search {
+    /// The variants to try for an index, the first that is valid is taken; null after the last.
+    readonly candidates: (index: number) => readonly Variant[] | null;
+    readonly count: number; // of valid ones wanted
+    readonly most: number; // candidates to try
+    readonly side: number; // pixels
+    readonly ratio: number;
+    readonly filters: ReadonlySet<string>;
+    readonly draw: Options;
+    readonly isDistinct: boolean; // leave out pictures that are there already
+    readonly signal: AbortSignal;
+    readonly onFound: (found: Found) => void;
+    readonly onTried: (tried: number) => void;
+}
+
+const budget = "3000000"; // nodes: so that a sheet takes a second
+const seconds = 2;
+
+export function thumbnailOptions(draw: Work["draw"]): Options {
+    const own = new Set(["size", "margin", "landscape", "fit", "step", "window", "border", "budget", "dot-spacing", "generations"]);
+    return [...draw.filter(([name]) => !own.has(name)), ["size", "100x100mm"], ["margin", "6mm"], ["budget", budget]];
+}
+
+/// Resolves with the number of candidates tried, when enough were found or none is left.
+export async function searchVariants(engine: Engine, search: Search): Promise<number> {
+    const options = thumbnailOptions(search.draw);
+    const seen = new Set<string>();
+    const valid: number[] = []; // indices
+    let next = 0;
+    let tried = 0;
+    let isOver = false;
+
+    async function tryOne(index: number, lane: "front" | "back"): Promise<void> {
+        for (const variant of search.candidates(index) ?? []) {
+            const picture = await drawn(engine, variant, search, options, lane);
+            if (search.signal.aborted) return;
+            if (!picture) continue;
+            const print = search.isDistinct ? fingerprint(picture.data) : "";
+            if (search.isDistinct && seen.has(print)) continue;
+            seen.add(print);
+            valid.push(index);
+            search.onFound({ index, variant, picture });
+            return;
+        }
+    }
+    // One lane of work for each worker; the first is what the user waits for.
+    async function work(lane: "front" | "back"): Promise<void> {
+        while (!isOver && !search.signal.aborted && valid.length < search.count && next < search.most) {
+            const index = next++;
+            if (search.candidates(index) === null) {
+                isOver = true;
+                return;
+            }
+            await tryOne(index, lane);
+            search.onTried(++tried);
+        }
+    }
+    const lanes = Array.from({ length: Math.max(1, engine.workers) }, (_, index) => (index === 0 ? "front" : "back"));
+    await Promise.all(lanes.map((lane) => work(lane as "front" | "back")));
+    return tried;
+}
+
+async function drawn(
+    engine: Engine, { pattern }: Variant, search: Search, options: Options, lane: "front" | "back",
+): Promise<ImageData | null> {
+    const settings = { lane, seconds, signal: search.signal };
+    try {
+        if (!(await passes(engine, pattern, search.filters, settings))) return null;
+        const { json, bytes } = await engine.request<Pixels>(
+            { do: "pixels", width: search.side, height: search.side, ratio: search.ratio, options, pattern }, settings);
+        const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, json.width * json.height * 4);
+        return new ImageData(values, json.width, json.height);
+    } catch (error) {
+        if (isAbort(error) || error instanceof RequestFailed) return null; // not a valid variant
+        throw error;
+    }
+}
+
+async function passes(
+    engine: Engine, pattern: Variant["pattern"], wanted: ReadonlySet<string>, settings: Parameters<Engine["request"]>[1],
+): Promise<boolean> {
+    if (wanted.size === 0) return true;
+    if (wanted.has("closed")) { // measured without deriving
+        const { json } = await engine.request<{ closed: boolean | null }>({ do: "measure", pattern }, settings);
+        if (json.closed !== true) return false;
+        if (wanted.size === 1) return true;
+    }
+    const { json } = await engine.request<Examined>({ do: "kolam", pattern }, settings);
+    return (!wanted.has("single") || json.lines === 1)
+        && (!wanted.has("avoiding") || (json.meetings === 0 && json.reused_edges === 0))
+        && (!wanted.has("kolam") || json.kolam);
+}
+
+// FNV-1a of every third pixel.
+function fingerprint(data: Uint8ClampedArray): string {
+    const words = new Uint32Array(data.buffer, data.byteOffset, data.byteLength >> 2);
+    let one = 0x811c9dc5;
+    let other = 0x01000193;
+    for (let index = 0; index < words.length; index += 3) {
+        one = Math.imul(one ^ words[index]!, 0x01000193);
+        other = Math.imul(other + words[index]!, 0x85ebca6b) ^ (other >>> 13);
+    }
+    return `${one >>> 0}-${other >>> 0}`;
+}
