@@ -339,7 +339,13 @@ class Variations {
         canvas.height = picture.height;
         canvas.getContext("2d")!.putImageData(picture, 0, 0);
         const caption = cell.querySelector(".caption")!;
-        caption.textContent = variant.label;
+        const { part } = variant;
+        if (part) {
+            const mark = element("mark", { class: part.changed === "" ? "gone" : "" }, part.changed);
+            caption.replaceChildren(`${part.predecessor.split("(")[0]} → ${part.before}`, mark, part.after);
+        } else {
+            caption.textContent = variant.label;
+        }
         cell.title = variant.label;
         cell.setAttribute("aria-label", `Take ${variant.label}`);
         cell.disabled = false;
