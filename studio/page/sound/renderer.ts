@@ -1,5 +1,5 @@
 // Rendered notes as buffers of the browser: made in a worker, a while before they sound.
-import source from "worker:sound/render_worker.ts";
+import source from "worker:./render_worker.ts";
 import type { Rendered, RenderRequest } from "./render_worker";
 import type { Timbre } from "./timbres";
 import { renderedKey } from "./timbres";
