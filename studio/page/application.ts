@@ -6,6 +6,8 @@ import { byId, element } from "./elements";
 import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
 import type { History } from "./store";
 
+const fact_seconds = 12; // that a line of the status bar stays
+
 type OpenedListener = (facts: Opened, work: Work) => void;
 type Place = { line: number; column: number; length: number };
 
@@ -14,6 +16,7 @@ export class Application implements Studio {
     patterns!: PatternEntry[];
     opened: { facts: Opened; work: Work } | null = null;
 
+    private saying = 0;
     private readonly listeners = new Set<OpenedListener>();
     private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
     private readonly marked = new Set<(place: Place | null) => void>();
@@ -53,6 +56,8 @@ export class Application implements Studio {
         message.dataset["kind"] = kind;
         message.textContent = text;
         message.title = text;
+        clearTimeout(this.saying);
+        if (kind === "fact") this.saying = window.setTimeout(() => { message.textContent = ""; }, fact_seconds * 1000);
     }
 
     highlight(place: Place | null): void {

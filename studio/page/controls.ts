@@ -11,6 +11,7 @@ import { makeColours } from "./colours";
 
 interface Row { slider: Slider; update(facts: Opened): void }
 
+const further_keys = ["heading", "elasticity"]; // with a slider if the text sets them
 const deep_room = 30; // steps of n beyond what can be derived, for patterns that the view can still show
 
 function spread(base: number): { least: number; most: number; step: number } {
@@ -66,8 +67,9 @@ export class Controls {
         }
         this.variant.value = pattern.variant;
         const angle = facts.keys.some((key) => key.name === "angle factor") ? "angle factor" : "angle increment";
-        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, "stroke"];
-        if (names.join("\n") !== this.shape) this.build(names, facts);
+        const more = further_keys.filter((name) => facts.keys.some((key) => key.name === name));
+        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, ...more, "stroke"];
+        if (names.join("\n") !== this.shape) this.build(names);
         for (const row of this.rows.values()) row.update(facts);
         this.showCost(facts);
         this.seed.update(facts);
@@ -75,14 +77,13 @@ export class Controls {
         this.actions.hidden = pattern.settings.length === 0;
     }
 
-    private build(names: string[], facts: Opened): void {
+    private build(names: string[]): void {
         this.shape = names.join("\n");
         this.rows = new Map(names.map((name) => {
             if (name === "derivation length") return [name, this.lengthRow()];
             if (name === "angle factor") return [name, this.factorRow()];
             if (name === "stroke") return [name, this.strokeRow()];
-            const isDefine = facts.defines.some((each) => each.name === name);
-            return [name, this.numberRow(name, isDefine ? name : "angle", isDefine ? null : "90")];
+            return [name, name === "angle increment" ? this.numberRow(name, "angle", "90") : this.numberRow(name, name, null)];
         }));
         const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
         const [length, ...others] = [...this.rows.values()].map((row) => row.slider.element);

@@ -19,7 +19,7 @@ class Card {
             element("span", { class: "caption" }, element("strong", {}, entry.title || entry.name), element("small", {}, facts)));
         this.element.addEventListener("click", () => openPattern(studio, {
             name: `${entry.name}.lsys`, text: entry.text, variant: "", settings: [],
-        }, entry.is_spatial ? "space" : "map"));
+        }, entry.is_spatial ? "space" : entry.is_melody ? "play" : "map"));
     }
 
     matches(words: string[], kind: string): boolean {
@@ -73,7 +73,7 @@ export const makeGalleryPanel: MakePanel = (studio) => {
             card.element.hidden = !card.matches(words, kind);
             if (!card.element.hidden) ++count;
         }
-        shown.textContent = count === cards.length ? `${count} patterns from the literature`
+        shown.textContent = count === cards.length ? `${count} patterns, most of them from the literature`
             : count === 0 ? "No pattern matches." : `${count} of ${cards.length} patterns`;
     };
     search.addEventListener("input", filter);

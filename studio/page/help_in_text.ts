@@ -120,7 +120,8 @@ export function cursorHelp(where: Where): Extension {
             run(view) {
                 const tooltip = tooltipAt(where(), view, view.state.selection.main.head);
                 view.dispatch({ effects: show_help.of(tooltip) });
-                where().say(tooltip?.create(view).dom.innerText ?.replaceAll("\n", " ") ?? "There is no help for this place.");
+                const parts = tooltip?.create(view).dom.querySelectorAll("strong, p, dt, dd") ?? [];
+                where().say([...parts].map((part) => part.textContent).join(" ") || "There is no help for this place.");
                 return true;
             },
         },

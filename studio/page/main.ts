@@ -12,8 +12,9 @@ import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
 import { openPattern } from "./opening";
 import { Panels } from "./panels";
+import { titleOf } from "./pattern_text";
 import { makePlayPanel } from "./play";
-import type { Help, Patterns } from "./protocol";
+import type { Help, PatternEntry, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -39,10 +40,12 @@ const first: Work = {
     draw: [], play: [], place: null, panel: "map",
 };
 
-// Patterns that the program wrote into the page: `sikku studio PATTERN…`.
-function embedded(): Work["pattern"][] {
+// Patterns that the program wrote into the page: `sikku studio PATTERN…`. The first is open; all are in the gallery.
+function embedded(): PatternEntry[] {
     const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
-    return list.map(({ name, text }) => ({ name, text, variant: "", settings: [] }));
+    return list.map(({ name, text }) => ({
+        name: name.replace(/\.lsys$/, ""), kind: "yours", title: titleOf({ name, text }), source: "", text, is_melody: false, is_spatial: false,
+    }));
 }
 
 async function main(): Promise<void> {
@@ -54,12 +57,15 @@ async function main(): Promise<void> {
     restoreScales(engine);
     new Editor(application);
     new Controls(application);
-    for (const pattern of embedded()) if (pattern.text !== store.work.pattern.text) openPattern(application, pattern);
+    const [given] = embedded();
+    if (given && !store.history.some(({ work }) => work.pattern.name === `${given.name}.lsys`)) {
+        openPattern(application, { name: `${given.name}.lsys`, text: given.text, variant: "", settings: [] });
+    }
     const opening = application.open();
     const [patterns, help] = await Promise.all([
         engine.request<Patterns>({ do: "patterns" }), engine.request<Help>({ do: "help" }),
     ]);
-    application.patterns = patterns.json.patterns;
+    application.patterns = [...embedded(), ...patterns.json.patterns];
     application.help = help.json;
     new Panels(application, [
         makeMapPanel, makeSpacePanel, makeVariationsPanel, makePlayPanel, makeBenchPanel, makeGalleryPanel,
@@ -67,7 +73,9 @@ async function main(): Promise<void> {
     makeTools(application);
     acceptDrops(application);
     await opening;
-    if (byId("message").textContent === "Starting…") application.say("");
+    if (byId("message").textContent === "Starting…") {
+        application.say(store.wasSaved ? "" : "Change the text or a value, and the picture follows. ? lists the keys.");
+    }
     watchLinks(application);
 }
 

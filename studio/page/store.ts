@@ -3,6 +3,7 @@ import type { Store, Work } from "./context";
 
 const most_steps = 100;
 const merge_milliseconds = 1000;
+const most_saved = 4_000_000; // characters; browsers keep about five million
 const storage_key = "sikku-studio";
 
 /// A state that undo returns to.
@@ -119,7 +120,10 @@ export class History implements Store {
     // The storage is small: if all does not fit, the newest steps are kept.
     private save(): void {
         clearTimeout(this.timer);
-        for (let kept = this.steps.length; kept > 0; kept = Math.floor(kept / 2)) {
+        let room = most_saved;
+        let kept = 0;
+        for (; kept < this.steps.length && room > 0; ++kept) room -= sizeOf(this.steps[this.steps.length - 1 - kept]!);
+        for (; kept > 0; kept = Math.floor(kept / 2)) {
             const from = Math.max(0, Math.min(this.at, this.steps.length - kept));
             const saved: Saved = { steps: this.steps.slice(from, from + kept), at: Math.min(this.at - from, kept - 1) };
             try {
@@ -130,6 +134,10 @@ export class History implements Store {
             }
         }
     }
+}
+
+function sizeOf(step: Step): number {
+    return step.work.pattern.text.length + (step.picture?.length ?? 0) + 1000;
 }
 
 // Texts are compared as such: a pattern may be long.
