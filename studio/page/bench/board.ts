@@ -28,13 +28,14 @@ export class Board {
     private ratio = 1;
     private scale = 1; // pixels in a unit, which is half a spacing of dots
     private readonly grain = grainTile(7, 26, 34);
-    private readonly powder = powderTile();
+    private readonly powders: HTMLCanvasElement[] = []; // by colour
     private ground: HTMLCanvasElement | null = null;
-    private lines: CanvasRenderingContext2D;
+    private readonly still: CanvasRenderingContext2D; // all but the preview
+    private shown: unknown[] = []; // what `still` shows
 
     constructor(readonly canvas: HTMLCanvasElement, redraw: () => void) {
         this.context = canvas.getContext("2d")!;
-        this.lines = document.createElement("canvas").getContext("2d")!;
+        this.still = document.createElement("canvas").getContext("2d")!;
         new ResizeObserver(() => {
             if (this.fit()) redraw();
         }).observe(canvas);
@@ -48,11 +49,12 @@ export class Board {
         this.width = clientWidth;
         this.height = clientHeight;
         this.ratio = ratio;
-        for (const canvas of [this.canvas, this.lines.canvas]) {
+        for (const canvas of [this.canvas, this.still.canvas]) {
             canvas.width = Math.round(clientWidth * ratio);
             canvas.height = Math.round(clientHeight * ratio);
         }
         this.ground = null;
+        this.shown = [];
         return true;
     }
 
@@ -87,15 +89,25 @@ export class Board {
     draw(scene: Scene): void {
         this.fit();
         this.place(scene);
+        const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots];
+        if (shown.some((each, i) => each !== this.shown[i])) this.drawStill(scene);
+        this.shown = shown;
         const { context } = this;
-        this.ground ??= this.makeGround();
         context.setTransform(1, 0, 0, 1, 0, 0);
-        context.drawImage(this.ground, 0, 0);
+        context.drawImage(this.still.canvas, 0, 0);
         this.toScene(context);
-        if (scene.isFilled) this.drawFields(context, scene);
-        if (scene.hasDots) this.drawDots(context, scene);
-        this.drawLines(scene);
         if (scene.cursor >= 0) this.drawPreview(context, scene);
+    }
+
+    private drawStill(scene: Scene): void {
+        const { still } = this;
+        this.ground ??= this.makeGround();
+        still.setTransform(1, 0, 0, 1, 0, 0);
+        still.drawImage(this.ground, 0, 0);
+        this.toScene(still);
+        if (scene.isFilled) this.drawFields(still, scene);
+        if (scene.hasDots) this.drawDots(still, scene);
+        this.drawLines(still, scene);
     }
 
     /// Earth: uneven, darker towards the edges.
@@ -148,42 +160,35 @@ export class Board {
         });
     }
 
-    private drawLines(scene: Scene): void {
-        const { lines, context } = this;
+    private drawLines(context: CanvasRenderingContext2D, scene: Scene): void {
         const paths = this.paths(scene);
+        context.lineJoin = "round";
         // A shadow, as powder lies on the earth.
         context.save();
         context.translate(0.025, -0.045);
         context.strokeStyle = "rgb(40 10 4 / 34%)";
-        context.lineWidth = line_width * 1.12;
-        context.lineJoin = "round";
+        context.lineWidth = line_width * 1.1;
         for (const path of paths) context.stroke(path);
         context.restore();
-
-        lines.setTransform(1, 0, 0, 1, 0, 0);
-        lines.globalCompositeOperation = "source-over";
-        lines.clearRect(0, 0, lines.canvas.width, lines.canvas.height);
-        this.toScene(lines);
-        lines.lineJoin = lines.lineCap = "round";
+        const scale = 1 / (this.scale * this.ratio);
         paths.forEach((path, index) => {
-            lines.strokeStyle = scene.isColoured ? line_colours[index % line_colours.length] : line_colours[0];
-            lines.lineWidth = line_width * 0.96;
-            lines.setLineDash([]);
-            lines.stroke(path);
+            const powder = context.createPattern(this.powderOf(scene.isColoured ? index % line_colours.length : 0), "repeat")!;
+            powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
+            context.strokeStyle = powder;
+            context.lineWidth = line_width * 0.96;
+            context.stroke(path);
             // The hand lets more of it fall here and there.
-            lines.lineWidth = line_width * 1.14;
-            lines.setLineDash([0.5, 0.9, 1.1, 0.7, 0.3, 1.3]);
-            lines.lineDashOffset = index * 0.7;
-            lines.stroke(path);
+            context.lineWidth = line_width * 1.14;
+            context.lineCap = "round";
+            context.setLineDash([0.5, 1.3, 1.1, 1.6, 0.3, 1.9]);
+            context.lineDashOffset = index * 0.7;
+            context.stroke(path);
+            context.setLineDash([]);
         });
-        lines.setLineDash([]);
-        lines.setTransform(1, 0, 0, 1, 0, 0);
-        lines.globalCompositeOperation = "destination-out";
-        lines.fillStyle = lines.createPattern(this.powder, "repeat")!;
-        lines.fillRect(0, 0, lines.canvas.width, lines.canvas.height);
-        context.setTransform(1, 0, 0, 1, 0, 0);
-        context.drawImage(lines.canvas, 0, 0);
-        this.toScene(context);
+    }
+
+    private powderOf(colour: number): HTMLCanvasElement {
+        return this.powders[colour] ??= powderTile(line_colours[colour]);
     }
 
     /// The pieces that a click would draw, over a patch of earth.
@@ -246,11 +251,14 @@ function grainTile(seed: number, dark: number, light: number): HTMLCanvasElement
     });
 }
 
-/// What is missing between the grains of powder: soft specks of several sizes.
-function powderTile(): HTMLCanvasElement {
+/// Powder of a colour: soft specks of earth show through it.
+function powderTile(colour: string): HTMLCanvasElement {
     const canvas = document.createElement("canvas");
     canvas.width = canvas.height = 256;
     const context = canvas.getContext("2d")!;
+    context.fillStyle = colour;
+    context.fillRect(0, 0, 256, 256);
+    context.globalCompositeOperation = "destination-out";
     const chance = makeChance(211);
     for (let speck = 0; speck < 5200; ++speck) {
         const radius = 0.35 + 0.75 * chance() ** 3;
