@@ -149,8 +149,8 @@ Json answer_kolam(const Json& request, const Monitor& monitor, std::string& byte
 Json answer_check(const Json& request, const Monitor& monitor) {
     const Json& pattern = member(request, "pattern");
     const std::array<const Interpreter*, 2> interpreters = {&prints(), &scores()};
-    return {{"diagnostics", json_of(check_pattern(text_of(pattern, "name"), text_of(pattern, "text"), interpreters,
-                                                  monitor))}};
+    return {{"diagnostics",
+             json_of(check_pattern(text_of(pattern, "name"), text_of(pattern, "text"), interpreters, monitor))}};
 }
 
 template <typename Number>
@@ -174,15 +174,15 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
         append_double(bytes, note.from.y);
         append_double(bytes, note.to.x);
         append_double(bytes, note.to.y);
-        append_double(bytes, -1);
+        append_double(bytes, note.symbol == 0 ? -1 : static_cast<double>(note.symbol));
     }
     Json parts = Json::array();
     for (const Part& part : list.parts) {
         parts.push_back(
             {{"name", part.name}, {"scale", part.scale}, {"program", part.program}, {"voices", part.voices}});
     }
-    return {{"count", list.notes.size()},   {"end", list.end},          {"tempo", list.tempo},
-            {"beats", list.meter.beats},    {"unit", list.meter.unit},  {"ticks", ticks_per_quarter},
+    return {{"count", list.notes.size()}, {"end", list.end},         {"tempo", list.tempo},
+            {"beats", list.meter.beats},  {"unit", list.meter.unit}, {"ticks", ticks_per_quarter},
             {"parts", std::move(parts)}};
 }
 
@@ -197,6 +197,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
+    if (what == "origins") return answer_origins(request);
     if (what == "import") return answer_import(request, file);
     if (what == "show") return answer_show(request, file);
     if (what == "grid") return answer_grid(request, monitor);
