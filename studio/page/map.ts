@@ -48,7 +48,7 @@ export const makeMapPanel: MakePanel = (studio) => {
         panel.dataset["mode"] = view.mode;
         place.update(pointer);
         toDrawing.disabled = !view.hasPlane;
-        toPage.setAttribute("aria-pressed", String(view.mode === "page"));
+        toPage.setAttribute("aria-pressed", String(view.mode === "page" && !view.isMagnified));
         if (view.problem !== text) {
             text = view.problem;
             problem.textContent = text;

@@ -46,7 +46,12 @@ export class MapView {
     private overview: Overview | null = null;
     private refused = ""; // what cannot be drawn
     private asked = ""; // the overview that is being made
+    private count = 0; // of overviews asked for
+    private shown = 0; // number of the one that is shown
+    private readonly busy = [0, 0]; // requests for overviews
     private quality = 1; // of overviews while a slider moves
+    private fineTime = 0; // milliseconds that the last one at full quality took
+    private isCoarseQuicker = true;
     private changed = -1e9; // time of the last change of the work
     private moved = -1e9; // time of the last motion
     private entered = -1e9; // time the plane was entered
@@ -150,6 +155,9 @@ export class MapView {
         const facts = this.known;
         return !!facts?.has_view && !isComposed(facts, this.work.draw);
     }
+
+    /// True if less than the whole page is seen.
+    get isMagnified(): boolean { return this.mode === "page" && this.loupe.zoom > 1; }
 
     get isMoving(): boolean {
         return this.zoom !== null || this.journey !== null;
@@ -395,11 +403,14 @@ export class MapView {
     ): Promise<void> {
         if (what === this.asked || what === this.refused) return;
         this.asked = what;
+        const number = ++this.count;
         const start = performance.now();
         try {
-            const answer = await this.studio.engine.request<Pixels>(request, { key: "map", lane: "front" });
+            const answer = await this.requestOverview<Pixels>(request);
             const overview = made(await bitmapOf(answer));
-            this.note(performance.now() - start);
+            if (number < this.shown) return overview.bitmap.close(); // a later one was quicker
+            this.shown = number;
+            this.note(performance.now() - start, overview.ratio / Math.min(1, this.ratio));
             if (this.asked === what) this.asked = "";
             if (overview.kind !== this.mode && this.overview) return overview.bitmap.close();
             this.overview?.bitmap.close();
@@ -416,15 +427,39 @@ export class MapView {
         }
     }
 
+    // With workers to spare, two pictures are made at a time while a slider moves.
+    private async requestOverview<Json>(request: Parameters<Studio["engine"]["request"]>[0]) {
+        const slots = this.studio.engine.workers >= 4 ? 2 : 1;
+        const slot = slots > 1 && this.busy[0]! > this.busy[1]! ? 1 : 0;
+        ++this.busy[slot]!;
+        try {
+            return await this.studio.engine.request<Json>(request, { key: `map-${slot}`, lane: "front" });
+        } finally {
+            --this.busy[slot]!;
+        }
+    }
+
     private setProblem(text: string): void {
         this.problem = text;
         this.onChange();
     }
 
-    // How good pictures may be while a slider moves.
-    private note(milliseconds: number): void {
-        if (milliseconds > slowPicture) this.quality = Math.max(0.5, this.quality * 0.8);
-        else if (milliseconds < slowPicture / 2) this.quality = Math.min(1, this.quality * 1.15);
+    // How good pictures may be while a slider moves: coarser ones, if they are slow and coarser ones are quicker.
+    private note(milliseconds: number, quality: number): void {
+        if (quality >= 1) {
+            const isNew = milliseconds > 2 * this.fineTime || milliseconds < this.fineTime / 2;
+            if (isNew) this.isCoarseQuicker = true;
+            this.fineTime = milliseconds;
+        } else if (milliseconds > 0.75 * this.fineTime) {
+            this.isCoarseQuicker = false;
+        }
+        this.quality = milliseconds < slowPicture || !this.isCoarseQuicker ? 1 : 0.5;
+    }
+
+    // For tests.
+    private tell({ name, ratio }: Overview): void {
+        const text = `${name} at ${ratio}`;
+        if (this.canvas.dataset["shows"] !== text) this.canvas.dataset["shows"] = text;
     }
 
     private groundOf(work: Work): string {
@@ -488,6 +523,7 @@ export class MapView {
         context.clearRect(0, 0, canvas.width, canvas.height);
         const { overview } = this;
         if (!overview) return;
+        this.tell(overview);
         if (this.mode === "page" && overview.kind === "page") this.paintPage(overview);
         else this.paintPlane(overview, now);
     }

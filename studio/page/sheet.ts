@@ -57,8 +57,9 @@ export interface Laid { readonly left: number; readonly top: number; readonly wi
 export function laidOut(sheet: Sheet, size: Size): Laid {
     const narrow = Math.min(size.width, size.height) < 480;
     const around = narrow ? 16 : 40;
-    const below = narrow ? 60 : 64; // for what is written below the sheet
-    const room = { width: Math.max(40, size.width - 2 * around), height: Math.max(40, size.height - around - below) };
+    const beside = narrow ? 16 : 62; // the buttons lie there
+    const below = narrow ? 48 : 64; // for what is written below the sheet
+    const room = { width: Math.max(40, size.width - 2 * beside), height: Math.max(40, size.height - around - below) };
     const factor = Math.min(room.width / sheet.width, room.height / sheet.height);
     const width = sheet.width * factor;
     const height = sheet.height * factor;
