@@ -9,6 +9,7 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { deflateRawSync } from "node:zlib";
 import { notices } from "./notices.mjs";
+import { alphabet } from "./page/alphabet.js";
 
 const most_bytes = 2 * 1024 * 1024;
 const here = dirname(fileURLToPath(import.meta.url));
@@ -68,9 +69,18 @@ async function style() {
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
-// What the page unpacks when it opens: see page/embedded.ts.
+// What the page unpacks when it opens: deflated, and four bytes in five letters. See page/embedded.ts.
 function packed(contents) {
-    return deflateRawSync(contents, { level: 9, memLevel: 9 }).toString("base64");
+    const bytes = deflateRawSync(contents, { level: 9, memLevel: 9 });
+    const padded = Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);
+    const letters = Buffer.alloc((padded.length / 4) * 5);
+    for (let from = 0, to = 0; from < padded.length; from += 4, to += 5) {
+        for (let place = 4, number = padded.readUInt32BE(from); place >= 0; --place) {
+            letters[to + place] = alphabet.charCodeAt(number % alphabet.length);
+            number = Math.floor(number / alphabet.length);
+        }
+    }
+    return `${bytes.length} ${letters.toString("latin1")}`;
 }
 
 const boot = await bundle("boot.ts");

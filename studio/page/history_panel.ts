@@ -41,6 +41,7 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
         opener.setAttribute("aria-expanded", String(isOpen));
         if (!isOpen) return;
         show();
+        void drawMissing(application, popover);
         place(popover, opener);
         list.querySelector<HTMLElement>("[aria-current]")?.focus();
     });
@@ -53,6 +54,14 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     };
     application.onOpened((_, work) => drawSoon(work));
     if (application.opened && !store.history[store.position]?.picture) drawSoon(application.opened.work);
+}
+
+// Steps that followed too quickly to be drawn then are drawn when they are looked at, the newest first.
+async function drawMissing(application: Application, popover: HTMLElement): Promise<void> {
+    for (const { work, picture } of application.store.history.toReversed()) {
+        if (!popover.matches(":popover-open")) return;
+        if (!picture) await drawStep(application, work);
+    }
 }
 
 async function drawStep(application: Application, work: Work): Promise<void> {
