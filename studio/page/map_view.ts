@@ -3,7 +3,7 @@
 import { cameraWith, fitting, limited, panned, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { decimalsOf } from "./camera";
-import { exactText, readExact } from "./decimal";
+import { exactOf, exactText, readExact } from "./decimal";
 import { eased, flight, followed, rung, type Zoom } from "./flight";
 import { bitmapOf, isAbort, TileLoader, type Bitmap, type Subject } from "./pictures";
 import type { Opened, Pixels } from "./protocol";
@@ -149,6 +149,18 @@ export class MapView {
     get hasPlane(): boolean {
         const facts = this.facts?.facts;
         return !!facts?.extent && !facts.is_spatial;
+    }
+
+    /// True if the view shows no place where the drawing can be.
+    get isElsewhere(): boolean {
+        const extent = this.known?.extent?.map(readExact);
+        if (this.mode !== "plane" || !extent) return false;
+        const [x0, y0, x1, y1] = extent;
+        if (x0 == null || y0 == null || x1 == null || y1 == null) return false;
+        const low = pointAt(this.camera, this.size, 0, this.size.height);
+        const high = pointAt(this.camera, this.size, this.size.width, 0);
+        const pen = exactOf(1); // lines are wider than their positions
+        return high.x < x0 - pen || low.x > x1 + pen || high.y < y0 - pen || low.y > y1 + pen;
     }
 
     private get isTiled(): boolean {
