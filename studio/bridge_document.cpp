@@ -332,7 +332,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
         const double dpi = std::min(width / page.width, height / page.height) * mm_of_inch;
         values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
     }
-    const Pixels pixels = draw_pixels(document, values, monitor);
+    const DrawnPixels pixels = draw_pixels(document, values, monitor);
     bytes.assign(pixels.bytes.begin(), pixels.bytes.end());
     return {{"width", pixels.width}, {"height", pixels.height}, {"remarks", json_of(pixels.remarks)}};
 }
