@@ -109,7 +109,13 @@ export class Controls {
             slide: (number: number) => this.change(name, text(number)),
             type: (value: string) => this.change(name, value),
             reset: () => this.change(name, null),
+            explain: () => this.explain(name),
         };
+    }
+
+    private explain(name: string): string {
+        const define = this.application.opened?.facts.defines.find((each) => each.name === name);
+        return define ? `${name}, defined in line ${define.line}` : this.application.help?.keys.find((key) => key.name === name)?.help ?? "";
     }
 
     private lengthRow(): Row {
@@ -175,12 +181,13 @@ export class Controls {
         };
         const write = (width: string) => {
             const { now } = parse();
-            this.change("stroke", `${width}${now.unit === "step" ? " step" : now.unit}${now.rest ? ` ${now.rest}` : ""}`);
+            this.change("stroke", `${width}${now.unit === "step" ? " step" : now.unit}${now.rest && now.rest !== "none" ? ` ${now.rest}` : ""}`);
         };
         const slider = makeSlider("stroke", {
             slide: (number) => write(rounded(number, 0.01)),
             type: (value) => /^[\d.]+$/.test(value) ? write(value) : this.change("stroke", value && withColour(value, parse().now.rest)),
             reset: () => this.change("stroke", null),
+            explain: () => this.explain("stroke"),
         });
         return {
             slider,

@@ -73,6 +73,7 @@ class Export {
         this.dialog.footer.append(
             element("div", { class: "command-row" }, element("span", { class: "label" }, "As a command"), this.command, copy), this.save);
         this.choose(this.choice);
+        this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
     }
 
     private nameOf(choice: Choice): string { return `${choice.interpreter} ${choice.format.extension}`; }

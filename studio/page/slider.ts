@@ -23,6 +23,7 @@ let last = 0;
 /// `slide` gets the number of the thumb, `type` the text of the field, `reset` nothing.
 export function makeSlider(label: string, acts: {
     slide(number: number): void; type(text: string): void; reset(): void;
+    explain?(): string; // help, when the pointer is on the name
 }): Slider {
     const id = `slider-${++last}`;
     const name = element("label", { for: id, title: label }, label);
@@ -31,6 +32,7 @@ export function makeSlider(label: string, acts: {
     const reset = button(`Reset ${label}`, acts.reset, { kind: "quiet", icon: reset_icon });
     const row = element("div", { class: "slider" }, name, range, field, reset);
 
+    name.addEventListener("pointerenter", () => { name.title = acts.explain?.() || label; });
     range.addEventListener("input", () => acts.slide(range.valueAsNumber));
     range.addEventListener("dblclick", acts.reset);
     name.addEventListener("dblclick", acts.reset);
