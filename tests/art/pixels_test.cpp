@@ -21,7 +21,7 @@ std::vector<std::uint8_t> pixels_of_png(const Document& document, const OptionVa
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     std::vector<std::uint8_t> raw(channels * static_cast<std::size_t>(spec.width) *
                                   static_cast<std::size_t>(spec.height));
-    EXPECT_TRUE(input->read_image(OIIO::TypeDesc::UINT8, raw.data()));
+    EXPECT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data()));
     std::vector<std::uint8_t> bytes;
     for (std::size_t i = 0; i < raw.size(); i += channels) {
         for (std::size_t channel = 0; channel < 3; ++channel) bytes.push_back(raw[i + (channels < 3 ? 0 : channel)]);
