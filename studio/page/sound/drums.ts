@@ -42,7 +42,7 @@ function mixed(parts: [Float32Array, number][]): Float32Array {
 
 /// A loaded skin, as of the mridangam: its partials are nearly harmonic. Source: Raman 1934.
 function loadedSkin(rate: number, key: number, seconds: number, closed: boolean): Float32Array {
-    const list = [1, 2, 3.01, 4.02, 5.04].map((ratio, k) => ({
+    const list = [1, 2, 3.003, 4.006, 5.01].map((ratio, k) => ({
         ratio, level: [0.7, 1, 0.6, 0.4, 0.2][k], seconds: (closed ? 0.18 : seconds) / (1 + 0.4 * k),
     }));
     const data = onset(partials(list, key, rate, closed ? 0.25 : seconds, null, 3), rate, 0.001);

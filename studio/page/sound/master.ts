@@ -40,7 +40,7 @@ export class Master {
 
     /// From 0 to 1.
     setVolume(share: number): void {
-        this.volume.gain.setTargetAtTime(1.1 * share * share, this.context.currentTime, 0.015);
+        this.volume.gain.setTargetAtTime(1.8 * share * share, this.context.currentTime, 0.015);
     }
 }
 

@@ -93,9 +93,9 @@ export class SoundOutput implements NoteSink {
         filter.Q.value = -3;
         const [dark, bright] = timbre.brightness;
         const cutoff = frequency * (dark + (bright - dark) * force ** 1.5);
-        filter.frequency.value = Math.min(0.45 * context.sampleRate, Math.max(700 + 2500 * force, cutoff));
+        filter.frequency.value = Math.min(0.45 * context.sampleRate, Math.max(300 + 1500 * force, cutoff));
 
-        const level = (velocity / 100) ** 1.3;
+        const level = (timbre.trim ?? 1) * (velocity / 100) ** 1.3;
         const envelope = context.createGain();
         const attack = Math.min(timbre.attack, 0.7 * seconds);
         const end = begin + seconds;
@@ -127,6 +127,7 @@ export class SoundOutput implements NoteSink {
         const oscillator = this.context.createOscillator();
         oscillator.frequency.value = hertz;
         const depth = this.context.createGain();
+        depth.gain.value = 0;
         depth.gain.setValueAtTime(0, begin + delay);
         depth.gain.linearRampToValueAtTime(rate * (2 ** (cents / 1200) - 1), begin + delay + 0.4);
         oscillator.connect(depth).connect(source.playbackRate);
