@@ -37,7 +37,7 @@ try {
         assert.ok(row.full <= -0.99, `${row.name}: ${row.full} dBFS in a chord of twelve`);
         assert.ok(Math.abs(row.cents) < 2, `${row.name}: ${row.cents} cents`);
         assert.ok(row.step < 0.02, `${row.name}: a click at the end, ${row.step}`);
-        assert.ok(row.loud >= row.soft - 5, `${row.name}: soft notes are brighter`);
+        assert.ok(row.loud >= row.soft || row.name === "drums", `${row.name}: soft notes are brighter`);
     }
     assert.ok(spread < 3, `levels differ by ${spread} dB`);
     const drift = await page.evaluate(tenMinutes);
