@@ -54,6 +54,7 @@ export class Application implements Studio {
     say(text: string, kind: "fact" | "warning" | "error" = "fact"): void {
         const message = byId("message");
         message.dataset["kind"] = kind;
+        message.dataset["source"] = "";
         message.textContent = text;
         message.title = text;
         clearTimeout(this.saying);

@@ -50,7 +50,11 @@ export class Controls {
         this.actions = element("div", { class: "toolbar value-actions" }, write, reset);
         byId("values").append(this.variantField, this.list, this.seed.element, this.colours.element, this.actions);
         application.onOpened((facts) => this.show(facts));
-        application.onChecked((error) => byId("values").classList.toggle("stale", error !== null));
+        application.onChecked((error, diagnostics) => {
+            byId("values").classList.toggle("stale", error !== null);
+            const wrong = diagnostics.filter((each) => !each.warning).map((each) => each.setting ?? "");
+            for (const [name, row] of this.rows) row.slider.setInvalid(wrong.some((each) => each === name || each.startsWith(`${name} `)));
+        });
         // The thumb follows the hand at once, not when the libraries have answered.
         store.subscribe((work) => {
             this.actions.hidden = work.pattern.settings.length === 0;

@@ -16,6 +16,8 @@ import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure } from "./protocol";
 
+const message_pause = 350; // milliseconds after the last key
+
 type Place = { line: number; column: number; length: number };
 
 const from_outside = Annotation.define<boolean>(); // the text of an undo, a link, a pattern that was opened
@@ -31,7 +33,7 @@ function offset(text: Text, line: number, column: number): number {
     return from + at;
 }
 
-// The part of the production or word that sounds.
+// The production that sounds, and the symbol in it.
 const light = StateEffect.define<Place | null>();
 const lit = StateField.define<DecorationSet>({
     create: () => Decoration.none,
@@ -39,11 +41,13 @@ const lit = StateField.define<DecorationSet>({
         marks = marks.map(transaction.changes);
         for (const effect of transaction.effects) {
             if (!effect.is(light)) continue;
-            if (!effect.value) return Decoration.none;
+            marks = Decoration.none;
             const { doc } = transaction.state;
+            if (!effect.value || effect.value.line < 1 || effect.value.line > doc.lines) continue;
             const from = offset(doc, effect.value.line, effect.value.column);
             const to = offset(doc, effect.value.line, effect.value.column + effect.value.length);
-            marks = to > from ? Decoration.set(Decoration.mark({ class: "lit" }).range(from, to)) : Decoration.none;
+            const production = Decoration.line({ class: "lit-line" }).range(doc.line(effect.value.line).from);
+            marks = Decoration.set(to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production]);
         }
         return marks;
     },
@@ -94,6 +98,7 @@ export class Editor {
     readonly view: EditorView;
     private diagnostics: Diagnostic[] = [];
     private timer = 0;
+    private announced = "";
     private readonly strip = element("div", { class: "error-strip", hidden: true });
 
     constructor(private readonly application: Application) {
@@ -163,8 +168,11 @@ export class Editor {
         this.view.dispatch(setDiagnostics(this.view.state, findings));
         clearTimeout(this.timer);
         if (findings.length === 0) this.showMessages([]);
-        else this.timer = window.setTimeout(() => this.showMessages(this.diagnostics), 350);
-        this.showStrip(error, diagnostics);
+        const line = this.showStrip(error, diagnostics);
+        this.timer = window.setTimeout(() => {
+            if (findings.length > 0) this.showMessages(this.diagnostics);
+            this.announce(line);
+        }, message_pause);
     }
 
     private showMessages(diagnostics: Diagnostic[]): void {
@@ -172,25 +180,30 @@ export class Editor {
     }
 
     // Below the text: how many errors there are, the first of them, and errors without a place.
-    private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
+    private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): string {
         this.strip.hidden = error === null;
-        if (!error) {
-            if (this.strip.textContent !== "") this.application.say("No errors.");
-            this.strip.replaceChildren();
-            return;
-        }
+        this.strip.replaceChildren();
+        if (!error) return "";
         const errors = diagnostics.filter((each) => !each.warning);
         const first = errors.find((each) => each.line > 0);
         const message = errors[0]?.message ?? error.message;
         const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
         const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
-        this.strip.replaceChildren(element("span", {}, where + message + more));
+        this.strip.append(element("span", {}, where + message + more));
         if (first) {
             const go = element("button", { type: "button", class: "button quiet" }, "Go to it");
             go.addEventListener("click", () => this.goTo(first));
             this.strip.append(go);
         }
-        this.application.say(where + message + more, "error");
+        return where + message + more;
+    }
+
+    // Once the typing pauses, and once only. The status bar repeats what the strip shows for those who do not see it.
+    private announce(line: string): void {
+        if (line === this.announced) return;
+        this.announced = line;
+        this.application.say(line || "No errors.", line ? "error" : "fact");
+        byId("message").dataset["source"] = "text";
     }
 
     goTo(place: { line: number; column: number }): void {

@@ -26,6 +26,7 @@ export class Panels {
         panel.element.setAttribute("role", "tabpanel");
         panel.element.setAttribute("aria-labelledby", `tab-${panel.name}`);
         panel.element.hidden = true;
+        panel.element.prepend(element("h2", { class: "unseen" }, panel.label));
         const tab = element("button", {
             type: "button", class: "tab", role: "tab", id: `tab-${panel.name}`, "aria-selected": "false",
             "aria-controls": panel.element.id, tabindex: -1,

@@ -16,6 +16,8 @@ export interface SliderState {
 export interface Slider {
     element: HTMLElement;
     set(state: SliderState): void;
+    /// Marks the value as wrong.
+    setInvalid(isInvalid: boolean): void;
 }
 
 let last = 0;
@@ -48,6 +50,7 @@ export function makeSlider(label: string, acts: {
 
     return {
         element: row,
+        setInvalid(isInvalid) { field.setAttribute("aria-invalid", String(isInvalid)); },
         set(state) {
             range.min = String(state.least);
             range.max = String(state.most);
