@@ -16,6 +16,30 @@ const turning = 380; // milliseconds in which one model turns into the next
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
 const usualLight = { azimuth: -38, elevation: 46 };
 
+/// How finely motion is drawn, so that it stays smooth on slow graphics.
+class Pace {
+    quality = 1;
+    private learned = 1; // for the next motion
+    private last = 0;
+    private slow = 0;
+
+    frame(now: number): void {
+        const passed = now - this.last;
+        this.last = now;
+        if (passed > 2500) return; // the first of a motion
+        this.quality = this.learned;
+        this.slow = passed > 26 ? this.slow + 1 : Math.max(0, this.slow - 0.25);
+        if (this.slow < 3 || this.learned <= 0.36) return;
+        this.slow = 0;
+        this.quality = this.learned = this.learned * 0.7;
+    }
+
+    rest(): void {
+        this.quality = 1;
+        this.last = -1e9;
+    }
+}
+
 const icons = {
     play: "M5 3.2v9.6l8-4.8z",
     pause: "M5 3v10M11 3v10",
@@ -75,6 +99,8 @@ class SpaceView {
     private grownAt = 0;
     private frame = 0;
     private last = 0;
+    private readonly pace = new Pace();
+    private restTimer = 0;
     private asked = 0;
 
     static make(studio: Studio, panel: HTMLElement): SpaceView | null {
@@ -363,15 +389,27 @@ class SpaceView {
         if (!this.isShown || this.frame) return;
         this.frame = requestAnimationFrame((now) => {
             this.frame = 0;
+            this.pace.frame(now);
             this.advance(now);
             this.paint(now);
             if (this.isTurning || this.isGrowing || this.before) this.draw();
+            this.rest();
         });
+    }
+
+    // Motion may have been drawn coarsely: what stands still is drawn finely.
+    private rest(): void {
+        clearTimeout(this.restTimer);
+        if (this.pace.quality === 1) return;
+        this.restTimer = window.setTimeout(() => {
+            this.pace.rest();
+            if (this.isShown && !this.frame) this.paint(performance.now());
+        }, 250);
     }
 
     private paint(now: number): void {
         const { canvas } = this;
-        const ratio = Math.min(2, window.devicePixelRatio || 1);
+        const ratio = Math.min(2, window.devicePixelRatio || 1) * this.pace.quality;
         const width = Math.round(canvas.clientWidth * ratio);
         const height = Math.round(canvas.clientHeight * ratio);
         if (width === 0 || height === 0) return;
