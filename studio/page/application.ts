@@ -21,8 +21,13 @@ export class Application implements Studio {
     private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
     private readonly marked = new Set<(place: Place | null) => void>();
 
-    constructor(readonly engine: Engine, readonly store: History) {
-        store.subscribe((work, before) => { if (work.pattern !== before.pattern) void this.open(); });
+    constructor(
+        readonly engine: Engine,
+        readonly store: History,
+    ) {
+        store.subscribe((work, before) => {
+            if (work.pattern !== before.pattern) void this.open();
+        });
     }
 
     onOpened(listener: OpenedListener): () => void {
@@ -35,7 +40,9 @@ export class Application implements Studio {
         this.failed.add(listener);
     }
 
-    onHighlight(listener: (place: Place | null) => void): void { this.marked.add(listener); }
+    onHighlight(listener: (place: Place | null) => void): void {
+        this.marked.add(listener);
+    }
 
     /// Reads the work's pattern; the panels draw it again if it has no errors.
     async open(): Promise<void> {
@@ -58,7 +65,10 @@ export class Application implements Studio {
         message.textContent = text;
         message.title = text;
         clearTimeout(this.saying);
-        if (kind === "fact") this.saying = window.setTimeout(() => { message.textContent = ""; }, fact_seconds * 1000);
+        if (kind === "fact")
+            this.saying = window.setTimeout(() => {
+                message.textContent = "";
+            }, fact_seconds * 1000);
     }
 
     highlight(place: Place | null): void {

@@ -6,13 +6,21 @@ import { lintGutter, lintKeymap, nextDiagnostic, setDiagnostics, type Diagnostic
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState, type Extension, StateEffect, StateField, type Text } from "@codemirror/state";
 import {
-    Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap,
-    lineNumbers, WidgetType,
+    Decoration,
+    type DecorationSet,
+    drawSelection,
+    EditorView,
+    highlightActiveLine,
+    highlightActiveLineGutter,
+    keymap,
+    lineNumbers,
+    WidgetType,
 } from "@codemirror/view";
 import type { Application } from "./application";
 import { colour_swatches } from "./colour_swatches";
 import { byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
+import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure } from "./protocol";
 
@@ -47,7 +55,9 @@ const lit = StateField.define<DecorationSet>({
             const from = offset(doc, effect.value.line, effect.value.column);
             const to = offset(doc, effect.value.line, effect.value.column + effect.value.length);
             const production = Decoration.line({ class: "lit-line" }).range(doc.line(effect.value.line).from);
-            marks = Decoration.set(to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production]);
+            marks = Decoration.set(
+                to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production],
+            );
         }
         return marks;
     },
@@ -56,8 +66,15 @@ const lit = StateField.define<DecorationSet>({
 
 // Messages below their lines; they come when the typing pauses, so that the text does not jump.
 class Message extends WidgetType {
-    constructor(private readonly text: string, private readonly isWarning: boolean) { super(); }
-    override eq(other: Message): boolean { return other.text === this.text && other.isWarning === this.isWarning; }
+    constructor(
+        private readonly text: string,
+        private readonly isWarning: boolean,
+    ) {
+        super();
+    }
+    override eq(other: Message): boolean {
+        return other.text === this.text && other.isWarning === this.isWarning;
+    }
     toDOM(): HTMLElement {
         return element("div", { class: `line-message ${this.isWarning ? "warning" : "error"}` }, this.text);
     }
@@ -72,9 +89,14 @@ const messages = StateField.define<DecorationSet>({
             if (!effect.is(show_messages)) continue;
             const { doc } = transaction.state;
             const placed = effect.value.filter((each) => each.line >= 1 && each.line <= doc.lines);
-            marks = Decoration.set(placed.map((each) => Decoration.widget({
-                widget: new Message(each.message, each.warning), block: true, side: 1,
-            }).range(doc.line(each.line).to)), true);
+            marks = Decoration.set(
+                placed.map((each) =>
+                    Decoration.widget({ widget: new Message(each.message, each.warning), block: true, side: 1 }).range(
+                        doc.line(each.line).to,
+                    ),
+                ),
+                true,
+            );
         }
         return marks;
     },
@@ -90,8 +112,9 @@ const look = EditorView.theme({
     ".cm-activeLine, .cm-activeLineGutter": { background: "color-mix(in srgb, var(--earth-wash) 45%, transparent)" },
     ".cm-cursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
     "&.cm-focused": { outline: "none" },
-    "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground":
-        { background: "var(--mark)" },
+    "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": {
+        background: "var(--mark)",
+    },
 });
 
 export class Editor {
@@ -117,19 +140,38 @@ export class Editor {
         const undo = () => (store.undo(), true);
         const redo = () => (store.redo(), true);
         return [
-            lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), bracketMatching(),
-            closeBrackets(), lintGutter(), search({ top: true }), highlightSelectionMatches(),
-            EditorView.lineWrapping, pattern_language, syntaxHighlighting(pattern_colours), look, lit, messages,
+            lineNumbers(),
+            highlightActiveLine(),
+            highlightActiveLineGutter(),
+            drawSelection(),
+            bracketMatching(),
+            closeBrackets(),
+            lintGutter(),
+            search({ top: true }),
+            highlightSelectionMatches(),
+            EditorView.lineWrapping,
+            pattern_language,
+            syntaxHighlighting(pattern_colours),
+            look,
+            lit,
+            messages,
             colour_swatches,
             autocompletion({ override: [completePattern(() => this.application)], icons: false }),
-            hoverHelp(() => this.application), cursorHelp(() => this.application),
+            hoverHelp(() => this.application),
+            cursorHelp(() => this.application),
             EditorView.contentAttributes.of({ "aria-label": "Text of the pattern", spellcheck: "false" }),
             keymap.of([
-                { key: "Mod-z", run: undo }, { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
-                { key: "Mod-Shift-z", run: redo }, { key: "Mod-/", run: toggleComment },
+                { key: "Mod-z", run: undo },
+                { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
+                { key: "Mod-Shift-z", run: redo },
+                { key: "Mod-/", run: toggleComment },
                 { key: "Shift-Tab", run: indentLess }, // Tab itself leaves the text
                 { key: "F8", run: nextDiagnostic },
-                ...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...lintKeymap, ...defaultKeymap,
+                ...closeBracketsKeymap,
+                ...completionKeymap,
+                ...searchKeymap,
+                ...lintKeymap,
+                ...defaultKeymap,
             ]),
             EditorView.updateListener.of((update) => {
                 if (!update.docChanged || update.transactions.some((each) => each.annotation(from_outside))) return;
@@ -146,8 +188,12 @@ export class Editor {
         let from = 0;
         while (from < now.length && from < text.length && now[from] === text[from]) ++from;
         let end = 0;
-        while (end < now.length - from && end < text.length - from &&
-               now[now.length - 1 - end] === text[text.length - 1 - end]) ++end;
+        while (
+            end < now.length - from &&
+            end < text.length - from &&
+            now[now.length - 1 - end] === text[text.length - 1 - end]
+        )
+            ++end;
         this.view.dispatch({
             changes: { from, to: now.length - end, insert: text.slice(from, text.length - end) },
             annotations: from_outside.of(true),
@@ -157,14 +203,20 @@ export class Editor {
     private check(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
         this.diagnostics = diagnostics;
         const { doc } = this.view.state;
-        const findings = diagnostics.filter((each) => each.line > 0 && each.line <= doc.lines).map((each): Finding => {
-            const from = offset(doc, each.line, each.column);
-            const rest = doc.sliceString(from, doc.lineAt(from).to);
-            const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
-            return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
-        });
-        const errors = diagnostics.filter((each) => !each.warning).length;
-        byId("facts").textContent = error === null ? "No errors" : errors === 1 || errors === 0 ? "1 error" : `${errors} errors`;
+        const findings = diagnostics
+            .filter((each) => each.line > 0 && each.line <= doc.lines)
+            .map((each): Finding => {
+                const from = offset(doc, each.line, each.column);
+                const rest = doc.sliceString(from, doc.lineAt(from).to);
+                const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
+                return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
+            });
+        const errors = Math.max(diagnostics.filter((each) => !each.warning).length, error ? 1 : 0);
+        const warnings = diagnostics.filter((each) => each.warning).length;
+        byId("facts").textContent = [
+            errors === 0 ? "No errors" : counted(String(errors), "error"),
+            ...(warnings > 0 ? [counted(String(warnings), "warning")] : []),
+        ].join(", ");
         this.view.dispatch(setDiagnostics(this.view.state, findings));
         clearTimeout(this.timer);
         if (findings.length === 0) this.showMessages([]);

@@ -18,7 +18,11 @@ function ago(time: number): string {
 export function makeHistory(application: Application, opener: HTMLButtonElement): void {
     const { store } = application;
     const list = element("ol", { class: "steps" });
-    const popover = element("div", { class: "menu history", popover: "auto", id: "history", "aria-label": "History", role: "dialog" }, list);
+    const popover = element(
+        "div",
+        { class: "menu history", popover: "auto", id: "history", "aria-label": "History", role: "dialog" },
+        list,
+    );
     opener.setAttribute("aria-haspopup", "dialog");
     opener.setAttribute("aria-expanded", "false");
     opener.after(popover);
@@ -26,13 +30,24 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     const show = () => {
         if (!popover.matches(":popover-open")) return;
         const focused = [...list.querySelectorAll("button")].indexOf(document.activeElement as HTMLButtonElement);
-        list.replaceChildren(...store.history.map((step, at) => {
-            const picture = step.picture ? element("img", { src: step.picture, alt: "", width: 44, height: 44 }) : element("span", { class: "no-picture" });
-            const entry = element("button", { type: "button", "aria-current": at === store.position ? "step" : null },
-                picture, element("span", {}, step.label), element("small", {}, ago(step.time)));
-            entry.addEventListener("click", () => store.go(at));
-            return element("li", {}, entry);
-        }).reverse());
+        list.replaceChildren(
+            ...store.history
+                .map((step, at) => {
+                    const picture = step.picture
+                        ? element("img", { src: step.picture, alt: "", width: 44, height: 44 })
+                        : element("span", { class: "no-picture" });
+                    const entry = element(
+                        "button",
+                        { type: "button", "aria-current": at === store.position ? "step" : null },
+                        picture,
+                        element("span", {}, step.label),
+                        element("small", {}, ago(step.time)),
+                    );
+                    entry.addEventListener("click", () => store.go(at));
+                    return element("li", {}, entry);
+                })
+                .reverse(),
+        );
         if (focused >= 0) list.querySelectorAll("button")[focused]?.focus();
     };
     store.watch(show);

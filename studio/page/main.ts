@@ -37,14 +37,23 @@ line: spline
 
 const first: Work = {
     pattern: { name: "snake-kolam.lsys", text: first_text, variant: "", settings: [] },
-    draw: [], play: [], place: null, panel: "map",
+    draw: [],
+    play: [],
+    place: null,
+    panel: "map",
 };
 
 // Patterns that the program wrote into the page: `sikku studio PATTERN…`. The first is open; all are in the gallery.
 function embedded(): PatternEntry[] {
     const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
     return list.map(({ name, text }) => ({
-        name: name.replace(/\.lsys$/, ""), kind: "yours", title: titleOf({ name, text }), source: "", text, is_melody: false, is_spatial: false,
+        name: name.replace(/\.lsys$/, ""),
+        kind: "yours",
+        title: titleOf({ name, text }),
+        source: "",
+        text,
+        is_melody: false,
+        is_spatial: false,
     }));
 }
 
@@ -63,12 +72,18 @@ async function main(): Promise<void> {
     }
     const opening = application.open();
     const [patterns, help] = await Promise.all([
-        engine.request<Patterns>({ do: "patterns" }), engine.request<Help>({ do: "help" }),
+        engine.request<Patterns>({ do: "patterns" }),
+        engine.request<Help>({ do: "help" }),
     ]);
     application.patterns = [...embedded(), ...patterns.json.patterns];
     application.help = help.json;
     new Panels(application, [
-        makeMapPanel, makeSpacePanel, makeVariationsPanel, makePlayPanel, makeBenchPanel, makeGalleryPanel,
+        makeMapPanel,
+        makeSpacePanel,
+        makeVariationsPanel,
+        makePlayPanel,
+        makeBenchPanel,
+        makeGalleryPanel,
     ]);
     makeTools(application);
     acceptDrops(application);

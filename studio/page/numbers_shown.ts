@@ -11,7 +11,11 @@ export function count(text: string): string {
     if (text.length > 15) return `about 10${raised(text.length - 1)}`;
     const number = Number(text);
     if (number < 1e6) return number.toLocaleString("en");
-    const units: [number, string][] = [[1e12, "trillion"], [1e9, "billion"], [1e6, "million"]];
+    const units: [number, string][] = [
+        [1e12, "trillion"],
+        [1e9, "billion"],
+        [1e6, "million"],
+    ];
     const [size, unit] = units.find(([each]) => number >= each)!;
     return `${(number / size).toPrecision(3)} ${unit}`;
 }
@@ -24,8 +28,10 @@ export function counted(text: string, noun: string): string {
 /// The length of a range of decimal texts of any length, for reading.
 export function span(from: string, to: string): string {
     const size = Math.abs(Number(to) - Number(from));
-    if (!Number.isFinite(size)) return `10${raised(Math.max(from.replace("-", "").length, to.replace("-", "").length) - 1)}`;
-    if (size >= 1e9) return size.toExponential(2).replace(/e\+?(\d+)/, (_, exponent: string) => ` × 10${raised(exponent)}`);
+    if (!Number.isFinite(size))
+        return `10${raised(Math.max(from.replace("-", "").length, to.replace("-", "").length) - 1)}`;
+    if (size >= 1e9)
+        return size.toExponential(2).replace(/e\+?(\d+)/, (_, exponent: string) => ` × 10${raised(exponent)}`);
     return size.toLocaleString("en", { maximumSignificantDigits: 6 });
 }
 

@@ -14,7 +14,10 @@ export interface Step {
     picture?: string; // a thumbnail, as a data address
 }
 
-interface Saved { steps: Step[]; at: number }
+interface Saved {
+    steps: Step[];
+    at: number;
+}
 
 type Listener = (work: Work, before: Work) => void;
 
@@ -33,20 +36,29 @@ export class History implements Store {
         this.at = saved?.at ?? 0;
         this.wasSaved = saved !== null;
         addEventListener("pagehide", () => this.save());
-        document.addEventListener("visibilitychange", () => { if (document.hidden) this.save(); });
+        document.addEventListener("visibilitychange", () => {
+            if (document.hidden) this.save();
+        });
     }
 
     readonly wasSaved: boolean; // by an earlier visit
 
-    get work(): Work { return this.steps[this.at]!.work; }
-    get history(): readonly Step[] { return this.steps; }
-    get position(): number { return this.at; }
+    get work(): Work {
+        return this.steps[this.at]!.work;
+    }
+    get history(): readonly Step[] {
+        return this.steps;
+    }
+    get position(): number {
+        return this.at;
+    }
 
     change(change: Partial<Work>, merge = ""): void {
         const before = this.work;
         const work = { ...before, ...change };
         if (isSame(work, before)) return;
-        if (!change.pattern && !change.draw && !change.play) { // where one looks is no step of the work
+        if (!change.pattern && !change.draw && !change.play) {
+            // where one looks is no step of the work
             this.steps[this.at]!.work = work;
             this.tell(before);
             return;
@@ -73,8 +85,12 @@ export class History implements Store {
         this.change({ pattern: { ...pattern, settings } }, merge);
     }
 
-    undo(): void { this.go(this.at - 1); }
-    redo(): void { this.go(this.at + 1); }
+    undo(): void {
+        this.go(this.at - 1);
+    }
+    redo(): void {
+        this.go(this.at + 1);
+    }
 
     /// Returns to a step of the history.
     go(position: number): void {
@@ -143,7 +159,8 @@ function sizeOf(step: Step): number {
 // Texts are compared as such: a pattern may be long.
 function isSame(one: Work, other: Work): boolean {
     const [a, b] = [one.pattern, other.pattern];
-    const rest = (work: Work) => JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
+    const rest = (work: Work) =>
+        JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
     return a.text === b.text && a.name === b.name && a.variant === b.variant && rest(one) === rest(other);
 }
 

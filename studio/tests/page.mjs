@@ -23,8 +23,17 @@ if (values.screenshots) mkdirSync(values.screenshots, { recursive: true });
 
 const browser = await chromium.launch({
     executablePath: values.browser,
-    args: ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-        "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ],
 });
 
 const ctrl = "Control";
@@ -33,11 +42,15 @@ const narrow = { width: 390, height: 844 };
 
 // A page with the studio, and what went wrong in it.
 async function openStudio({ viewport = wide, colorScheme = "light", fragment = "", context } = {}) {
-    const own = context ?? await browser.newContext({ viewport, colorScheme, acceptDownloads: true, reducedMotion: "reduce" });
+    const own =
+        context ??
+        (await browser.newContext({ viewport, colorScheme, acceptDownloads: true, reducedMotion: "reduce" }));
     const page = await own.newPage();
     page.problems = [];
     page.on("pageerror", (error) => page.problems.push(error.message));
-    page.on("console", (message) => { if (message.type() === "error") page.problems.push(message.text()); });
+    page.on("console", (message) => {
+        if (message.type() === "error") page.problems.push(message.text());
+    });
     page.on("request", (request) => {
         if (!/^(file|blob|data):/.test(request.url())) page.problems.push(`request of ${request.url()}`);
     });
@@ -60,8 +73,12 @@ async function setText(page, content) {
 }
 
 async function textOf(page) {
-    return page.evaluate(() => JSON.parse(localStorage.getItem("sikku-studio") ?? "null") && document.querySelector(".cm-content").cmTile?.view?.state.doc.toString()
-        || [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n"));
+    return page.evaluate(
+        () =>
+            (JSON.parse(localStorage.getItem("sikku-studio") ?? "null") &&
+                document.querySelector(".cm-content").cmTile?.view?.state.doc.toString()) ||
+            [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n"),
+    );
 }
 
 // The map as a number: different pictures have different ones.
@@ -70,7 +87,8 @@ async function picture(page) {
         const canvas = document.querySelector(".map-canvas");
         const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
         let sum = 0;
-        for (let index = 0; index < data.length; index += 16) sum = (sum * 31 + data[index] + data[index + 1] * 3) % 1000000007;
+        for (let index = 0; index < data.length; index += 16)
+            sum = (sum * 31 + data[index] + data[index + 1] * 3) % 1000000007;
         return sum;
     });
 }
@@ -99,8 +117,11 @@ async function steadyPicture(page) {
 async function checkAccess(page, what) {
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => globalThis.axe.run({ resultTypes: ["violations"] }));
-    const lines = violations.map(({ id, nodes }) =>
-        `${what}: ${id}, ${nodes.length} times: ${nodes[0].html.slice(0, 200)} (${nodes[0].any[0]?.message ?? nodes[0].failureSummary})`);
+    const lines = violations.map(
+        ({ id, nodes }) =>
+            `${what}: ${id}, ${nodes.length} times: ${nodes[0].html.slice(0, 200)} ` +
+            `(${nodes[0].any[0]?.message ?? nodes[0].failureSummary})`,
+    );
     assert.equal(lines.join("\n"), "");
 }
 
@@ -126,7 +147,10 @@ test("typing draws again", async ({ page }) => {
     const before = await steadyPicture(page);
     await page.keyboard.press(`${ctrl}+Home`);
     const start = await page.evaluate(() => performance.now());
-    await setText(page, "title: Typed\nderivation length: 3\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n");
+    await setText(
+        page,
+        "title: Typed\nderivation length: 3\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n",
+    );
     await pictureAfter(page, before);
     const time = await page.evaluate((from) => performance.now() - from, start);
     assert.ok(time < 1500, `${time} ms`);
@@ -142,7 +166,7 @@ test("errors are shown in place, and the picture stays", async ({ page }) => {
     await page.locator(".line-message", { hasText: "did you mean 'angle factor'" }).first().waitFor();
     assert.match(await message(page), /Line 7: unknown key 'angel factor'/);
     assert.equal(await picture(page), before);
-    assert.ok(await page.locator(".cm-lintRange-error").count() > 0);
+    assert.ok((await page.locator(".cm-lintRange-error").count()) > 0);
     await screenshot(page, "error");
     await page.getByRole("button", { name: "Go to it" }).click();
     await page.keyboard.press(`${ctrl}+z`);
@@ -257,14 +281,22 @@ test("the gallery finds and opens patterns", async ({ page }) => {
     assert.equal(await page.getByRole("tab", { name: "Picture" }).getAttribute("aria-selected"), "true");
 });
 
+const dropFile = (page, name, content) =>
+    page.evaluate(
+        ([file, data]) => {
+            const transfer = new DataTransfer();
+            transfer.items.add(new File([data], file));
+            for (const type of ["dragover", "drop"]) {
+                document.body.dispatchEvent(
+                    new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }),
+                );
+            }
+        },
+        [name, content],
+    );
+
 test("files can be dropped", async ({ page }) => {
-    const drop = (name, content) => page.evaluate(([file, data]) => {
-        const transfer = new DataTransfer();
-        transfer.items.add(new File([data], file));
-        for (const type of ["dragover", "drop"]) {
-            document.body.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
-        }
-    }, [name, content]);
+    const drop = (name, content) => dropFile(page, name, content);
     await drop("dropped.lsys", "title: Dropped\nderivation length: 1\naxiom: F\nF --> F+F\n");
     await page.locator("#work-title", { hasText: "Dropped" }).waitFor();
     await drop("two.l", "One {\n Angle 4\n Axiom F\n F=F+F\n}\nOther {\n Angle 6\n Axiom F\n F=F-F\n}\n");
@@ -289,12 +321,23 @@ test("export writes the file and tells the command", async ({ page }) => {
     const svg = readFileSync(await download.path(), "utf8");
     assert.match(svg, /<svg[^>]*width="420mm"/);
     await screenshot(page, "export");
+    shared.svg = svg;
     await dialog.getByText("G-code", { exact: true }).click();
     await dialog.locator(".remarks", { hasText: "drawn" }).waitFor();
     await dialog.getByRole("button", { name: /^Save .*\.gcode/ }).waitFor();
     await checkAccess(page, "export");
     await page.keyboard.press("Escape");
     await dialog.waitFor({ state: "detached" });
+});
+
+test("a print that is dropped gives its pattern back", async ({ page, svg }) => {
+    const before = await textOf(page);
+    await page.getByRole("button", { name: "Open", exact: true }).click();
+    await page.getByRole("menuitem", { name: "New pattern" }).click();
+    await page.locator("#work-title", { hasText: "A curve of mine" }).waitFor();
+    await dropFile(page, "print.svg", svg);
+    await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
+    assert.equal((await textOf(page)).trim(), before.trim());
 });
 
 test("a link holds everything and runs nothing before it is opened", async ({ page }) => {
@@ -313,7 +356,11 @@ test("a link holds everything and runs nothing before it is opened", async ({ pa
     assert.match(await dialog.locator("pre").textContent(), /Snake kolam/);
     await screenshot(other, "link");
     await checkAccess(other, "link");
-    assert.equal(await other.evaluate(() => JSON.parse(localStorage.getItem("sikku-studio") ?? '{"steps":[]}').steps.length) <= 1, true);
+    assert.equal(
+        (await other.evaluate(() => JSON.parse(localStorage.getItem("sikku-studio") ?? '{"steps":[]}').steps.length)) <=
+            1,
+        true,
+    );
     await dialog.getByRole("button", { name: "Open" }).click();
     await other.locator(".cost", { hasText: await cost(page) }).waitFor();
     assert.equal(await textOf(other), await textOf(page));
@@ -347,11 +394,14 @@ test("the page works by keyboard", async ({ page }) => {
     await page.getByRole("separator").focus();
     const width = await page.locator(".side").evaluate((side) => side.clientWidth);
     await page.keyboard.press("ArrowRight");
-    assert.ok(await page.locator(".side").evaluate((side) => side.clientWidth) > width);
+    assert.ok((await page.locator(".side").evaluate((side) => side.clientWidth)) > width);
 });
 
 for (const colorScheme of ["light", "dark"]) {
-    for (const [size, viewport] of [["wide", wide], ["narrow", narrow]]) {
+    for (const [size, viewport] of [
+        ["wide", wide],
+        ["narrow", narrow],
+    ]) {
         test(`all views are accessible, ${colorScheme}, ${size}`, async () => {
             const page = await openStudio({ viewport, colorScheme });
             const found = [];
