@@ -49,10 +49,10 @@ TEST(PixelsInMemory, ShowWindowsOfAnyDepth) {
     const Document document = load("hilbert", {"", {{"test", "derivation length", "60"}}});
     const DrawnPixels pixels = draw_pixels(
         document,
-        {{"size", "50x50mm"}, {"margin", "0mm"}, {"dpi", "100"}, {"window", "-40,0,0,40"}, {"ground", "white"}});
-    const auto dark =
-        std::count_if(pixels.bytes.begin(), pixels.bytes.end(), [](std::uint8_t byte) { return byte < 128; });
-    EXPECT_GT(dark, 1000);
+        {{"size", "40x58mm"}, {"margin", "0mm"}, {"dpi", "100"}, {"window", "-40,0,0,58"}, {"ground", "white"}});
+    const auto inked =
+        std::count_if(pixels.bytes.begin(), pixels.bytes.end(), [](std::uint8_t byte) { return byte < 250; });
+    EXPECT_GT(inked, 1000);
 }
 
 TEST(PixelsInMemory, RefuseSeveralPictures) {
