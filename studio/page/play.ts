@@ -6,6 +6,7 @@ import { offered, optionField } from "./option_fields";
 import { CurveView } from "./play/curve_view";
 import { makeMidiMenu } from "./play/midi_menu";
 import { Player } from "./play/player";
+import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
 import { VoiceList } from "./play/voice_list";
 import type { Made, Notes, Opened, Options } from "./protocol";
@@ -24,7 +25,9 @@ const reading = ["scale", "tonic", "instrument", "unit", "meter", "mapping", "ve
 
 function timeText(seconds: number): string {
     const whole = Math.max(0, Math.round(seconds));
-    return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+    const minutes = Math.floor(whole / 60);
+    const rest = String(whole % 60).padStart(2, "0");
+    return minutes < 60 ? `${minutes}:${rest}` : `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}`;
 }
 
 class PlayPanel implements Panel {
@@ -40,6 +43,8 @@ class PlayPanel implements Panel {
     private isShown = false;
     private isStale = true; // the melody belongs to an older work
     private loaded = ""; // what it was made from
+    private heardName = ""; // of the pattern whose melody is shown
+    private playsMoves = ""; // the name of the pattern whose moves are played as if they were drawn
     private frame = 0;
     private litNote = -1;
     private isLooping = false;
@@ -58,7 +63,7 @@ class PlayPanel implements Panel {
     private readonly tempoField = element("input", { type: "text", inputmode: "numeric", "aria-label": "Tempo, quarters a minute", class: "number" });
     private readonly volume = element("input", { type: "range", id: "play-volume", min: 0, max: 100, step: 1 });
     private readonly hover = element("p", { class: "play-hover", "aria-hidden": "true" });
-    private readonly problem = element("p", { class: "note error play-problem", role: "alert", hidden: true });
+    private readonly problem = element("div", { class: "note error play-problem", role: "alert", hidden: true });
     private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img", "aria-label": "The curve as it sounds" });
     private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img", "aria-label": "Piano roll" });
     private readonly facts = element("p", { class: "play-facts" });
@@ -190,7 +195,8 @@ class PlayPanel implements Panel {
         // The tempo changes no note.
         const isTimed = work.play.some(([name]) => name === "seconds");
         const options: Options = isTimed ? work.play : work.play.filter(([name]) => name !== "tempo");
-        const what = JSON.stringify([work.pattern, options]);
+        const pattern = this.played(work);
+        const what = JSON.stringify([pattern, options]);
         if (what === this.loaded) {
             this.isStale = false;
             return;
@@ -198,7 +204,7 @@ class PlayPanel implements Panel {
         this.element.setAttribute("aria-busy", "true");
         try {
             const { json, bytes } = await this.studio.engine.request<Notes>(
-                { do: "notes", options, pattern: work.pattern }, { key: "notes" });
+                { do: "notes", options, pattern }, { key: "notes" });
             this.loaded = what;
             this.isStale = false;
             this.problem.hidden = true;
@@ -207,15 +213,34 @@ class PlayPanel implements Panel {
             if (!(error instanceof RequestFailed)) return; // replaced by a later one
             this.loaded = what;
             this.isStale = false;
-            this.problem.textContent = error.message;
-            this.problem.hidden = false;
+            this.showProblem(error.message, facts, work);
         } finally {
             this.element.removeAttribute("aria-busy");
         }
     }
 
+    /// The pattern whose melody is heard.
+    private played(work: Work): Work["pattern"] {
+        return (this.playsMoves === work.pattern.name && withMovesDrawn(work.pattern)) || work.pattern;
+    }
+
+    private showProblem(message: string, facts: Opened, work: Work): void {
+        const remedies = remediesFor(message, work.pattern, work.play).map(({ label, options, pattern }) => button(label, () => {
+            if (options) {
+                this.studio.store.change({ play: options });
+            } else if (pattern) {
+                this.playsMoves = work.pattern.name;
+                void this.load(facts, work);
+            }
+        }));
+        this.problem.replaceChildren(element("p", {}, sentence(message)), element("div", { class: "toolbar" }, ...remedies));
+        this.problem.hidden = false;
+    }
+
     private showMelody(melody: Melody, facts: Opened, work: Work): void {
-        this.origins.reset(melody, work.pattern);
+        if (work.pattern.name !== this.heardName && !this.player.transport.playing) this.player.transport.seek(0);
+        this.heardName = work.pattern.name;
+        this.origins.reset(melody, this.played(work));
         this.player.setMelody(melody);
         this.curve.show(melody);
         this.roll.show(melody);
@@ -321,7 +346,7 @@ class PlayPanel implements Panel {
         const { work } = this.studio.store;
         try {
             const { json, bytes } = await this.studio.engine.request<Made>(
-                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: work.pattern }, { key: "midi file" });
+                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: this.played(work) }, { key: "midi file" });
             const name = `${work.pattern.name.replace(/\.[^.]*$/, "") || "melody"}.mid`;
             this.studio.save(name, bytes, "audio/midi");
             const warning = json.remarks.find((remark) => remark.is_warning);
@@ -428,6 +453,8 @@ class PlayPanel implements Panel {
 
     hide(): void { this.isShown = false; }
 }
+
+const sentence = (text: string): string => `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${/[.!?`]$/.test(text) ? "" : "."}`;
 
 const memory = "sikku-volume";
 
