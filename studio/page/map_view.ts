@@ -231,12 +231,12 @@ export class MapView {
         this.journey = null;
     }
 
-    // Leaves the page for the plane; false where there is none.
-    private enter(): boolean {
+    // Leaves the page for the plane; false where there is none, or where it does not lie as the page does.
+    private enter(mayJump = false): boolean {
         if (this.mode === "plane") return true;
         const facts = this.known;
         if (!facts?.extent || !this.hasPlane) return false;
-        const camera = this.pageCamera ?? fitting(facts.extent, this.size, 48);
+        const camera = this.pageCamera ?? (mayJump ? fitting(facts.extent, this.size, 48) : null);
         if (!camera) return false;
         this.camera = camera;
         this.mode = "plane";
@@ -311,12 +311,12 @@ export class MapView {
     showDrawing(): void {
         const extent = this.known?.extent;
         const to = extent && fitting(extent, this.size, Math.min(this.size.width, this.size.height) < 480 ? 24 : 56);
-        if (to && this.enter()) this.travel(to);
+        if (to && this.enter(true)) this.travel(to);
     }
 
     /// Goes to a camera; motion takes longer the farther it is.
     travel(to: Camera, then: () => void = () => {}, milliseconds?: number): void {
-        if (!this.enter()) return;
+        if (!this.enter(true)) return;
         this.stop();
         const octaves = Math.abs(Math.log2(to.scale / this.camera.scale));
         const time = milliseconds ?? Math.min(2400, 280 + 60 * octaves);
@@ -427,7 +427,8 @@ export class MapView {
             if (overview.kind !== this.mode && this.overview) return overview.bitmap.close();
             this.overview?.bitmap.close();
             this.overview = overview;
-            this.setProblem("");
+            const warnings = overview.kind === "page" ? answer.json.remarks.filter((remark) => remark.is_warning) : [];
+            this.setProblem(warnings.map(({ text }) => text).join("\n"));
             this.draw();
             this.rest();
         } catch (error) {

@@ -79,6 +79,7 @@ class SpaceView {
     private readonly turn: HTMLButtonElement;
     private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
     private readonly use: HTMLButtonElement;
+    private readonly useLength: HTMLButtonElement;
 
     private isShown = false;
     private work: Work;
@@ -125,6 +126,8 @@ class SpaceView {
         this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
         this.turn = button("Turn around", () => this.spin(!this.isTurning), { icon: icons.turn });
         this.use = button("Use this view for prints", () => this.useView());
+        this.useLength = button("Use this n", () => this.studio.store.setting("derivation length", String(this.n)));
+        this.useLength.hidden = true;
         panel.append(canvas, element("p", { class: "unseen", id: "space-hint" },
             "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right mouse button or "
             + "with Alt moves the light."), this.note, this.facts, this.makeTools(), this.makeLight());
@@ -139,7 +142,7 @@ class SpaceView {
         });
         return element("div", { class: "space-tools" },
             element("div", { class: "space-growth" }, this.play,
-                element("label", { for: "space-n" }, "Growth"), this.slider, this.count),
+                element("label", { for: "space-n" }, "Growth"), this.slider, this.count, this.useLength),
             element("div", { class: "toolbar" }, this.turn, reset,
                 element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"), this.use));
     }
@@ -275,6 +278,7 @@ class SpaceView {
         this.slider.value = String(n);
         this.slider.style.setProperty("--at", `${this.most > 0 ? (100 * n) / this.most : 100}%`);
         this.count.textContent = `n = ${n}`;
+        this.useLength.hidden = n === this.most;
         void this.load(n);
     }
 
