@@ -15,7 +15,7 @@ interface Row {
 }
 
 const further_keys = ["heading", "elasticity"]; // with a slider if the text sets them
-const deep_room = 30; // steps of n beyond what can be derived, for patterns that the view can still show
+const deep_room = 8; // steps of n on the slider beyond what can be derived, if the view can show them
 
 function spread(base: number): { least: number; most: number; step: number } {
     if (base === 0) return { least: -1, most: 1, step: 0.01 };
@@ -157,7 +157,7 @@ export class Controls {
                     value: now,
                     number,
                     least: 0,
-                    most: Math.max(limit + (facts.has_view ? deep_room : 0), number, 1),
+                    most: Math.max(limit + (facts.has_view && facts.cost.most !== "" ? deep_room : 0), number, 1),
                     step: 1,
                     isChanged,
                     description: `${now}, ${this.cost.textContent}`,

@@ -1,6 +1,6 @@
 // The text of the pattern: every edit changes the work; errors are shown where they are.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, indentLess, toggleComment } from "@codemirror/commands";
+import { defaultKeymap, toggleComment } from "@codemirror/commands";
 import { bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, nextDiagnostic, setDiagnostics, type Diagnostic as Finding } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
@@ -165,7 +165,6 @@ export class Editor {
                 { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
                 { key: "Mod-Shift-z", run: redo },
                 { key: "Mod-/", run: toggleComment },
-                { key: "Shift-Tab", run: indentLess }, // Tab itself leaves the text
                 { key: "F8", run: nextDiagnostic },
                 ...closeBracketsKeymap,
                 ...completionKeymap,

@@ -4,7 +4,7 @@ import { makeBenchPanel } from "./bench";
 import type { Work } from "./context";
 import { Controls } from "./controls";
 import { Editor } from "./editor";
-import { byId } from "./elements";
+import { button, byId, element } from "./elements";
 import { startEngine } from "./engine";
 import { makeGalleryPanel } from "./gallery";
 import { applyTheme, makeLayout } from "./layout";
@@ -18,7 +18,7 @@ import type { Help, PatternEntry, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
-import { History } from "./store";
+import { History, putAside } from "./store";
 import { makeTools } from "./tools";
 import { makeVariationsPanel } from "./variations";
 
@@ -97,4 +97,9 @@ async function main(): Promise<void> {
 main().catch((error: unknown) => {
     byId("message").dataset["kind"] = "error";
     byId("message").textContent = `The studio could not start: ${String(error)}`;
+    const anew = button("Start without the saved work", () => {
+        putAside();
+        location.reload();
+    });
+    byId("panels").replaceChildren(element("div", { class: "empty" }, anew));
 });

@@ -164,11 +164,22 @@ function isSame(one: Work, other: Work): boolean {
     return a.text === b.text && a.name === b.name && a.variant === b.variant && rest(one) === rest(other);
 }
 
+function isWork(work: Work): boolean {
+    const { name, text, variant, settings } = work.pattern;
+    const texts = [name, text, variant, work.panel].every((each) => typeof each === "string");
+    return texts && [settings, work.draw, work.play].every(Array.isArray);
+}
+
+/// Puts the work of earlier visits aside, for a page that cannot start with it.
+export function putAside(): void {
+    localStorage.setItem(`${storage_key}-aside`, localStorage.getItem(storage_key) ?? "");
+    localStorage.removeItem(storage_key);
+}
+
 function read(): Saved | null {
     try {
         const saved = JSON.parse(localStorage.getItem(storage_key) ?? "null") as Saved | null;
-        const work = saved?.steps[saved.at]?.work;
-        return work && typeof work.pattern.text === "string" && Array.isArray(work.draw) ? saved : null;
+        return saved?.steps[saved.at] && saved.steps.every((step) => isWork(step.work)) ? saved : null;
     } catch {
         return null;
     }
