@@ -20,6 +20,7 @@ const icons = {
     loop: "M3 8V7a3 3 0 0 1 3-3h6.5M10.5 2l2 2-2 2M13 8v1a3 3 0 0 1-3 3H3.5M5.5 14l-2-2 2-2",
     closer: "M7 3v8M3 7h8M14 14l-3.5-3.5", wider: "M3 7h8M14 14l-3.5-3.5", save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
+const half_frame = 0.008; // seconds
 /// Options that change how the curve is read.
 const reading = ["scale", "tonic", "instrument", "unit", "meter", "mapping", "vertical", "runs", "velocity", "range", "transpose", "bars"];
 
@@ -426,7 +427,10 @@ class PlayPanel implements Panel {
     }
 
     /// Marks in the editor where the note that has just begun comes from.
-    private light(melody: Melody, tick: number): void {
+    private light(melody: Melody, heard: number): void {
+        const { secondsPerTick } = this.player.transport;
+        // A note that begins before the middle of this frame's time on the screen belongs to it.
+        const tick = Math.min(heard + half_frame / secondsPerTick, melody.end);
         let note = firstFrom(melody, tick + 1e-6) - 1;
         void this.origins.lookAhead(Math.max(0, note));
         // Of notes that begin together, the first voice that is heard.
@@ -439,7 +443,7 @@ class PlayPanel implements Panel {
         this.litNote = note;
         this.studio.highlight(place);
         performance.clearMarks("note lit");
-        const late = (tick - melody.onset[note]) * this.player.transport.secondsPerTick * 1000;
+        const late = (heard - melody.onset[note]) * secondsPerTick * 1000;
         performance.mark("note lit", { detail: { note, late, line: place.line, column: place.column } });
     }
 
