@@ -1,9 +1,10 @@
 // Tests of the page in a browser, by its labels, as a user finds them:
-//     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE]
+//     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE] [--measure]
 import { chromium } from "playwright-core";
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
@@ -14,6 +15,7 @@ const { values, positionals } = parseArgs({
     options: {
         screenshots: { type: "string" },
         only: { type: "string", default: "" },
+        measure: { type: "boolean", default: false },
         browser: { type: "string", default: process.env.CHROMIUM ?? "/usr/bin/chromium" },
     },
 });
@@ -41,7 +43,7 @@ const wide = { width: 1280, height: 800 };
 const narrow = { width: 390, height: 844 };
 
 // A page with the studio, and what went wrong in it.
-async function openStudio({ viewport = wide, colorScheme = "light", fragment = "", context } = {}) {
+async function openStudio({ viewport = wide, colorScheme = "light", fragment = "", context, at = address } = {}) {
     const own =
         context ??
         (await browser.newContext({ viewport, colorScheme, acceptDownloads: true, reducedMotion: "reduce" }));
@@ -54,7 +56,7 @@ async function openStudio({ viewport = wide, colorScheme = "light", fragment = "
     page.on("request", (request) => {
         if (!/^(file|blob|data):/.test(request.url())) page.problems.push(`request of ${request.url()}`);
     });
-    await page.goto(address + fragment);
+    await page.goto(at + fragment);
     await page.getByRole("tab", { name: "Gallery" }).waitFor();
     if (!fragment) await page.locator("#facts", { hasText: "No errors" }).waitFor();
     return page;
@@ -420,13 +422,84 @@ for (const colorScheme of ["light", "dark"]) {
     }
 }
 
+test("patterns that the program wrote into the page are open and in the gallery", async () => {
+    const own = JSON.stringify([{ name: "own.lsys", text: "title: My </script> own\naxiom: F\nF --> F+F\n" }]);
+    const folder = mkdtempSync(join(tmpdir(), "sikku-studio-"));
+    const file = join(folder, "own.html");
+    const page_text = readFileSync(fileURLToPath(address), "utf8");
+    const slot = 'id="sikku-patterns">';
+    assert.ok(page_text.includes(`${slot}[]<`));
+    writeFileSync(file, page_text.replace(`${slot}[]`, () => slot + own.replaceAll("<", "\\u003c")));
+    const page = await openStudio({ at: pathToFileURL(file).href });
+    await page.locator("#work-title", { hasText: "My </script> own" }).waitFor();
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    await page.getByRole("button", { name: "yours", exact: true }).click();
+    await page.locator(".gallery-count", { hasText: "1 of 108" }).waitFor();
+    await page.context().close();
+    rmSync(folder, { recursive: true });
+});
+
+// Times that a user feels, in milliseconds; each machine has its own.
+async function measure() {
+    const context = await browser.newContext({ viewport: wide });
+    await context.addInitScript(() => {
+        globalThis.draws = [];
+        for (const name of ["drawImage", "putImageData"]) {
+            const draw = CanvasRenderingContext2D.prototype[name];
+            CanvasRenderingContext2D.prototype[name] = function (...given) {
+                if (this.canvas.classList.contains("map-canvas")) globalThis.draws.push(performance.now());
+                return draw.apply(this, given);
+            };
+        }
+        addEventListener("keydown", () => { globalThis.pressed = performance.now(); globalThis.draws.length = 0; }, true);
+    });
+    const page = await openStudio({ context });
+    await page.waitForFunction(() => globalThis.draws.length > 0);
+    console.log(`first picture after ${Math.round(await page.evaluate(() => globalThis.draws[0]))} ms`);
+    for (const n of [7, 10]) {
+        await setText(page, `derivation length: ${n}\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #8c3b24`);
+        await page.waitForTimeout(1500);
+        const times = [];
+        for (const key of ["Backspace", "5", "Backspace", "6", "Backspace", "4"]) {
+            await page.keyboard.press(key);
+            await page.waitForTimeout(600);
+            times.push(await page.evaluate(() => Math.round(globalThis.draws[0] - globalThis.pressed)));
+        }
+        const frames = await page.evaluate(async () => {
+            const width = document.querySelector(".value-rows .slider:last-child input[type=range]");
+            globalThis.draws.length = 0;
+            const from = performance.now();
+            for (let frame = 0; performance.now() - from < 2000; ++frame) {
+                await new Promise(requestAnimationFrame);
+                width.valueAsNumber = 0.1 + 0.3 * Math.abs(Math.sin(frame / 20));
+                width.dispatchEvent(new Event("input"));
+            }
+            return new Set(globalThis.draws.map(Math.round)).size / 2;
+        });
+        console.log(`n = ${n}, ${await cost(page)}: keystroke to picture ${times.join(", ")} ms; dragging ${frames} pictures a second`);
+    }
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    const gallery = await page.evaluate(async () => {
+        const from = performance.now();
+        const panel = document.querySelector("#panel-gallery");
+        const drawn = () => document.querySelectorAll(".gallery .picture:is(.drawn, .words)").length;
+        for (let at = 0; drawn() < 107 && performance.now() - from < 20000; at += 600) {
+            panel.scrollTop = at % panel.scrollHeight;
+            await new Promise(requestAnimationFrame);
+        }
+        return [drawn(), Math.round(performance.now() - from)];
+    });
+    console.log(`gallery: ${gallery[0]} thumbnails in ${gallery[1]} ms`);
+    await context.close();
+}
+
 let failures = 0;
 const begin = Date.now();
 for (const { name, run } of tests) {
     if (!name.includes(values.only) && name !== tests[0].name) continue;
     const start = Date.now();
     try {
-        if (shared.page) shared.page.setDefaultTimeout(6000);
+        if (shared.page) shared.page.setDefaultTimeout(10_000);
         await run(shared);
         if (shared.page) assert.deepEqual(shared.page.problems.splice(0), []);
         console.log(`ok    ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
@@ -437,6 +510,7 @@ for (const { name, run } of tests) {
         await shared.page?.keyboard.press("Escape");
     }
 }
+if (values.measure) await measure();
 await browser.close();
 console.log(`${failures === 0 ? "all passed" : `${failures} failed`} in ${((Date.now() - begin) / 1000).toFixed(0)} s`);
 process.exitCode = failures === 0 ? 0 : 1;
