@@ -82,6 +82,7 @@ Document document_of(const Json& request) {
     };
     static std::deque<Kept> kept;
     constexpr std::size_t most = 16;
+    constexpr std::size_t largest = std::size_t{1} << 22;  // longer texts are compiled each time
     const Json& pattern = member(request, "pattern");
     const auto found =
         std::find_if(kept.begin(), kept.end(), [&](const Kept& each) { return each.pattern == pattern; });
@@ -93,7 +94,7 @@ Document document_of(const Json& request) {
     Document document =
         compile(text_of(pattern, "name"), text_of(pattern, "text"), overrides, interpreters, diagnostics);
     diagnostics.throw_if_errors();
-    kept.push_front({pattern, document});
+    if (document.source().text().size() <= largest) kept.push_front({pattern, document});
     if (kept.size() > most) kept.pop_back();
     return document;
 }

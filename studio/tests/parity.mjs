@@ -2,7 +2,7 @@
 //     node parity.mjs NATIVE_BUILD [--quick]
 // NATIVE_BUILD has bin/sikku and bin/sikku-bridge; the module is in build/studio.
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { loadBridge, root } from "./load_bridge.mjs";
@@ -189,6 +189,23 @@ for (const { name, text } of patterns.filter((_, i) => !is_quick || i % 4 === 0)
     same({ do: "make", interpreter: "play", format: "mid", pattern }, () => written("play", "mid"));
     same({ do: "measure", pattern }, () => sikku("-q", "measure", name, "--json"));
     same({ do: "kolam", pattern }, () => sikku("-q", "kolam", name, "--json"));
+}
+
+// The commands that the page shows write what the page saves.
+for (const [name, interpreter, format, options, settings] of [
+    ["snake-kolam", "draw", "svg", [["dots", ""], ["border", "kaavi"], ["size", "A3"]], [["derivation length", "3"]]],
+    ["plant-d", "draw", "svg", [["stroke", "0.3mm navy"], ["landscape", "true"]], [["seed", "11"]]],
+    ["honda-trees", "draw", "pdf", [["rotate", "30"], ["ground", "#fed"]], []],
+    ["hilbert", "play", "mid", [["scale", "dorian"], ["tempo", "96"]], [["derivation length", "5"]]],
+]) {
+    const { text } = patterns.find((pattern) => pattern.name === name);
+    const pattern = { name: `${name}.lsys`, text, settings };
+    writeFileSync(join(folder, pattern.name), text);
+    const { command } = JSON.parse(web(JSON.stringify({ do: "command", interpreter, format, options, pattern })).json);
+    same({ do: "make", interpreter, format, options, pattern }, () => {
+        execFileSync("sh", ["-c", command.replace(/^sikku/, `"${join(build, "bin/sikku")}" -q`)], { cwd: folder, stdio: "ignore" });
+        return readFileSync(join(folder, `${name}.${format}`));
+    });
 }
 rmSync(folder, { recursive: true });
 native.end();
