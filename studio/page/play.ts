@@ -16,19 +16,38 @@ import { NoteOrigins } from "./sound/origins";
 import type { Loop } from "./sound/transport";
 
 const icons = {
-    play: "M5 3v10l8-5z", pause: "M5 3.5v9M11 3.5v9", stop: "M4 4h8v8H4z",
+    play: "M5 3v10l8-5z",
+    pause: "M5 3.5v9M11 3.5v9",
+    stop: "M4 4h8v8H4z",
     loop: "M3 8V7a3 3 0 0 1 3-3h6.5M10.5 2l2 2-2 2M13 8v1a3 3 0 0 1-3 3H3.5M5.5 14l-2-2 2-2",
-    closer: "M7 3v8M3 7h8M14 14l-3.5-3.5", wider: "M3 7h8M14 14l-3.5-3.5", save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
+    closer: "M7 3v8M3 7h8M14 14l-3.5-3.5",
+    wider: "M3 7h8M14 14l-3.5-3.5",
+    save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
 const half_frame = 0.008; // seconds
 /// Options that change how the curve is read.
-const reading = ["scale", "tonic", "instrument", "unit", "meter", "mapping", "vertical", "runs", "velocity", "range", "transpose", "bars"];
+const reading = [
+    "scale",
+    "tonic",
+    "instrument",
+    "unit",
+    "meter",
+    "mapping",
+    "vertical",
+    "runs",
+    "velocity",
+    "range",
+    "transpose",
+    "bars",
+];
 
 function timeText(seconds: number): string {
     const whole = Math.max(0, Math.round(seconds));
     const minutes = Math.floor(whole / 60);
     const rest = String(whole % 60).padStart(2, "0");
-    return minutes < 60 ? `${minutes}:${rest}` : `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}`;
+    return minutes < 60
+        ? `${minutes}:${rest}`
+        : `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}`;
 }
 
 class PlayPanel implements Panel {
@@ -51,22 +70,65 @@ class PlayPanel implements Panel {
     private isLooping = false;
     private loopBars: [number, number] = [1, 4];
 
-    private readonly playButton = button("Play", () => void this.player.toggle(), { kind: "primary play-main", icon: icons.play });
-    private readonly stopButton = button("Stop, and go to the beginning", () => this.player.stop(), { icon: icons.stop });
+    private readonly playButton = button("Play", () => void this.player.toggle(), {
+        kind: "primary play-main",
+        icon: icons.play,
+    });
+    private readonly stopButton = button("Stop, and go to the beginning", () => this.player.stop(), {
+        icon: icons.stop,
+    });
     private readonly loopButton = button("Loop", () => this.setLooping(!this.isLooping), { icon: icons.loop });
-    private readonly loopFrom = element("input", { type: "number", min: 1, "aria-label": "Loop from bar", class: "play-bar-number number" });
-    private readonly loopTo = element("input", { type: "number", min: 1, "aria-label": "Loop to bar", class: "play-bar-number number" });
-    private readonly loopRange = element("span", { class: "play-loop", hidden: true }, "bars ", this.loopFrom, " to ", this.loopTo);
+    private readonly loopFrom = element("input", {
+        type: "number",
+        min: 1,
+        "aria-label": "Loop from bar",
+        class: "play-bar-number number",
+    });
+    private readonly loopTo = element("input", {
+        type: "number",
+        min: 1,
+        "aria-label": "Loop to bar",
+        class: "play-bar-number number",
+    });
+    private readonly loopRange = element(
+        "span",
+        { class: "play-loop", hidden: true },
+        "bars ",
+        this.loopFrom,
+        " to ",
+        this.loopTo,
+    );
     private readonly placeLine = element("p", { class: "play-place" });
     private readonly timeLine = element("p", { class: "play-time number" });
-    private readonly position = element("input", { type: "range", class: "play-position", min: 0, max: 1, step: 1, value: 0, "aria-label": "Position" });
+    private readonly position = element("input", {
+        type: "range",
+        class: "play-position",
+        min: 0,
+        max: 1,
+        step: 1,
+        value: 0,
+        "aria-label": "Position",
+    });
     private readonly tempo = element("input", { type: "range", id: "play-tempo", min: 20, max: 300, step: 1 });
-    private readonly tempoField = element("input", { type: "text", inputmode: "numeric", "aria-label": "Tempo, quarters a minute", class: "number" });
+    private readonly tempoField = element("input", {
+        type: "text",
+        inputmode: "numeric",
+        "aria-label": "Tempo, quarters a minute",
+        class: "number",
+    });
     private readonly volume = element("input", { type: "range", id: "play-volume", min: 0, max: 100, step: 1 });
     private readonly hover = element("p", { class: "play-hover", "aria-hidden": "true" });
     private readonly problem = element("div", { class: "note error play-problem", role: "alert", hidden: true });
-    private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img", "aria-label": "The curve as it sounds" });
-    private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img", "aria-label": "Piano roll" });
+    private readonly curveCanvas = element("canvas", {
+        class: "play-curve-canvas",
+        role: "img",
+        "aria-label": "The curve as it sounds",
+    });
+    private readonly rollCanvas = element("canvas", {
+        class: "play-roll-canvas",
+        role: "img",
+        "aria-label": "Piano roll",
+    });
     private readonly facts = element("p", { class: "play-facts" });
     private readonly reading = element("div", { class: "play-reading" });
 
@@ -89,31 +151,59 @@ class PlayPanel implements Panel {
     }
 
     private build(): void {
-        const transport = element("div", { class: "play-transport" },
-            this.playButton, this.stopButton, this.loopButton, this.loopRange,
-            element("div", { class: "play-where" }, this.placeLine, this.timeLine));
-        const tempo = element("div", { class: "slider play-tempo" },
-            element("label", { for: "play-tempo" }, "Tempo"), this.tempo, this.tempoField);
-        const volume = element("div", { class: "slider play-volume" },
-            element("label", { for: "play-volume" }, "Volume"), this.volume);
-        const zoom = element("div", { class: "play-zoom" },
+        const transport = element(
+            "div",
+            { class: "play-transport" },
+            this.playButton,
+            this.stopButton,
+            this.loopButton,
+            this.loopRange,
+            element("div", { class: "play-where" }, this.placeLine, this.timeLine),
+        );
+        const tempo = element(
+            "div",
+            { class: "slider play-tempo" },
+            element("label", { for: "play-tempo" }, "Tempo"),
+            this.tempo,
+            this.tempoField,
+        );
+        const volume = element(
+            "div",
+            { class: "slider play-volume" },
+            element("label", { for: "play-volume" }, "Volume"),
+            this.volume,
+        );
+        const zoom = element(
+            "div",
+            { class: "play-zoom" },
             button("See more bars", () => this.roll.zoom(1 / 1.5), { kind: "quiet", icon: icons.wider }),
-            button("See fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }));
+            button("See fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }),
+        );
         const save = button("Save as MIDI", () => void this.saveMidi(), { icon: icons.save, shows: true });
-        const side = element("aside", { class: "play-side", "aria-label": "Voices and settings" },
+        const side = element(
+            "aside",
+            { class: "play-side", "aria-label": "Voices and settings" },
             this.voices.element,
             element("details", { class: "group" }, element("summary", {}, "How the curve becomes music"), this.reading),
             element("details", { class: "group" }, element("summary", {}, "MIDI out"), makeMidiMenu(this.player)),
-            element("div", { class: "play-section" }, save, this.facts));
+            element("div", { class: "play-section" }, save, this.facts),
+        );
         this.element.append(
             element("div", { class: "play-head" }, transport, element("div", { class: "play-levels" }, tempo, volume)),
             this.problem,
-            element("div", { class: "play-body" },
-                element("div", { class: "play-views" },
+            element(
+                "div",
+                { class: "play-body" },
+                element(
+                    "div",
+                    { class: "play-views" },
                     element("div", { class: "play-curve" }, this.curveCanvas, this.hover),
                     element("div", { class: "play-roll" }, this.rollCanvas, zoom),
-                    this.position),
-                side));
+                    this.position,
+                ),
+                side,
+            ),
+        );
     }
 
     private listen(): void {
@@ -178,9 +268,24 @@ class PlayPanel implements Panel {
     }
 
     private press(event: KeyboardEvent): void {
-        if (!this.isShown || event.key !== " " || event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
+        if (
+            !this.isShown
+            || event.key !== " "
+            || event.defaultPrevented
+            || event.ctrlKey
+            || event.metaKey
+            || event.altKey
+        )
+            return;
         const target = event.target instanceof HTMLElement ? event.target : null;
-        if (target && (target.isContentEditable || target.closest("button, a, select, summary, textarea, dialog, [role='tab'], input:not([type='range'])"))) return;
+        if (
+            target
+            && (target.isContentEditable
+                || target.closest(
+                    "button, a, select, summary, textarea, dialog, [role='tab'], input:not([type='range'])",
+                ))
+        )
+            return;
         event.preventDefault();
         void this.player.toggle();
     }
@@ -205,7 +310,9 @@ class PlayPanel implements Panel {
         this.element.setAttribute("aria-busy", "true");
         try {
             const { json, bytes } = await this.studio.engine.request<Notes>(
-                { do: "notes", options, pattern }, { key: "notes" });
+                { do: "notes", options, pattern },
+                { key: "notes" },
+            );
             this.loaded = what;
             this.isStale = false;
             this.problem.hidden = true;
@@ -226,15 +333,20 @@ class PlayPanel implements Panel {
     }
 
     private showProblem(message: string, facts: Opened, work: Work): void {
-        const remedies = remediesFor(message, work.pattern, work.play).map(({ label, options, pattern }) => button(label, () => {
-            if (options) {
-                this.studio.store.change({ play: options });
-            } else if (pattern) {
-                this.playsMoves = work.pattern.name;
-                void this.load(facts, work);
-            }
-        }));
-        this.problem.replaceChildren(element("p", {}, sentence(message)), element("div", { class: "toolbar" }, ...remedies));
+        const remedies = remediesFor(message, work.pattern, work.play).map(({ label, options, pattern }) =>
+            button(label, () => {
+                if (options) {
+                    this.studio.store.change({ play: options });
+                } else if (pattern) {
+                    this.playsMoves = work.pattern.name;
+                    void this.load(facts, work);
+                }
+            }),
+        );
+        this.problem.replaceChildren(
+            element("p", {}, sentence(message)),
+            element("div", { class: "toolbar" }, ...remedies),
+        );
         this.problem.hidden = false;
     }
 
@@ -251,13 +363,18 @@ class PlayPanel implements Panel {
         this.position.max = String(Math.max(1, Math.ceil(melody.end / melody.beat)));
         this.loopFrom.max = this.loopTo.max = String(bars);
         const scales = [...new Set(melody.parts.map((part) => part.scale))].join("; ");
-        const range = melody.count > 0 ? `, ${keyName(Math.round(melody.lowest))} to ${keyName(Math.round(melody.highest))}` : "";
-        this.facts.textContent = `${melody.count.toLocaleString("en")} ${melody.count === 1 ? "note" : "notes"} in ${
-            bars.toLocaleString("en")} ${bars === 1 ? "bar" : "bars"}${range}. ${scales}.`;
+        const range =
+            melody.count > 0 ? `, ${keyName(Math.round(melody.lowest))} to ${keyName(Math.round(melody.highest))}` : "";
+        this.facts.textContent = `${melody.count.toLocaleString("en")} ${melody.count === 1 ? "note" : "notes"} in ${bars.toLocaleString(
+            "en",
+        )} ${bars === 1 ? "bar" : "bars"}${range}. ${scales}.`;
         this.applyTempo();
         this.applyLoop();
         this.showReading();
-        this.curveCanvas.setAttribute("aria-label", `The curve of ${facts.title || "the pattern"} as it sounds: ${this.facts.textContent}`);
+        this.curveCanvas.setAttribute(
+            "aria-label",
+            `The curve of ${facts.title || "the pattern"} as it sounds: ${this.facts.textContent}`,
+        );
         this.rollCanvas.setAttribute("aria-label", `Piano roll: ${this.facts.textContent}`);
         this.update();
     }
@@ -267,10 +384,12 @@ class PlayPanel implements Panel {
         const { help, store } = this.studio;
         if (this.reading.contains(document.activeElement)) return;
         const rows = reading.flatMap((name) => offered(help.play.options).filter((option) => option.name === name));
-        this.reading.replaceChildren(...rows.map((option) => {
-            const value = store.work.play.find(([name]) => name === option.name)?.[1];
-            return optionField(option, value, (name, text) => this.setOption(name, text));
-        }));
+        this.reading.replaceChildren(
+            ...rows.map((option) => {
+                const value = store.work.play.find(([name]) => name === option.name)?.[1];
+                return optionField(option, value, (name, text) => this.setOption(name, text));
+            }),
+        );
     }
 
     private setOption(name: string, value: string | null, merge?: string): void {
@@ -292,7 +411,7 @@ class PlayPanel implements Panel {
 
     private applyTempo(): void {
         const chosen = Number(this.studio.store.work.play.find(([name]) => name === "tempo")?.[1]);
-        const tempo = chosen > 0 ? chosen : this.player.melody?.tempo ?? 120;
+        const tempo = chosen > 0 ? chosen : (this.player.melody?.tempo ?? 120);
         this.player.transport.setTempo(tempo);
         this.tempo.valueAsNumber = tempo;
         this.tempo.style.setProperty("--at", `${((Math.min(300, Math.max(20, tempo)) - 20) / 280) * 100}%`);
@@ -325,8 +444,10 @@ class PlayPanel implements Panel {
     private applyLoop(): void {
         const { melody, transport } = this.player;
         const [from, to] = this.loopBars;
-        const loop = this.isLooping && melody
-            ? { from: (from - 1) * melody.bar, to: Math.min(to * melody.bar, melody.end) } : null;
+        const loop =
+            this.isLooping && melody
+                ? { from: (from - 1) * melody.bar, to: Math.min(to * melody.bar, melody.end) }
+                : null;
         transport.setLoop(loop);
         this.roll.setLoop(loop);
         this.loopButton.setAttribute("aria-pressed", String(this.isLooping));
@@ -347,7 +468,9 @@ class PlayPanel implements Panel {
         const { work } = this.studio.store;
         try {
             const { json, bytes } = await this.studio.engine.request<Made>(
-                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: this.played(work) }, { key: "midi file" });
+                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: this.played(work) },
+                { key: "midi file" },
+            );
             const name = `${work.pattern.name.replace(/\.[^.]*$/, "") || "melody"}.mid`;
             this.studio.save(name, bytes, "audio/midi");
             const warning = json.remarks.find((remark) => remark.is_warning);
@@ -371,7 +494,8 @@ class PlayPanel implements Panel {
         this.playButton.replaceChildren(icon(isActive ? icons.pause : icons.play));
         this.playButton.setAttribute("aria-label", isActive ? "Pause" : "Play");
         this.playButton.title = `${isActive ? "Pause" : "Play"} (space)`;
-        for (const each of [this.playButton, this.stopButton, this.loopButton]) each.disabled = !melody || melody.count === 0;
+        for (const each of [this.playButton, this.stopButton, this.loopButton])
+            each.disabled = !melody || melody.count === 0;
         this.voices.update();
         const muted = (voice: number) => !this.player.isHeard(voice);
         const state = this.player.voices.map((_, voice) => muted(voice)).join();
@@ -455,10 +579,13 @@ class PlayPanel implements Panel {
         this.roll.reset();
     }
 
-    hide(): void { this.isShown = false; }
+    hide(): void {
+        this.isShown = false;
+    }
 }
 
-const sentence = (text: string): string => `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${/[.!?`]$/.test(text) ? "" : "."}`;
+const sentence = (text: string): string =>
+    `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${/[.!?`]$/.test(text) ? "" : "."}`;
 
 const memory = "sikku-volume";
 

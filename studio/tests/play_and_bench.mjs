@@ -22,8 +22,11 @@ page.on("pageerror", (error) => errors.push(error.message));
 await page.addInitScript(() => {
     window.midi = [];
     const port = {
-        id: "1", name: "Test", state: "connected",
-        send: (bytes, time) => window.midi.push({ bytes: [...bytes], time: time ?? performance.now() }), clear() {},
+        id: "1",
+        name: "Test",
+        state: "connected",
+        send: (bytes, time) => window.midi.push({ bytes: [...bytes], time: time ?? performance.now() }),
+        clear() {},
     };
     navigator.requestMIDIAccess = async () => ({ outputs: new Map([["1", port]]), onstatechange: null });
     window.lit = [];
@@ -67,14 +70,21 @@ async function play() {
     const late = lit.map((each) => each.late).sort((a, b) => a - b);
     const frames = (await page.evaluate(() => window.frames_taken)).slice(-300).sort((a, b) => a - b);
     const slow = frames[Math.floor(frames.length * 0.95)];
-    console.log(`${lit.length} notes lit, ${late[0].toFixed(1)} to ${late.at(-1).toFixed(1)} ms after they sound, half of them within `
-        + `${late[late.length >> 1].toFixed(1)} ms; 95 % of the frames took less than ${slow.toFixed(1)} ms`);
+    console.log(
+        `${lit.length} notes lit, ${late[0].toFixed(1)} to ${late.at(-1).toFixed(1)} ms after they sound, half of them within `
+            + `${late[late.length >> 1].toFixed(1)} ms; 95 % of the frames took less than ${slow.toFixed(1)} ms`,
+    );
     for (const { line } of lit) assert.ok(line === 10 || line === 11, `line ${line}`);
     // A machine that is busy with other work does not reach 60 frames per second.
     assert.ok(late[Math.floor(late.length * 0.9)] < Math.max(20, 1.5 * slow));
 
     const before = await text(".play-place");
-    await write(readFileSync(join(root, "patterns/melodies/hilbert-in-c.lsys"), "utf8").replace("scale: major", "scale: dorian"));
+    await write(
+        readFileSync(join(root, "patterns/melodies/hilbert-in-c.lsys"), "utf8").replace(
+            "scale: major",
+            "scale: dorian",
+        ),
+    );
     await until(() => /Dorian/.test(document.querySelector(".play-facts").textContent));
     const bar = (place) => Number(/Bar (\d+)/.exec(place)[1]);
     assert.ok(bar(await text(".play-place")) - bar(before) <= 2, "an edit keeps the place");
@@ -107,8 +117,10 @@ async function play() {
     const of = (test) => sent.filter(({ bytes }) => test(bytes[0]));
     const clocks = of((status) => status === 0xf8).map(({ time }) => time);
     const gaps = clocks.slice(1).map((time, i) => time - clocks[i]);
-    console.log(`MIDI: ${of((status) => (status & 0xf0) === 0x90).length} notes, ${clocks.length} clocks, `
-        + `${Math.min(...gaps).toFixed(2)} to ${Math.max(...gaps).toFixed(2)} ms apart (8.33)`);
+    console.log(
+        `MIDI: ${of((status) => (status & 0xf0) === 0x90).length} notes, ${clocks.length} clocks, `
+            + `${Math.min(...gaps).toFixed(2)} to ${Math.max(...gaps).toFixed(2)} ms apart (8.33)`,
+    );
     assert.equal(of((status) => status === 0xfa || status === 0xfb).length, 1);
     assert.equal(of((status) => status === 0xfc).length, 1);
     assert.ok(of((status) => (status & 0xf0) === 0x90).length > 3);
@@ -116,7 +128,12 @@ async function play() {
 
     const [saved] = await Promise.all([page.waitForEvent("download"), page.click("button:has-text('Save as MIDI')")]);
     assert.match(saved.suggestedFilename(), /\.mid$/);
-    assert.equal(readFileSync(await saved.path()).subarray(0, 4).toString(), "MThd");
+    assert.equal(
+        readFileSync(await saved.path())
+            .subarray(0, 4)
+            .toString(),
+        "MThd",
+    );
 }
 
 async function bench() {
@@ -131,10 +148,15 @@ async function bench() {
     await page.locator(".bench-board").focus();
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("Space");
-    assert.match(await text(".bench [aria-live='assertive']"), /^Gap between row 8 dot \d+ and row 8 dot \d+: turned back; 13 lines$/);
+    assert.match(
+        await text(".bench [aria-live='assertive']"),
+        /^Gap between row 8 dot \d+ and row 8 dot \d+: turned back; 13 lines$/,
+    );
     await page.click("button:has-text('Make it one line')");
     await until(() => document.querySelector(".bench-count").textContent === "1 line");
-    await until(() => /^One closed line around 225 dots/.test(document.querySelector(".bench-certificate").textContent));
+    await until(() =>
+        /^One closed line around 225 dots/.test(document.querySelector(".bench-certificate").textContent),
+    );
     console.log(await text(".bench-certificate"));
     await page.waitForTimeout(1200);
     await page.keyboard.press("Escape");

@@ -15,20 +15,35 @@ const entry = `
     export { readMelody } from "./melody";
 `;
 const made = await build({
-    stdin: { contents: entry, resolveDir: sound, loader: "ts" }, bundle: true, write: false, format: "iife",
-    globalName: "sikku", target: "es2022", logLevel: "warning",
+    stdin: { contents: entry, resolveDir: sound, loader: "ts" },
+    bundle: true,
+    write: false,
+    format: "iife",
+    globalName: "sikku",
+    target: "es2022",
+    logLevel: "warning",
 });
 const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--disable-quic"],
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic"],
 });
 try {
     const page = await browser.newPage();
     await page.addScriptTag({ content: made.outputFiles[0].text });
     const rows = await page.evaluate(measure);
     for (const row of rows) {
-        console.log([row.name.padEnd(15), `level ${row.level.toFixed(1)} dB`, `peak ${row.peak.toFixed(1)} dB`,
-            `full ${row.full.toFixed(1)} dB`, `centroid ${row.soft.toFixed(0)} to ${row.loud.toFixed(0)} Hz`,
-            `decay ${row.decay.toFixed(2)} s`, `pitch ${row.cents.toFixed(2)} cents`, `end ${row.step.toFixed(4)}`].join("  "));
+        console.log(
+            [
+                row.name.padEnd(15),
+                `level ${row.level.toFixed(1)} dB`,
+                `peak ${row.peak.toFixed(1)} dB`,
+                `full ${row.full.toFixed(1)} dB`,
+                `centroid ${row.soft.toFixed(0)} to ${row.loud.toFixed(0)} Hz`,
+                `decay ${row.decay.toFixed(2)} s`,
+                `pitch ${row.cents.toFixed(2)} cents`,
+                `end ${row.step.toFixed(4)}`,
+            ].join("  "),
+        );
     }
     const levels = rows.map(({ level }) => level);
     const spread = Math.max(...levels) - Math.min(...levels);
@@ -93,7 +108,7 @@ async function measure() {
     };
     // The lag of the greatest autocorrelation near many periods, between samples by a parabola.
     const pitch = (data, from, expected) => {
-        const periods = Math.max(1, Math.floor((0.05 * expected)));
+        const periods = Math.max(1, Math.floor(0.05 * expected));
         const middle = (periods * rate) / expected;
         const size = Math.round(0.12 * rate);
         let mean = 0;
@@ -108,7 +123,7 @@ async function measure() {
             return sum / Math.sqrt(energy);
         };
         let best = Math.round(middle);
-        const reach = Math.max(2, Math.round(0.3 * rate / expected / 2));
+        const reach = Math.max(2, Math.round((0.3 * rate) / expected / 2));
         for (let lag = best - reach, most = -Infinity, centre = best; lag <= centre + reach; ++lag) {
             const value = at(lag);
             if (value > most) {
@@ -138,14 +153,21 @@ async function measure() {
         let before = 0;
         let after = 0;
         const end = Math.round(1.6 * rate);
-        for (let i = end - 6000; i < end - 50; ++i) before = Math.max(before, Math.abs(data[i] - 2 * data[i - 1] + data[i - 2]));
-        for (let i = end - 50; i < end + 2000; ++i) after = Math.max(after, Math.abs(data[i] - 2 * data[i - 1] + data[i - 2]));
+        for (let i = end - 6000; i < end - 50; ++i)
+            before = Math.max(before, Math.abs(data[i] - 2 * data[i - 1] + data[i - 2]));
+        for (let i = end - 50; i < end + 2000; ++i)
+            after = Math.max(after, Math.abs(data[i] - 2 * data[i - 1] + data[i - 2]));
         const isWide = ["strings", "choir", "pad", "air", "pipe-organ", "accordion", "lead"].includes(timbre.name);
         const dry = await render(timbre, [[key, 100, 0.1, 1.5]], 2, true);
         const found = timbre.everyKey ? hertz : pitch(dry, Math.round((timbre.lasts ? 0.3 : 0.13) * rate), hertz);
         rows.push({
-            name: timbre.name, level: decibels(most), peak: decibels(peak(data)), full: decibels(peak(full)),
-            soft: centroid(soft, Math.round(0.15 * rate)), loud: centroid(loud, Math.round(0.15 * rate)), decay,
+            name: timbre.name,
+            level: decibels(most),
+            peak: decibels(peak(data)),
+            full: decibels(peak(full)),
+            soft: centroid(soft, Math.round(0.15 * rate)),
+            loud: centroid(loud, Math.round(0.15 * rate)),
+            decay,
             cents: isWide ? 0 : 1200 * Math.log2(found / hertz), // ensembles are many pitches around one: see sound.test.mjs
             step: Math.max(0, after - before),
         });
@@ -160,23 +182,37 @@ async function tenMinutes() {
     const count = 117 * 10;
     const values = [];
     for (let i = 0; i < count; ++i) values.push(i * 480, 60, 72, 127, 0, 0, 0, 1, 0, -1);
-    const melody = readMelody({
-        count, end: count * 480, tempo: 117, beats: 4, unit: 4, ticks: 480,
-        parts: [{ name: "part", scale: "", program: 0, voices: 1 }],
-    }, new Uint8Array(new Float64Array(values).buffer));
+    const melody = readMelody(
+        {
+            count,
+            end: count * 480,
+            tempo: 117,
+            beats: 4,
+            unit: 4,
+            ticks: 480,
+            parts: [{ name: "part", scale: "", program: 0, voices: 1 }],
+        },
+        new Uint8Array(new Float64Array(values).buffer),
+    );
     const context = new OfflineAudioContext(1, 602 * rate, rate);
     const buffer = context.createBuffer(1, 64, rate);
     buffer.copyToChannel(new Float32Array(64).fill(0.9), 0);
     const clock = { time: 0 };
-    const transport = new Transport(() => clock.time, [{
-        note(index, time) {
-            const source = context.createBufferSource();
-            source.buffer = buffer;
-            source.connect(context.destination);
-            source.start(time);
-        },
-        cancel() {}, silence() {},
-    }]);
+    const transport = new Transport(
+        () => clock.time,
+        [
+            {
+                note(index, time) {
+                    const source = context.createBufferSource();
+                    source.buffer = buffer;
+                    source.connect(context.destination);
+                    source.start(time);
+                },
+                cancel() {},
+                silence() {},
+            },
+        ],
+    );
     transport.setMelody(melody);
     transport.setTempo(117);
     transport.play();
@@ -187,9 +223,12 @@ async function tenMinutes() {
     const data = (await context.startRendering()).getChannelData(0);
     const onsets = [];
     for (let i = 1; i < data.length; ++i) {
-        if (Math.abs(data[i]) > 0.3 && (onsets.length === 0 || i - onsets[onsets.length - 1] > 0.1 * rate)) onsets.push(i);
+        if (Math.abs(data[i]) > 0.3 && (onsets.length === 0 || i - onsets[onsets.length - 1] > 0.1 * rate))
+            onsets.push(i);
     }
     let most = 0;
-    onsets.forEach((onset, i) => { most = Math.max(most, Math.abs((onset - onsets[0]) / rate - (i * 60) / 117)); });
+    onsets.forEach((onset, i) => {
+        most = Math.max(most, Math.abs((onset - onsets[0]) / rate - (i * 60) / 117));
+    });
     return { count: onsets.length, most };
 }

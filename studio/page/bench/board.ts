@@ -33,7 +33,10 @@ export class Board {
     private readonly still: CanvasRenderingContext2D; // all but the preview
     private shown: unknown[] = []; // what `still` shows
 
-    constructor(readonly canvas: HTMLCanvasElement, redraw: () => void) {
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        redraw: () => void,
+    ) {
         this.context = canvas.getContext("2d")!;
         this.still = document.createElement("canvas").getContext("2d")!;
         new ResizeObserver(() => {
@@ -72,7 +75,8 @@ export class Board {
         let nearest = 1;
         let found = -1;
         scene.grid.gaps.forEach((gap, i) => {
-            const distance = Math.max(Math.abs(gap.x - px), Math.abs(gap.y - py)) * 0.5 + 0.5 * Math.hypot(gap.x - px, gap.y - py);
+            const distance =
+                Math.max(Math.abs(gap.x - px), Math.abs(gap.y - py)) * 0.5 + 0.5 * Math.hypot(gap.x - px, gap.y - py);
             if (distance < nearest) {
                 nearest = distance;
                 found = i;
@@ -119,7 +123,14 @@ export class Board {
         const { width, height } = canvas;
         context.fillStyle = earth;
         context.fillRect(0, 0, width, height);
-        const light = context.createRadialGradient(width * 0.42, height * 0.36, 0, width / 2, height / 2, Math.hypot(width, height) * 0.6);
+        const light = context.createRadialGradient(
+            width * 0.42,
+            height * 0.36,
+            0,
+            width / 2,
+            height / 2,
+            Math.hypot(width, height) * 0.6,
+        );
         light.addColorStop(0, "rgb(196 104 70 / 26%)");
         light.addColorStop(0.55, "rgb(125 51 36 / 0%)");
         light.addColorStop(1, "rgb(48 14 8 / 42%)");
@@ -172,7 +183,10 @@ export class Board {
         context.restore();
         const scale = 1 / (this.scale * this.ratio);
         paths.forEach((path, index) => {
-            const powder = context.createPattern(this.powderOf(scene.isColoured ? index % line_colours.length : 0), "repeat")!;
+            const powder = context.createPattern(
+                this.powderOf(scene.isColoured ? index % line_colours.length : 0),
+                "repeat",
+            )!;
             powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
             context.strokeStyle = powder;
             context.lineWidth = line_width * 0.96;
@@ -188,7 +202,7 @@ export class Board {
     }
 
     private powderOf(colour: number): HTMLCanvasElement {
-        return this.powders[colour] ??= powderTile(line_colours[colour]);
+        return (this.powders[colour] ??= powderTile(line_colours[colour]));
     }
 
     /// The pieces that a click would draw, over a patch of earth.
@@ -221,7 +235,10 @@ export class Board {
         context.setLineDash([]);
         if (!scene.isFocused) return;
         const { x, y } = grid.gaps[cursor];
-        for (const [width, colour] of [[0.16, "rgb(40 12 6 / 80%)"], [0.08, "#ffe9c4"]] as const) {
+        for (const [width, colour] of [
+            [0.16, "rgb(40 12 6 / 80%)"],
+            [0.08, "#ffe9c4"],
+        ] as const) {
             context.lineWidth = width;
             context.strokeStyle = colour;
             context.beginPath();

@@ -10,8 +10,17 @@ export type GapState = typeof turned | typeof crossed; // later: joined, where t
 const side_x = [1, 0, -1, 0];
 const side_y = [0, 1, 0, -1];
 
-export interface Point { x: number; y: number } // twice the distance from the middle, y up
-export interface Gap { from: number; to: number; side: number; x: number; y: number } // side of `from`: 0 or 3
+export interface Point {
+    x: number;
+    y: number;
+} // twice the distance from the middle, y up
+export interface Gap {
+    from: number;
+    to: number;
+    side: number;
+    x: number;
+    y: number;
+} // side of `from`: 0 or 3
 
 export interface DotGrid {
     rows: number[];
@@ -33,7 +42,8 @@ export function makeGrid(rows: number[]): DotGrid {
         throw new Error("Rows must all have odd numbers of dots, or all even ones: they are centred.");
     }
     const count = rows.reduce((sum, row) => sum + row, 0);
-    if (count > most_dots || rows.length > 3 * most_side) throw new Error(`A grid on the bench has at most ${most_dots} dots.`);
+    if (count > most_dots || rows.length > 3 * most_side)
+        throw new Error(`A grid on the bench has at most ${most_dots} dots.`);
     const dots: Point[] = [];
     const begins: number[] = [];
     rows.forEach((length, row) => {
@@ -43,7 +53,9 @@ export function makeGrid(rows: number[]): DotGrid {
     const dotAt = (x: number, y: number): number => {
         const row = (rows.length - 1 - y) / 2;
         const column = (x + (rows[row] ?? 0) - 1) / 2;
-        return rows[row] !== undefined && Number.isInteger(column) && column >= 0 && column < rows[row] ? begins[row] + column : -1;
+        return rows[row] !== undefined && Number.isInteger(column) && column >= 0 && column < rows[row]
+            ? begins[row] + column
+            : -1;
     };
     const gaps: Gap[] = [];
     const gapAt = new Int32Array(4 * count).fill(-1);
@@ -139,6 +151,9 @@ export function countLines(grid: DotGrid, states: Uint8Array): number {
 export function joinsTwoLines(grid: DotGrid, states: Uint8Array, lines: Lines, index: number): boolean {
     const { from, to, side } = grid.gaps[index];
     const first = lines.lineOfArc[4 * from + side];
-    const second = states[index] === crossed ? lines.lineOfArc[4 * from + ((side + 3) & 3)] : lines.lineOfArc[4 * to + ((side + 2) & 3)];
+    const second =
+        states[index] === crossed
+            ? lines.lineOfArc[4 * from + ((side + 3) & 3)]
+            : lines.lineOfArc[4 * to + ((side + 2) & 3)];
     return first !== second;
 }

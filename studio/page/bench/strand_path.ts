@@ -18,11 +18,16 @@ export function traceSegments(pen: Pen, points: readonly number[], first: number
     const at = (i: number): number => 2 * (((i % size) + size) % size);
     for (let i = first; i < first + count; ++i) {
         const [a, b, c, d] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-        const joint = (k: number, p: number, q: number, r: number): number => (points[p + k] + 4 * points[q + k] + points[r + k]) / 6;
+        const joint = (k: number, p: number, q: number, r: number): number =>
+            (points[p + k] + 4 * points[q + k] + points[r + k]) / 6;
         if (i === first) pen.moveTo(joint(0, a, b, c), joint(1, a, b, c));
         pen.bezierCurveTo(
-            (2 * points[b] + points[c]) / 3, (2 * points[b + 1] + points[c + 1]) / 3,
-            (points[b] + 2 * points[c]) / 3, (points[b + 1] + 2 * points[c + 1]) / 3,
-            joint(0, b, c, d), joint(1, b, c, d));
+            (2 * points[b] + points[c]) / 3,
+            (2 * points[b + 1] + points[c + 1]) / 3,
+            (points[b] + 2 * points[c]) / 3,
+            (points[b + 1] + 2 * points[c + 1]) / 3,
+            joint(0, b, c, d),
+            joint(1, b, c, d),
+        );
     }
 }

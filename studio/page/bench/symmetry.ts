@@ -12,20 +12,34 @@ const left_and_right: Isometry = [-1, 0, 0, 1];
 const top_and_bottom: Isometry = [1, 0, 0, -1];
 
 const generators: Record<Symmetry, Isometry[]> = {
-    "none": [], "C2": [half_turn], "C4": [quarter_turn], "mirror-x": [left_and_right], "mirror-y": [top_and_bottom],
-    "mirrors": [left_and_right, top_and_bottom], "D4": [quarter_turn, left_and_right],
+    "none": [],
+    "C2": [half_turn],
+    "C4": [quarter_turn],
+    "mirror-x": [left_and_right],
+    "mirror-y": [top_and_bottom],
+    "mirrors": [left_and_right, top_and_bottom],
+    "D4": [quarter_turn, left_and_right],
 };
 
 export const symmetries: { name: Symmetry; label: string }[] = [
-    { name: "none", label: "No symmetry" }, { name: "mirror-x", label: "Left and right mirror each other" },
-    { name: "mirror-y", label: "Top and bottom mirror each other" }, { name: "mirrors", label: "Both mirrors" },
-    { name: "C2", label: "Half turn" }, { name: "C4", label: "Quarter turn" }, { name: "D4", label: "Turns and mirrors" },
+    { name: "none", label: "No symmetry" },
+    { name: "mirror-x", label: "Left and right mirror each other" },
+    { name: "mirror-y", label: "Top and bottom mirror each other" },
+    { name: "mirrors", label: "Both mirrors" },
+    { name: "C2", label: "Half turn" },
+    { name: "C4", label: "Quarter turn" },
+    { name: "D4", label: "Turns and mirrors" },
 ];
 
-const moved = ([xx, xy, yx, yy]: Isometry, x: number, y: number): [number, number] => [xx * x + xy * y, yx * x + yy * y];
+const moved = ([xx, xy, yx, yy]: Isometry, x: number, y: number): [number, number] => [
+    xx * x + xy * y,
+    yx * x + yy * y,
+];
 
 export function hasSymmetry(grid: DotGrid, symmetry: Symmetry): boolean {
-    return generators[symmetry].every((isometry) => grid.dots.every(({ x, y }) => grid.dotAt(...moved(isometry, x, y)) >= 0));
+    return generators[symmetry].every((isometry) =>
+        grid.dots.every(({ x, y }) => grid.dotAt(...moved(isometry, x, y)) >= 0),
+    );
 }
 
 /// For each gap the gaps of its orbit, itself included.
@@ -63,7 +77,12 @@ export function symmetrised(orbits: number[][], states: Uint8Array): Uint8Array 
 
 /// Changes whole orbits as long as that leaves fewer lines; the drawing stays as near to itself as this finds.
 /// Null if several lines are left.
-export function singleLineNear(grid: DotGrid, orbits: number[][], states: Uint8Array, chance: () => number): Uint8Array | null {
+export function singleLineNear(
+    grid: DotGrid,
+    orbits: number[][],
+    states: Uint8Array,
+    chance: () => number,
+): Uint8Array | null {
     const all = [...new Set(orbits)];
     const tries = 40;
     for (let attempt = 0; attempt < tries; ++attempt) {

@@ -28,7 +28,10 @@ export class CurveView {
     private top = 0;
     private muted: (voice: number) => boolean = () => false;
 
-    constructor(readonly canvas: HTMLCanvasElement, private readonly redraw: () => void) {
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        private readonly redraw: () => void,
+    ) {
         this.surface = new Surface(canvas, () => this.reset());
     }
 
@@ -70,9 +73,15 @@ export class CurveView {
         this.top = this.surface.height / 2 + (this.scale * (y0 + y1)) / 2;
     }
 
-    private x(value: number): number { return this.left + this.scale * value; }
-    private y(value: number): number { return this.top - this.scale * value; }
-    private get thickness(): number { return Math.min(6, Math.max(Math.min(1.3, this.scale * 0.8), this.scale * 0.17)); }
+    private x(value: number): number {
+        return this.left + this.scale * value;
+    }
+    private y(value: number): number {
+        return this.top - this.scale * value;
+    }
+    private get thickness(): number {
+        return Math.min(6, Math.max(Math.min(1.3, this.scale * 0.8), this.scale * 0.17));
+    }
 
     /// True if some of it is left for the next frame.
     draw(tick: number): boolean {
@@ -204,7 +213,13 @@ export class CurveView {
             const share = Math.min(1, (tick - melody.onset[i]) / melody.duration[i]);
             const isMuted = this.muted(melody.voice[i]);
             context.strokeStyle = voiceColour(melody.voice[i], this.ink.isDark);
-            for (const [width, alpha] of isMuted ? [[1, 0.3]] : [[3.6, 0.16], [2.2, 0.3], [1.25, 1]]) {
+            for (const [width, alpha] of isMuted
+                ? [[1, 0.3]]
+                : [
+                      [3.6, 0.16],
+                      [2.2, 0.3],
+                      [1.25, 1],
+                  ]) {
                 context.globalAlpha = alpha;
                 context.lineWidth = this.thickness * width;
                 context.beginPath();
@@ -268,8 +283,8 @@ function leading(melody: Melody): Int32Array {
     const before = new Int32Array(melody.count).fill(-1);
     const last = new Int32Array(melody.voices).fill(-1);
     const { path } = melody;
-    const run = (x0: number, y0: number, x1: number, y1: number): string => (
-        x0 < x1 || (x0 === x1 && y0 < y1) ? `${x0} ${y0} ${x1} ${y1}` : `${x1} ${y1} ${x0} ${y0}`);
+    const run = (x0: number, y0: number, x1: number, y1: number): string =>
+        x0 < x1 || (x0 === x1 && y0 < y1) ? `${x0} ${y0} ${x1} ${y1}` : `${x1} ${y1} ${x0} ${y0}`;
     const sounded = new Set<string>();
     if (melody.voices > 1) {
         for (let i = 0; i < 4 * melody.count; i += 4) sounded.add(run(path[i], path[i + 1], path[i + 2], path[i + 3]));

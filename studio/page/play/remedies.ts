@@ -1,7 +1,11 @@
 // What helps where a curve gives no melody.
 import type { Options, PatternRequest } from "../protocol";
 
-export interface Remedy { label: string; options?: Options; pattern?: Required<PatternRequest> }
+export interface Remedy {
+    label: string;
+    options?: Options;
+    pattern?: Required<PatternRequest>;
+}
 
 /// The pattern with moves (f) as steps that are drawn (F); every place in the text stays where it is. Null if it
 /// draws already, or does not move.

@@ -8,13 +8,30 @@ import { timbreNamed } from "./timbres";
 import type { NoteSink } from "./transport";
 
 /// What a voice is heard through.
-export interface VoiceSettings { timbre: string; volume: number; muted: boolean; solo: boolean }
+export interface VoiceSettings {
+    timbre: string;
+    volume: number;
+    muted: boolean;
+    solo: boolean;
+}
 
 /// Buffers of timbres: Renderer, or what a test has.
-export interface Buffers { find(timbre: Timbre, key: number): Voiced | null }
+export interface Buffers {
+    find(timbre: Timbre, key: number): Voiced | null;
+}
 
-interface Strip { gain: GainNode; pan: StereoPannerNode; send: GainNode }
-interface Sounding { source: AudioBufferSourceNode; envelope: GainNode; vibrato: OscillatorNode | null; begin: number; end: number }
+interface Strip {
+    gain: GainNode;
+    pan: StereoPannerNode;
+    send: GainNode;
+}
+interface Sounding {
+    source: AudioBufferSourceNode;
+    envelope: GainNode;
+    vibrato: OscillatorNode | null;
+    begin: number;
+    end: number;
+}
 
 const most_sounding = 96;
 
@@ -25,7 +42,10 @@ export class SoundOutput implements NoteSink {
     private strips: Strip[] = [];
     private sounding: Sounding[] = [];
 
-    constructor(readonly context: BaseAudioContext, private readonly buffers: Buffers) {
+    constructor(
+        readonly context: BaseAudioContext,
+        private readonly buffers: Buffers,
+    ) {
         this.master = new Master(context);
     }
 
@@ -41,7 +61,12 @@ export class SoundOutput implements NoteSink {
             strip.gain.gain.setTargetAtTime(level, now, 0.012);
             strip.send.gain.setTargetAtTime(timbreNamed(voice?.timbre ?? "").reverb, now, 0.012);
             // Voices sit beside each other, the first in the middle.
-            const place = voices.length < 2 ? 0 : (index % 2 === 0 ? 1 : -1) * 0.5 * Math.min(1, Math.ceil(index / 2) / Math.max(1, (voices.length - 1) / 2));
+            const place =
+                voices.length < 2
+                    ? 0
+                    : (index % 2 === 0 ? 1 : -1)
+                      * 0.5
+                      * Math.min(1, Math.ceil(index / 2) / Math.max(1, (voices.length - 1) / 2));
             strip.pan.pan.setTargetAtTime(place, now, 0.02);
         });
     }
@@ -121,7 +146,13 @@ export class SoundOutput implements NoteSink {
         if (this.sounding.length > most_sounding) this.fade(this.sounding.shift()!, begin, 0.01);
     }
 
-    private vibrato(timbre: Timbre, source: AudioBufferSourceNode, begin: number, seconds: number, rate: number): OscillatorNode | null {
+    private vibrato(
+        timbre: Timbre,
+        source: AudioBufferSourceNode,
+        begin: number,
+        seconds: number,
+        rate: number,
+    ): OscillatorNode | null {
         if (!timbre.vibrato || seconds < timbre.vibrato.delay + 0.15) return null;
         const { hertz, cents, delay } = timbre.vibrato;
         const oscillator = this.context.createOscillator();

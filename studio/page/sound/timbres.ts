@@ -43,7 +43,8 @@ const list: Timbre[] = [
         render: piano,
     },
     {
-        name: "electric-piano", label: "Electric piano", attack: 0.002, release: 0.3, brightness: [1.4, 20], reverb: 0.18,
+        name: "electric-piano", label: "Electric piano", attack: 0.002, release: 0.3,
+        brightness: [1.4, 20], reverb: 0.18,
         render: electricPiano,
     },
     {
@@ -111,19 +112,22 @@ const list: Timbre[] = [
     {
         name: "koto", label: "Koto", attack: 0.001, release: 0.5, brightness: [6, 55], reverb: 0.22,
         render: (key, rate) => pluckedString(
-            { seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7, body: [[310, 60, 0.6], [720, 120, 0.4]] },
+            { seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7,
+              body: [[310, 60, 0.6], [720, 120, 0.4]] },
             key, rate),
     },
     {
         name: "banjo", label: "Banjo", attack: 0.001, release: 0.15, brightness: [8, 55], reverb: 0.14,
         render: (key, rate) => pluckedString(
-            { seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6, body: [[520, 160, 1.2], [950, 220, 0.8]] },
+            { seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6,
+              body: [[520, 160, 1.2], [950, 220, 0.8]] },
             key, rate),
     },
     {
         name: "pizzicato", label: "Plucked strings", attack: 0.001, release: 0.2, brightness: [3, 26], reverb: 0.28,
         render: (key, rate) => pluckedString(
-            { seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6, body: [[280, 60, 1], [460, 90, 0.7]] },
+            { seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6,
+              body: [[280, 60, 1], [460, 90, 0.7]] },
             key, rate),
     },
     {
@@ -156,7 +160,8 @@ const list: Timbre[] = [
     {
         name: "steel-drum", label: "Steel drum", attack: 0.002, release: 0.4, brightness: [2, 14], reverb: 0.24,
         render: (key, rate) => struck({
-            partials: bars([[1, 1, 1], [2, 0.7, 0.8], [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]]),
+            partials: bars([[1, 1, 1], [2, 0.7, 0.8],
+                             [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]]),
             stretch: 0.6, attack: 0.004,
         }, key, rate),
     },
@@ -173,7 +178,8 @@ const list: Timbre[] = [
     {
         name: "choir", label: "Choir", attack: 0.14, release: 0.4, brightness: [16, 30], reverb: 0.42, trim: 0.9,
         vibrato: { hertz: 4.8, cents: 9, delay: 0.3 },
-        ...lasting({ level: (k, hertz) => vowel(hertz) / k ** 0.4, spread: 30, breath: 0.05, breath_hertz: [500, 6000] }),
+        ...lasting({ level: (k, hertz) => vowel(hertz) / k ** 0.4, spread: 30,
+            breath: 0.05, breath_hertz: [500, 6000] }),
     },
     {
         name: "brass", label: "Brass", attack: 0.05, release: 0.12, brightness: [4, 26], reverb: 0.24,
@@ -232,7 +238,8 @@ const list: Timbre[] = [
         render: tunedDrum,
     },
     {
-        name: "drums", label: "Drum kit", attack: 0.0005, release: 0.5, brightness: [200, 200], reverb: 0.12, trim: 1.25,
+        name: "drums", label: "Drum kit", attack: 0.0005, release: 0.5,
+        brightness: [200, 200], reverb: 0.12, trim: 1.25,
         render: drum, everyKey: true,
     },
 ];
