@@ -22,3 +22,17 @@ export class Chance {
 
     one<Item>(items: readonly Item[]): Item { return items[this.below(items.length)]!; }
 }
+
+/// A number of 53 bits from a text: cyrb53. Equal texts have equal numbers, different ones almost surely do not.
+export function hashOf(text: string): number {
+    let high = 0xdeadbeef;
+    let low = 0x41c6ce57;
+    for (let index = 0; index < text.length; ++index) {
+        const code = text.charCodeAt(index);
+        high = Math.imul(high ^ code, 2654435761);
+        low = Math.imul(low ^ code, 1597334677);
+    }
+    high = Math.imul(high ^ (high >>> 16), 2246822507) ^ Math.imul(low ^ (low >>> 13), 3266489909);
+    low = Math.imul(low ^ (low >>> 16), 2246822507) ^ Math.imul(high ^ (high >>> 13), 3266489909);
+    return 4294967296 * (2097151 & low) + (high >>> 0);
+}

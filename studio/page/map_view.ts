@@ -24,6 +24,7 @@ interface Overview {
 
 const restAfter = 140; // milliseconds without motion until pictures at exactly this scale are made
 const keepAfter = 300; // … until the work learns what is looked at
+const mostNamed = 16e6; // characters of patterns whose pictures are known by name
 const slowPicture = 28; // milliseconds: slower pictures are made smaller while a slider moves
 
 export class MapView {
@@ -36,6 +37,7 @@ export class MapView {
     private readonly tiles: TileLoader;
     private readonly names = new Map<string, string>();
     private named = 0;
+    private namedLength = 0;
     private ratio = 1;
     private grid: TileGrid = tileGrid(1);
     private isShown = false;
@@ -108,8 +110,10 @@ export class MapView {
     setWork(work: Work): void {
         const isOther = work.pattern !== this.work.pattern || work.draw !== this.work.draw;
         this.work = work;
-        this.pageName = this.nameOf("page", work, pageOptions(work.draw));
-        this.planeName = this.nameOf("plane", work, planeOptions(work.draw));
+        if (isOther || this.pageName === "") {
+            this.pageName = this.nameOf("page", work, pageOptions(work.draw));
+            this.planeName = this.nameOf("plane", work, planeOptions(work.draw));
+        }
         if (isOther) {
             this.changed = performance.now();
             this.loupe = { zoom: 1, right: 0, down: 0 };
@@ -181,7 +185,12 @@ export class MapView {
         if (name === undefined) {
             name = `${kind}-${++this.named}`;
             this.names.set(text, name);
-            if (this.names.size > 400) this.names.delete([...this.names.keys()][0]!);
+            this.namedLength += text.length;
+            for (const [oldest] of this.names) {
+                if (this.namedLength < mostNamed || oldest === text) break;
+                this.names.delete(oldest);
+                this.namedLength -= oldest.length;
+            }
         }
         return name;
     }

@@ -1,5 +1,6 @@
 // Finds valid variants and draws them small: those that fail, draw nothing, cost too much or do not pass the filters
 // are left out.
+import { hashOf } from "./chance";
 import { RequestFailed, type Engine, type Work } from "./context";
 import { isAbort } from "./pictures";
 import type { Options, Pixels } from "./protocol";
@@ -47,7 +48,7 @@ export function thumbnailOptions(draw: Work["draw"]): Options {
 export async function searchVariants(engine: Engine, search: Search): Promise<number> {
     const options = thumbnailOptions(search.draw);
     const seen = new Set<string>(); // pictures
-    const known = new Set<string>(); // patterns
+    const known = new Set<number>(); // patterns
     const start = performance.now();
     const valid: number[] = []; // indices
     let next = 0;
@@ -57,9 +58,9 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
     async function tryOne(index: number, lane: "front" | "back"): Promise<void> {
         for (const variant of search.candidates(index) ?? []) {
             if (search.isDistinct) {
-                const text = JSON.stringify(variant.pattern);
-                if (known.has(text)) continue;
-                known.add(text);
+                const number = hashOf(JSON.stringify(variant.pattern));
+                if (known.has(number)) continue;
+                known.add(number);
             }
             const picture = await drawn(engine, variant, search, options, lane);
             if (search.signal.aborted) return;
