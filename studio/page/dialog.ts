@@ -23,10 +23,6 @@ export function openDialog(title: string, options: { wide?: boolean; closed?: ()
         body,
         footer,
     );
-    footer.hidden = true; // until it has buttons
-    new MutationObserver(() => {
-        footer.hidden = footer.childElementCount === 0;
-    }).observe(footer, { childList: true });
     dialog.addEventListener("close", () => {
         dialog.remove();
         options.closed?.();

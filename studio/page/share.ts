@@ -11,7 +11,7 @@ import { titleOf } from "./pattern_text";
 import type { Link, PatternRequest, ReadLink, Shared } from "./protocol";
 
 const quiet_zone = 4; // modules of white around a code
-const module_size = 4; // pixels
+const code_width = 280; // pixels, for whole pixels in each module
 
 const isServed = () => /^https?:$/.test(location.protocol);
 
@@ -86,10 +86,10 @@ function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): 
     try {
         generate(text).toCanvas(canvas, { on: [42, 33, 28, 255], off: [255, 255, 255, 255], pad: quiet_zone });
         canvas.hidden = false;
-        canvas.style.width = `${Math.min(canvas.width * module_size, 280)}px`;
+        canvas.style.width = `${canvas.width * Math.max(2, Math.floor(code_width / canvas.width))}px`;
         facts.textContent = isServed()
             ? `A link of ${length}.`
-            : `This page is a file, so the code holds only the work (${length}). Any studio opens it: Open, A link….`;
+            : `This page is a file, so the code holds only the work (${length}). In any studio, Open > A link… reads it.`;
     } catch {
         canvas.hidden = true;
         facts.textContent = `The link has ${length}: too many for a QR code, which holds up to 2,953.`;
