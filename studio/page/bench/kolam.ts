@@ -20,8 +20,12 @@ export class Kolam {
         this.lines = followLines(this.grid, this.states);
     }
 
-    get count(): number { return this.lines.strands.length; }
-    get crossings(): number { return this.states.reduce((sum, state) => sum + (state === crossed ? 1 : 0), 0); }
+    get count(): number {
+        return this.lines.strands.length;
+    }
+    get crossings(): number {
+        return this.states.reduce((sum, state) => sum + (state === crossed ? 1 : 0), 0);
+    }
 
     /// Another grid with the states of its gaps; the symmetry stays if the grid has it.
     set(grid: DotGrid, states: Uint8Array): void {
@@ -44,7 +48,9 @@ export class Kolam {
         return states;
     }
 
-    countAfter(gap: number): number { return countLines(this.grid, this.after(gap)); }
+    countAfter(gap: number): number {
+        return countLines(this.grid, this.after(gap));
+    }
 
     /// True if the drawing had to change for it.
     setSymmetry(symmetry: Symmetry): boolean {

@@ -9,14 +9,7 @@ const shapes: [string, string[]][] = [
     ["Squares", ["3x3", "4x4", "5x5", "6x6", "7x7", "9x9", "11x11", "15x15"]],
     [
         "Diamonds",
-        [
-            "1-3-1",
-            "1-3-5-3-1",
-            "1-3-5-7-5-3-1",
-            "1-3-5-7-9-7-5-3-1",
-            "1-3-5-7-9-11-13-11-9-7-5-3-1",
-            "2-4-6-6-4-2",
-        ],
+        ["1-3-1", "1-3-5-3-1", "1-3-5-7-5-3-1", "1-3-5-7-9-7-5-3-1", "1-3-5-7-9-11-13-11-9-7-5-3-1", "2-4-6-6-4-2"],
     ],
     ["Octagons", ["3-5-5-5-3", "3-5-7-7-7-5-3", "5-7-9-11-11-11-11-11-9-7-5"]],
     ["Other shapes", ["1-3-5-7", "1-3-5-7-9-11", "3-3-9-9-9-3-3", "5-1-5", "7-5-3-1-3-5-7", "4x7", "2x9"]],
@@ -33,8 +26,8 @@ const symmetry_icons: Record<Symmetry, string> = {
 };
 const dice_icon = "M3 3h10v10H3zM5.7 5.7h.01M10.3 5.7h.01M8 8h.01M5.7 10.3h.01M10.3 10.3h.01";
 const keys_text =
-    "Click a gap between two dots to cross the lines there or turn them back; drag to change several. " +
-    "On the board, arrow keys move from gap to gap and space changes one.";
+    "Click a gap between two dots to cross the lines there or turn them back; drag to change several. "
+    + "On the board, arrow keys move from gap to gap and space changes one.";
 
 export interface Look {
     isColoured: boolean;

@@ -1,0 +1,13 @@
+// The options that change how the curve becomes notes.
+import { offered, optionField, type OptionAct } from "../option_fields";
+import type { Help, Options } from "../protocol";
+
+const names = "scale tonic instrument unit meter mapping vertical runs velocity range transpose bars".split(" ");
+
+/// The fields, in the order of importance; not while one of them is being edited.
+export function showReading(place: HTMLElement, help: Help, options: Options, act: OptionAct): void {
+    if (place.contains(document.activeElement)) return;
+    const rows = names.flatMap((name) => offered(help.play.options).filter((option) => option.name === name));
+    const value = (name: string): string | undefined => options.find(([each]) => each === name)?.[1];
+    place.replaceChildren(...rows.map((option) => optionField(option, value(option.name), act)));
+}

@@ -1,0 +1,21 @@
+// The volume of the last visit.
+
+const name = "sikku-volume";
+const usual = 0.8;
+
+export function rememberedVolume(): number {
+    try {
+        const value = Number(localStorage.getItem(name) ?? usual);
+        return value >= 0 && value <= 1 ? value : usual;
+    } catch {
+        return usual; // a page without a memory
+    }
+}
+
+export function rememberVolume(volume: number): void {
+    try {
+        localStorage.setItem(name, String(volume));
+    } catch {
+        // a page without a memory
+    }
+}
