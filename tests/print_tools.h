@@ -21,7 +21,7 @@
 namespace sikku {
 
 /// A picture as pdftoppm writes it.
-struct Pixels {
+struct PixelGrid {
     int width = 0;
     int height = 0;
     std::string bytes;

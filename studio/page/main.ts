@@ -13,7 +13,7 @@ import { acceptDrops } from "./open_file";
 import { openPattern } from "./opening";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
-import type { Help, Patterns } from "./protocol";
+import type { Help, Options, PatternRequest, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -39,10 +39,12 @@ const first: Work = {
     draw: [], play: [], place: null, panel: "map",
 };
 
-// Patterns that the program wrote into the page: `sikku studio PATTERN…`.
-function embedded(): Work["pattern"][] {
-    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
-    return list.map(({ name, text }) => ({ name, text, variant: "", settings: [] }));
+// Patterns that the program wrote into the page: `sikku studio PATTERN…`. Those of links have values and options.
+function embedded(): Pick<Work, "pattern" | "draw" | "play">[] {
+    type Entry = PatternRequest & { draw?: Options; play?: Options };
+    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as Entry[];
+    return list.map(({ name, text, variant = "", settings = [], draw = [], play = [] }) =>
+        ({ pattern: { name, text, variant, settings }, draw, play }));
 }
 
 async function main(): Promise<void> {
@@ -54,7 +56,9 @@ async function main(): Promise<void> {
     restoreScales(engine);
     new Editor(application);
     new Controls(application);
-    for (const pattern of embedded()) if (pattern.text !== store.work.pattern.text) openPattern(application, pattern);
+    for (const { pattern, draw, play } of embedded()) {
+        if (pattern.text !== store.work.pattern.text) openPattern(application, pattern, "map", { draw, play });
+    }
     const opening = application.open();
     const [patterns, help] = await Promise.all([
         engine.request<Patterns>({ do: "patterns" }), engine.request<Help>({ do: "help" }),

@@ -406,7 +406,7 @@ TEST_F(PressPdf, SpotColoursHavePlatesOfTheirOwn) {
     EXPECT_NEAR(ink(*sea, 25, 40), 128, 2) << "a translucent square";
     EXPECT_NEAR(ink(*earth, 25, 40), 127, 2);
     EXPECT_EQ(ink(*sea, 5, 5), 0);
-    for (const Pixels* one : {&*earth, &*rice, &*sea, &*cyan, &*magenta}) {
+    for (const PixelGrid* one : {&*earth, &*rice, &*sea, &*cyan, &*magenta}) {
         int darkest = 0;
         for (const double y : {-0.2, 0.0}) darkest = std::max(darkest, ink(*one, -5.5, y));
         EXPECT_GT(darkest, 100) << "every plate has the marks";
