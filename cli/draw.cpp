@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -46,7 +46,13 @@ std::string format_of(const std::string& output) {
 void run(const DrawCommand& command, bool quiet) {
     const std::string format = format_of(command.output);
     const OptionValues given = command.options.values();
-    const auto link = read_link_argument(command.pattern.pattern);
+    auto link = read_link_argument(command.pattern.pattern);
+    if (link && has_option(given, "generations")) {
+        // A derivation length and several of them exclude each other.
+        for (OptionValues* values : {&link->settings, &link->draw}) {
+            std::erase_if(*values, [](const OptionValue& value) { return value.name == "derivation length"; });
+        }
+    }
     if (!link) prints().check(format, given);  // before the pattern is read
     Assignment assigned{load(command.pattern, link ? &*link : nullptr, quiet), given};
     const OptionValues shared = link ? link->draw : OptionValues();
@@ -55,9 +61,7 @@ void run(const DrawCommand& command, bool quiet) {
         return prints().plan(assigned.document, format, assigned.options);
     });
     make(*work, command.output, quiet);
-    const OptionValues& values = assigned.options;
-    const auto is_compression = [](const OptionValue& value) { return value.name == "compression"; };
-    if (format != "png" && std::any_of(values.begin(), values.end(), is_compression)) {
+    if (format != "png" && has_option(assigned.options, "compression")) {
         tell_unless(quiet, "sikku: warning: --compression has no effect: it is for PNG\n");
     }
 }

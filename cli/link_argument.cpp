@@ -25,11 +25,11 @@ bool sets_scale(const std::string& name) {
     return name == "fit" || name == "step" || name == "dot-spacing";
 }
 
-bool has(const OptionValues& values, const auto& predicate) {
-    return std::any_of(values.begin(), values.end(), [&](const OptionValue& value) { return predicate(value.name); });
-}
-
 }  // namespace
+
+bool has_option(const OptionValues& values, std::string_view name) {
+    return std::any_of(values.begin(), values.end(), [&](const OptionValue& value) { return value.name == name; });
+}
 
 std::optional<SharedWork> read_link_argument(const std::string& pattern) {
     std::error_code error;
@@ -46,8 +46,10 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
     std::vector<Setting> settings;
     for (const OptionValue& value : link.settings) {
         if (replaced.contains(value.name)) continue;
-        // The option that sets the same, for messages and recipes.
-        const char* origin = value.name == "derivation length" ? "-n" : value.name == "seed" ? "--seed" : "--set";
+        // For messages; recipes know seeds by it.
+        const char* origin = value.name == "derivation length" ? "-n"
+                             : value.name == "seed"            ? "--seed"
+                                                               : "link --set";
         settings.push_back({origin, value.name, value.text});
     }
     return settings;
@@ -57,8 +59,8 @@ OptionValues options_with(const OptionValues& shared, const OptionValues& given,
     const std::set<std::string> replaced = replaced_names(options);
     OptionValues values;
     for (const OptionValue& value : shared) {
-        const bool is_given = has(given, [&](const std::string& name) {
-            return name == value.name || (sets_scale(name) && sets_scale(value.name));
+        const bool is_given = std::any_of(given.begin(), given.end(), [&](const OptionValue& other) {
+            return other.name == value.name || (sets_scale(other.name) && sets_scale(value.name));
         });
         if (!is_given && !replaced.contains(value.name)) values.push_back(value);
     }

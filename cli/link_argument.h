@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sikku {
@@ -22,6 +23,9 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
 /// @param shared  the draw or play options of the link  @param given  the options of the command line
 OptionValues options_with(const OptionValues& shared, const OptionValues& given, const PatternOptions& options);
 
+/// True if there is a value of that option.
+bool has_option(const OptionValues& values, std::string_view name);
+
 /// What a link sets, for people: `n 4, seed 7; draw: size A3`. Empty if it sets nothing.
 std::string describe_settings(const SharedWork& link);
 
@@ -32,13 +36,7 @@ auto blaming_link(const OptionValues& shared, const OptionValues& given, Work&& 
     try {
         return work();
     } catch (const SettingError& error) {
-        const auto has = [&](const OptionValues& values) {
-            for (const OptionValue& value : values) {
-                if (value.name == error.option()) return true;
-            }
-            return false;
-        };
-        if (!has(shared) || has(given)) throw;
+        if (!has_option(shared, error.option()) || has_option(given, error.option())) throw;
         throw SettingError(error.option(), error.value(), std::string(error.what()) + " (the link sets this option)");
     }
 }

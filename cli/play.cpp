@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -49,9 +48,7 @@ void make_score(const PlayCommand& command, const std::string& format, const std
 
 /// The seed of a pattern is that of the player, too.
 void add_seed(const PatternOptions& options, const SharedWork* link, OptionValues& values) {
-    const bool is_given =
-        std::any_of(values.begin(), values.end(), [](const OptionValue& value) { return value.name == "seed"; });
-    if (is_given) return;
+    if (has_option(values, "seed")) return;
     if (!options.seed.empty()) {
         values.push_back({"seed", std::to_string(seed_of(options))});
     } else if (link) {

@@ -44,7 +44,7 @@ function embedded(): Pick<Work, "pattern" | "draw" | "play">[] {
     type Entry = PatternRequest & { draw?: Options; play?: Options };
     const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as Entry[];
     return list.map(({ name, text, variant = "", settings = [], draw = [], play = [] }) =>
-        ({ pattern: { name, text, variant, settings }, draw, play }));
+        ({ pattern: { name, text, variant, settings }, draw: draw.filter(([option]) => option !== "window"), play }));
 }
 
 async function main(): Promise<void> {

@@ -36,11 +36,19 @@ std::string text_of_pattern(const std::string& name) {
     return run({"show", name}).output;
 }
 
-Json shared(const std::string& name, const Json& settings, const Json& draw, const Json& play,
+Json pairs(const OptionValues& values) {
+    Json list = Json::array();
+    for (const OptionValue& value : values) list.push_back(Json::array({value.name, value.text}));
+    return list;
+}
+
+Json shared(const std::string& name, const OptionValues& settings, const OptionValues& draw, const OptionValues& play,
             const std::string& variant = "") {
-    const Json pattern = {
-        {"name", name + ".lsys"}, {"text", text_of_pattern(name)}, {"variant", variant}, {"settings", settings}};
-    return {{"pattern", pattern}, {"draw", draw}, {"play", play}, {"page", {{"panel", "map"}}}};
+    const Json pattern = {{"name", name + ".lsys"},
+                          {"text", text_of_pattern(name)},
+                          {"variant", variant},
+                          {"settings", pairs(settings)}};
+    return {{"pattern", pattern}, {"draw", pairs(draw)}, {"play", pairs(play)}, {"page", {{"panel", "map"}}}};
 }
 
 std::string link_to(const Json& work) {
@@ -62,18 +70,18 @@ std::string made(const Json& work, const char* interpreter, const std::string& f
 TEST(LinkProgram, TheStudioAndTheProgramMakeTheSameBytes) {
     const ScratchFolder folder;
     const std::vector<Json> works = {
-        shared("snake-kolam", Json::array(), Json::array(), Json::array()),
+        shared("snake-kolam", {}, {}, {}),
         shared("snake-kolam", {{"derivation length", "3"}, {"stroke", "0.3 step navy"}},
-               {{"size", "A3"}, {"landscape", "true"}, {"dots", ""}, {"border", "kaavi"}}, Json::array()),
+               {{"size", "A3"}, {"landscape", "true"}, {"dots", ""}, {"border", "kaavi"}}, {}),
         shared("hilbert", {{"seed", "7"}, {"derivation length", "5"}, {"scale", "blues"}},
                {{"window", "-1.5,0,10,8.25"}, {"margin", "0mm"}},
                {{"humanise", "0.5"}, {"tempo", "90"}, {"bars", "4"}}),
-        shared("honda-trees", {{"derivation length", "6"}}, {{"mirror", "true"}}, Json::array(), "b"),
-        shared("bush-3d", {{"derivation length", "4"}}, {{"view", "30,15,perspective"}}, Json::array()),
+        shared("honda-trees", {{"derivation length", "6"}}, {{"mirror", "true"}}, {}, "b"),
+        shared("bush-3d", {{"derivation length", "4"}}, {{"view", "30,15,perspective"}}, {}),
         shared("stochastic-branches", {{"seed", "12"}}, {{"rotate", "17"}, {"stroke", "0.4mm #123456"}},
                {{"seed", "5"}, {"humanise", "1"}}),
         // Options may name keys of the pattern.
-        shared("koch-island", Json::array(), {{"angle", "80"}, {"derivation length", "2"}}, Json::array()),
+        shared("koch-island", {}, {{"angle factor", "6"}, {"derivation length", "2"}}, {}),
     };
     for (const Json& work : works) {
         SCOPED_TRACE(work["pattern"]["name"]);
@@ -95,8 +103,9 @@ TEST(LinkProgram, TheStudioAndTheProgramMakeTheSameBytes) {
 
 TEST(LinkProgram, ACommandWithTheSameOptionsMakesTheSameBytes) {
     const ScratchFolder folder;
-    const std::string link = link_to(shared("hilbert", {{"derivation length", "4"}, {"seed", "7"}, {"angle", "90"}},
-                                            {{"size", "A5"}}, {{"humanise", "0.5"}}));
+    const std::string link =
+        link_to(shared("hilbert", {{"derivation length", "4"}, {"seed", "7"}, {"angle factor", "4"}},
+                       {{"size", "A5"}}, {{"humanise", "0.5"}}));
     const auto same = [&](std::vector<std::string> one, std::vector<std::string> other, const std::string& format) {
         for (auto* arguments : {&one, &other}) {
             const std::string name = (arguments == &one ? "one." : "other.") + format;
@@ -106,20 +115,22 @@ TEST(LinkProgram, ACommandWithTheSameOptionsMakesTheSameBytes) {
         }
         EXPECT_EQ(contents(folder / ("one." + format)), contents(folder / ("other." + format)));
     };
-    same({"draw", link}, {"draw", "hilbert", "-n", "4", "--seed", "7", "--set", "angle=90", "--size", "A5"}, "svg");
-    same({"play", link}, {"play", "hilbert", "-n", "4", "--seed", "7", "--set", "angle=90", "--humanise", "0.5"},
-         "mid");
+    same({"draw", link}, {"draw", "hilbert", "-n", "4", "--seed", "7", "--set", "angle factor=4", "--size", "A5"},
+         "svg");
+    same({"play", link},
+         {"play", "hilbert", "-n", "4", "--seed", "7", "--set", "angle factor=4", "--humanise", "0.5"}, "mid");
     // The command line wins.
-    same({"draw", link, "-n", "3", "--seed", "8", "--set", "angle=80", "--size", "A4"},
-         {"draw", "hilbert", "-n", "3", "--seed", "8", "--set", "angle=80", "--size", "A4"}, "svg");
+    same({"draw", link, "-n", "3", "--seed", "8", "--set", "angle factor=6", "--size", "A4"},
+         {"draw", "hilbert", "-n", "3", "--seed", "8", "--set", "angle factor=6", "--size", "A4"}, "svg");
     same({"play", link, "-n", "3", "--seed", "8", "--humanise", "0.2"},
-         {"play", "hilbert", "-n", "3", "--seed", "8", "--set", "angle=90", "--humanise", "0.2"}, "mid");
+         {"play", "hilbert", "-n", "3", "--seed", "8", "--set", "angle factor=4", "--humanise", "0.2"}, "mid");
     same({"draw", link, "--generations", "1:3"},
-         {"draw", "hilbert", "--seed", "7", "--set", "angle=90", "--size", "A5", "--generations", "1:3"}, "svg");
+         {"draw", "hilbert", "--seed", "7", "--set", "angle factor=4", "--size", "A5", "--generations", "1:3"},
+         "svg");
 }
 
 TEST(LinkProgram, EveryCommandReadsLinks) {
-    const Json work = shared("koch-island", {{"derivation length", "1"}}, {{"size", "A5"}}, Json::array());
+    const Json work = shared("koch-island", {{"derivation length", "1"}}, {{"size", "A5"}}, {});
     const std::string link = link_to(work);
     const std::string fragment = link.substr(link.find('#') + 1);
     EXPECT_EQ(run({"derive", link}).output, run({"derive", "koch-island", "-n", "1"}).output);
@@ -140,7 +151,7 @@ TEST(LinkProgram, EveryCommandReadsLinks) {
 TEST(LinkProgram, FaultsAreReported) {
     const ScratchFolder folder;
     const std::string out = folder.file("x.svg");
-    const std::string link = link_to(shared("hilbert", Json::array(), {{"window", "0,0,9,9"}}, Json::array()));
+    const std::string link = link_to(shared("hilbert", {}, {{"window", "0,0,9,9"}}, {}));
     const auto refused = [&](const std::vector<std::string>& arguments, std::string_view message) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.status, 2) << message;
@@ -154,10 +165,10 @@ TEST(LinkProgram, FaultsAreReported) {
     refused({"play", "sikku2.AAAA"}, "sikku: this link was made by a newer version of Sikku");
     refused({"draw", link, "-o", folder.file("x.gcode")},
             "--window: a window would cut the strokes of a plot (the link sets this option)");
-    Json work = shared("hilbert", {{"angle", "x"}}, {{"nonsense", "1"}}, Json::array());
-    refused({"draw", link_to(work), "-o", out}, "--set angle=x");
+    Json work = shared("hilbert", {{"angle", "x"}}, {{"nonsense", "1"}}, {});
+    refused({"draw", link_to(work), "-o", out}, "link --set:1:1: unknown key 'angle'");
     work["pattern"]["settings"] = Json::array();
-    refused({"draw", link_to(work), "-o", out}, "--nonsense 1: unknown option or key");
+    refused({"draw", link_to(work), "-o", out}, "--nonsense: unknown option or key (the link sets this option)");
     work["pattern"]["text"] = "axiom: F\nF -> F\n";
     refused({"draw", link_to(work), "-o", out}, "hilbert.lsys:2:");
     EXPECT_FALSE(std::filesystem::exists(out));

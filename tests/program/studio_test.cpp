@@ -121,8 +121,8 @@ TEST_F(Studio, ThePageIsWrittenWithPatterns) {
     EXPECT_EQ(list[2], (Json{{"name", "shared.lsys"},
                              {"text", "axiom: F\n"},
                              {"variant", ""},
-                             {"settings", {{"seed", "7"}}},
-                             {"draw", {{"size", "A3"}}}}));
+                             {"settings", Json::array({Json::array({"seed", "7"})})},
+                             {"draw", Json::array({Json::array({"size", "A3"})})}}));
     // A page that has patterns already gets others.
     set_page(contents(folder_ / "work/out.html"));
     EXPECT_EQ(studio({"-o", "empty.html"}).status, 0);
