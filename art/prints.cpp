@@ -83,7 +83,7 @@ public:
     Cost forecast() const override;
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
-    Pixels make_pixels(const Monitor& monitor);
+    DrawnPixels make_pixels(const Monitor& monitor);
 
 private:
     Cost forecast(const Grammar& grammar) const;
@@ -278,12 +278,12 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     return made;
 }
 
-Pixels PrintWork::make_pixels(const Monitor& monitor) {
+DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {
     const char* const why = "makes several pictures or sheets; a picture in memory is one";
     if (settings_.generations) refuse_option("generations", "", why);
     if (settings_.tile) refuse_option("tile", "", why);
     constexpr std::size_t bytes_of_pixel = 4;
-    Pixels pixels;
+    DrawnPixels pixels;
     drawing_.show_pixels = [&](Rendering& rendering, const PixelSize& size) {
         pixels.width = size.width;
         pixels.height = size.height;
@@ -404,7 +404,7 @@ std::string draw(const Document& document, std::string_view format, const Option
     return make_in_memory(prints(), document, format, values, monitor);
 }
 
-Pixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor) {
+DrawnPixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor) {
     const Assignment assigned = assign(prints(), document, values);
     return plan_print(assigned.document, PrintFormat::png, assigned.options)->make_pixels(monitor);
 }

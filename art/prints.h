@@ -21,13 +21,13 @@ std::string draw(const Document& document, std::string_view format, const Option
                  const Monitor& monitor = {});
 
 /// A picture in memory.
-struct Pixels {
+struct DrawnPixels {
     int width = 0, height = 0;
     std::vector<std::uint8_t> bytes;  ///< rows from the top; red, green, blue, straight alpha
     std::vector<Remark> remarks;
 };
 
 /// Draws the pixels of a PNG into memory. @param values  as for draw() @throws as draw()
-Pixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor = {});
+DrawnPixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor = {});
 
 }  // namespace sikku

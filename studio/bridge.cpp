@@ -189,7 +189,7 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
         append_double(bytes, note.from.y);
         append_double(bytes, note.to.x);
         append_double(bytes, note.to.y);
-        append_double(bytes, -1);
+        append_double(bytes, note.symbol == 0 ? -1 : static_cast<double>(note.symbol));
     }
     Json parts = Json::array();
     for (const Part& part : list.parts) {
@@ -212,6 +212,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
+    if (what == "origins") return answer_origins(request);
     if (what == "import") return answer_import(request, file);
     if (what == "show") return answer_show(request, file);
     if (what == "grid") return answer_grid(request, monitor);

@@ -1,5 +1,5 @@
-// studio/bridge.h: the libraries behind one function of JSON and bytes, for hosts of other languages: the studio's page
-// and its tests.
+// studio/bridge.h: the libraries behind one function of JSON and bytes, for hosts of other languages: the studio's
+// page and its tests.
 #pragma once
 
 #include <string>

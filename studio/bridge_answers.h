@@ -43,6 +43,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics);
 // Answers by the name of the request.
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
+Json answer_origins(const Json& request);
 Json answer_import(const Json& request, const std::string& file);
 Json answer_show(const Json& request, const std::string& file);
 Json answer_grid(const Json& request, const Monitor& monitor);

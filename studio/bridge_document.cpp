@@ -1,19 +1,21 @@
 // studio/bridge_document.cpp: patterns of requests: reading, facts, pictures, files of other programs.
-#include "art/drawing/seen_drawing.h"
 #include "art/draw_settings.h"
+#include "art/drawing/seen_drawing.h"
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/origins.h"
 #include "engine/import/import.h"
 #include "engine/measure/extent.h"
-#include "music/scores.h"
 #include "music/score/midi_texts.h"
+#include "music/scores.h"
 #include "studio/bridge_answers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <deque>
 #include <fstream>
@@ -75,6 +77,7 @@ Document document_of(const Json& request) {
     };
     static std::deque<Kept> kept;
     constexpr std::size_t most = 16;
+    constexpr std::size_t largest = std::size_t{1} << 22;  // longer texts are compiled each time
     const Json& pattern = member(request, "pattern");
     const auto found =
         std::find_if(kept.begin(), kept.end(), [&](const Kept& each) { return each.pattern == pattern; });
@@ -86,7 +89,7 @@ Document document_of(const Json& request) {
     Document document =
         compile(text_of(pattern, "name"), text_of(pattern, "text"), overrides, interpreters, diagnostics);
     diagnostics.throw_if_errors();
-    kept.push_front({pattern, document});
+    if (document.source().text().size() <= largest) kept.push_front({pattern, document});
     if (kept.size() > most) kept.pop_back();
     return document;
 }
@@ -126,8 +129,7 @@ int line_of(const Document& document, const Span& span) {
 Json keys_of(const Document& document) {
     Json list = Json::array();
     for (const Key& key : document.pattern().keys) {
-        list.push_back(
-            {{"name", key.name}, {"value", key.value.view()}, {"line", line_of(document, key.name_at)}});
+        list.push_back({{"name", key.name}, {"value", key.value.view()}, {"line", line_of(document, key.name_at)}});
     }
     return list;
 }
@@ -135,9 +137,8 @@ Json keys_of(const Document& document) {
 Json defines_of(const Document& document) {
     Json list = Json::array();
     for (const Define& define : document.pattern().defines) {
-        list.push_back({{"name", define.name.view()},
-                        {"value", define.value.view()},
-                        {"line", line_of(document, define.name)}});
+        list.push_back(
+            {{"name", define.name.view()}, {"value", define.value.view()}, {"line", line_of(document, define.name)}});
     }
     return list;
 }
@@ -159,7 +160,8 @@ Json productions_of(const Document& document) {
     const Pattern& pattern = document.pattern();
     Json list = Json::array();
     append_productions(document, pattern.common, "", list);
-    for (const TableText& table : pattern.tables) append_productions(document, table.productions, table.name.view(), list);
+    for (const TableText& table : pattern.tables)
+        append_productions(document, table.productions, table.name.view(), list);
     append_productions(document, pattern.interpret, "interpret", list);
     return list;
 }
@@ -170,8 +172,8 @@ std::string decimal_text(const Quantity& quantity) {
 
 /// Length of the word, number of segments, and extent, as far as they are known without much work.
 void add_measures(const Document& document, const Monitor& monitor, Json& answer) {
-    constexpr double budget = 2e8;    // of a drawing
-    constexpr double at_once = 3e6;   // nodes that may be visited to tell the facts
+    constexpr double budget = 2e8;   // of a drawing
+    constexpr double at_once = 3e6;  // nodes that may be visited to tell the facts
     const Grammar& grammar = document.grammar();
     Json cost = {{"symbols", ""}, {"segments", ""}, {"is_derivable", true}, {"most", ""}};
     try {
@@ -230,6 +232,43 @@ Json answer_open(const Json& request, const Monitor& monitor) {
     return answer;
 }
 
+namespace {
+
+Json json_of(const Document& document, const Span& span) {
+    if (span.source != &document.source()) return {{"line", 0}, {"column", 0}, {"length", 0}};
+    const Place place = document.source().place(span.at);
+    std::size_t length = 0;  // in code points, as columns are
+    for (std::string_view rest = span.view(); !rest.empty(); ++length) {
+        rest.remove_prefix(std::max<std::size_t>(utf8_length(rest), 1));
+    }
+    return {{"line", place.line}, {"column", place.column}, {"length", length}};
+}
+
+}  // namespace
+
+Json answer_origins(const Json& request) {
+    constexpr std::size_t most = 10'000;
+    const Document document = document_of(request);
+    std::vector<std::uint64_t> positions;
+    for (const Json& symbol : member(request, "symbols")) {
+        const std::string text = symbol.is_string() ? symbol.get<std::string>() : std::string();
+        positions.emplace_back();
+        std::from_chars(text.data(), text.data() + text.size(), positions.back());
+    }
+    if (positions.size() > most) throw BadRequest(fmt::format("at most {} symbols in a request", most));
+    Json list = Json::array();
+    for (const std::vector<Origin>& found : origins(document, positions)) {
+        Json steps = Json::array();
+        for (const Origin& origin : found) {
+            Json step = json_of(document, origin.symbol);
+            step["production"] = origin.production.empty() ? Json(nullptr) : json_of(document, origin.production);
+            steps.push_back(std::move(step));
+        }
+        list.push_back({{"steps", std::move(steps)}});
+    }
+    return {{"origins", std::move(list)}};
+}
+
 // --- pictures ---------------------------------------------------------------------------------------------------
 
 namespace {
@@ -274,21 +313,22 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
             if (!side.is_string()) throw BadRequest("'window' has to be four texts");
             window += (window.empty() ? "" : ",") + side.get<std::string>();
         }
-        const auto millimetres = [&](double pixels) { return fmt::format("{}", std::round(pixels) * mm_of_inch / dpi); };
+        const auto millimetres = [&](double pixels) {
+            return fmt::format("{}", std::round(pixels) * mm_of_inch / dpi);
+        };
         values.push_back({"size", millimetres(width) + "x" + millimetres(height) + "mm"});
         values.push_back({"margin", "0mm"});
         values.push_back({"dpi", fmt::format("{}", dpi)});
         values.push_back({"window", window});
     } else {
         OptionValues own;  // without keys and defines of the pattern
-        std::copy_if(values.begin(), values.end(), std::back_inserter(own), [](const OptionValue& value) {
-            return find_option(prints().options(), value.name) != nullptr;
-        });
+        std::copy_if(values.begin(), values.end(), std::back_inserter(own),
+                     [](const OptionValue& value) { return find_option(prints().options(), value.name) != nullptr; });
         const Page page = read_draw_settings(own).page;
         const double dpi = std::min(width / page.width, height / page.height) * mm_of_inch;
         values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
     }
-    const Pixels pixels = draw_pixels(document, values, monitor);
+    const DrawnPixels pixels = draw_pixels(document, values, monitor);
     bytes.assign(pixels.bytes.begin(), pixels.bytes.end());
     return {{"width", pixels.width}, {"height", pixels.height}, {"remarks", json_of(pixels.remarks)}};
 }
@@ -302,8 +342,8 @@ Json answer_import(const Json& request, const std::string& file) {
     const auto format = import_format(file);
     if (!format) throw std::runtime_error(source->name() + ": neither a cpfg file nor a Fractint collection");
     Diagnostics diagnostics;
-    const auto systems = *format == ImportFormat::cpfg ? import_cpfg(source, view, diagnostics)
-                                                       : import_fractint(source, diagnostics);
+    const auto systems =
+        *format == ImportFormat::cpfg ? import_cpfg(source, view, diagnostics) : import_fractint(source, diagnostics);
     Json list = Json::array();
     for (const ImportedSystem& system : systems) {
         list.push_back({{"name", import_file_name(system.name)},
@@ -339,7 +379,8 @@ namespace {
 /// As a shell reads it.
 std::string quoted(const std::string& text) {
     const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char byte) {
-        return std::isalnum(byte) != 0 || std::string_view("_-./:,=@%+").find(static_cast<char>(byte)) != std::string_view::npos;
+        return std::isalnum(byte) != 0 ||
+               std::string_view("_-./:,=@%+").find(static_cast<char>(byte)) != std::string_view::npos;
     });
     if (is_plain) return text;
     std::string result = "'";

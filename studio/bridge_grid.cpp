@@ -80,8 +80,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     Json gaps = Json::array();
     for (std::size_t i = 0; i < grid.gaps().size(); ++i) {
         const GridGap& gap = grid.gaps()[i];
-        gaps.push_back(
-            {{"from", gap.from}, {"to", gap.to}, {"is_crossed", crossings[i] != 0}, {"orbit", orbits[i]}});
+        gaps.push_back({{"from", gap.from}, {"to", gap.to}, {"is_crossed", crossings[i] != 0}, {"orbit", orbits[i]}});
     }
     answer["text"] = kolam_pattern(grid, crossings, options).text;
     answer["rows"] = grid.rows();

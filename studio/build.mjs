@@ -9,6 +9,7 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { deflateRawSync } from "node:zlib";
 import { notices } from "./notices.mjs";
+import { alphabet } from "./page/alphabet.js";
 
 const most_bytes = 2 * 1024 * 1024;
 const here = dirname(fileURLToPath(import.meta.url));
@@ -27,9 +28,17 @@ async function bundle(entry) {
     const result = await build({
         entryPoints: [resolve(here, "page", entry)],
         alias: { "sikku-bridge": join(bridge, "sikku-bridge.cjs") },
-        bundle: true, write: false, format: "iife", target: "es2022", minify: !values.readable, charset: "utf8",
-        legalComments: "none", logLevel: "warning", external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
-        define: { "import.meta.url": '""', "import.meta": "{}" }, loader: { ".css": "empty" },
+        bundle: true,
+        write: false,
+        format: "iife",
+        target: "es2022",
+        minify: !values.readable,
+        charset: "utf8",
+        legalComments: "none",
+        logLevel: "warning",
+        external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
+        define: { "import.meta.url": '""', "import.meta": "{}" },
+        loader: { ".css": "empty" },
         plugins: [notices_as_module, workers_as_text],
     });
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
@@ -40,7 +49,8 @@ const notices_as_module = {
     setup(plugins) {
         plugins.onResolve({ filter: /^notices$/ }, () => ({ path: "notices", namespace: "notices" }));
         plugins.onLoad({ filter: /.*/, namespace: "notices" }, () => ({
-            contents: JSON.stringify(notices(join(here, "node_modules"))), loader: "json",
+            contents: JSON.stringify(notices(join(here, "node_modules"))),
+            loader: "json",
         }));
     },
 };
@@ -54,7 +64,8 @@ const workers_as_text = {
             return { path: resolve(file.startsWith(".") ? resolveDir : join(here, "page"), file), namespace: "worker" };
         });
         plugins.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => ({
-            contents: await bundle(path), loader: "text",
+            contents: await bundle(path),
+            loader: "text",
         }));
     },
 };
@@ -62,15 +73,26 @@ const workers_as_text = {
 // The tokens and widgets first, then the rules of each part.
 async function style() {
     const folder = join(here, "page");
-    const files = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith(".css")).sort();
+    const files = readdirSync(folder, { recursive: true })
+        .filter((name) => name.endsWith(".css"))
+        .sort();
     const ordered = ["studio.css", ...files.filter((name) => name !== "studio.css")];
     const contents = ordered.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
-// What the page unpacks when it opens: see page/embedded.ts.
+// What the page unpacks when it opens: deflated, and four bytes in five letters. See page/embedded.ts.
 function packed(contents) {
-    return deflateRawSync(contents, { level: 9, memLevel: 9 }).toString("base64");
+    const bytes = deflateRawSync(contents, { level: 9, memLevel: 9 });
+    const padded = Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);
+    const letters = Buffer.alloc((padded.length / 4) * 5);
+    for (let from = 0, to = 0; from < padded.length; from += 4, to += 5) {
+        for (let place = 4, number = padded.readUInt32BE(from); place >= 0; --place) {
+            letters[to + place] = alphabet.charCodeAt(number % alphabet.length);
+            number = Math.floor(number / alphabet.length);
+        }
+    }
+    return `${bytes.length} ${letters.toString("latin1")}`;
 }
 
 const boot = await bundle("boot.ts");
@@ -82,7 +104,10 @@ const parts = {
     worker: packed(await bundle("worker.ts")),
     libraries: packed(readFileSync(join(bridge, "sikku-bridge.wasm"))),
 };
-const page = readFileSync(join(here, "page/studio.html"), "utf8").replace(/\{\{([a-z-]+)\}\}/g, (_, name) => parts[name]);
+const page = readFileSync(join(here, "page/studio.html"), "utf8").replace(
+    /\{\{([a-z-]+)\}\}/g,
+    (_, name) => parts[name],
+);
 
 mkdirSync(dirname(resolve(values.output)), { recursive: true });
 writeFileSync(values.output, page);

@@ -3,27 +3,89 @@ import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 
 const run_time = [
-    "@codemirror/autocomplete", "@codemirror/commands", "@codemirror/language", "@codemirror/lint", "@codemirror/search",
-    "@codemirror/state", "@codemirror/view", "@lezer/common", "@lezer/highlight", "@lezer/lr", "@marijn/find-cluster-break",
-    "crelt", "lean-qr", "pako", "style-mod", "w3c-keyname",
+    "@codemirror/autocomplete",
+    "@codemirror/commands",
+    "@codemirror/language",
+    "@codemirror/lint",
+    "@codemirror/search",
+    "@codemirror/state",
+    "@codemirror/view",
+    "@lezer/common",
+    "@lezer/highlight",
+    "@lezer/lr",
+    "@marijn/find-cluster-break",
+    "crelt",
+    "lean-qr",
+    "pako",
+    "style-mod",
+    "w3c-keyname",
 ];
 
+const mit = (holders) => `${holders}
+
+Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
+documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
+rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
+persons to whom the Software is furnished to do so, subject to the following conditions:
+
+The above copyright notice and this permission notice shall be included in all copies or substantial portions of the
+Software.
+
+THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
+WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR
+COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
+OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.`;
+
 const libraries = [
-    { name: "Boost", what: "graphs, intervals, sorting", licence: "BSL-1.0" },
-    { name: "GLM", what: "vectors and rotations", licence: "MIT" },
-    { name: "fmt", what: "formatting", licence: "MIT" },
-    { name: "nlohmann/json", what: "JSON", licence: "MIT" },
-    { name: "fast_float", what: "reading numbers", licence: "MIT" },
-    { name: "Emscripten, musl, libc++", what: "the C++ libraries in the browser", licence: "MIT, Apache-2.0 with LLVM exception" },
+    {
+        name: "Boost",
+        what: "graphs, intervals, sorting",
+        licence: "BSL-1.0",
+        text:
+            "Copyright Boost project contributors. Distributed under the Boost Software License, Version 1.0: " +
+            "https://www.boost.org/LICENSE_1_0.txt",
+    },
+    { name: "GLM", what: "vectors and rotations", licence: "MIT", text: mit("Copyright (c) 2005 - G-Truc Creation") },
+    { name: "fmt", what: "formatting", licence: "MIT", text: mit("Copyright (c) 2012 - present, Victor Zverovich") },
+    { name: "nlohmann/json", what: "JSON", licence: "MIT", text: mit("Copyright (c) 2013-2022 Niels Lohmann") },
+    {
+        name: "fast_float",
+        what: "reading numbers",
+        licence: "MIT",
+        text: mit("Copyright (c) 2021 The fast_float authors"),
+    },
+    {
+        name: "toml++",
+        what: "reading TOML",
+        licence: "MIT",
+        text: mit("Copyright (c) Mark Gillard <mark.gillard@outlook.com.au>"),
+    },
+    {
+        name: "Emscripten",
+        what: "the C++ libraries in the browser",
+        licence: "MIT",
+        text: mit("Copyright (c) 2010-2014 Emscripten authors"),
+    },
+    { name: "musl", what: "C library", licence: "MIT", text: mit("Copyright (c) 2005-2020 Rich Felker, et al.") },
+    {
+        name: "libc++, libc++abi",
+        what: "C++ library",
+        licence: "Apache-2.0 WITH LLVM-exception",
+        text:
+            "Copyright (c) 2009-2019 by the contributors listed in CREDITS.TXT of LLVM. Licensed under the Apache " +
+            "License, Version 2.0, with LLVM exceptions: https://llvm.org/LICENSE.txt",
+    },
 ];
 
 /// A list of {name, version, licence, text}.
 export function notices(folder) {
-    const packages = run_time.filter((name) => existsSync(join(folder, name))).map((name) => {
-        const facts = JSON.parse(readFileSync(join(folder, name, "package.json"), "utf8"));
-        const file = readdirSync(join(folder, name)).find((each) => /^licen[cs]e/i.test(each));
-        const text = file ? readFileSync(join(folder, name, file), "utf8").trim() : "";
-        return { name, what: "", version: facts.version, licence: facts.license, text };
-    });
-    return [...libraries.map((each) => ({ version: "", text: "", ...each })), ...packages];
+    const packages = run_time
+        .filter((name) => existsSync(join(folder, name)))
+        .map((name) => {
+            const facts = JSON.parse(readFileSync(join(folder, name, "package.json"), "utf8"));
+            const file = readdirSync(join(folder, name)).find((each) => /^licen[cs]e/i.test(each));
+            const text = file ? readFileSync(join(folder, name, file), "utf8").trim() : "";
+            return { name, what: "", version: facts.version, licence: facts.license, text };
+        });
+    return [...libraries.map((each) => ({ version: "", ...each })), ...packages];
 }

@@ -7,14 +7,16 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
 all=${2:-}
-mapfile -t sources < <(find engine art music cli python tests -name '*.h' -o -name '*.cpp' | sort)
+mapfile -t sources < <(find engine art music cli python studio tests -name node_modules -prune -o \
+    \( -name '*.h' -o -name '*.cpp' \) -print | sort)
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files"
 
-mapfile -t wanted < <(find engine art music cli python -name '*.cpp' | sort)
+# The web build alone compiles studio/wasm.
+mapfile -t wanted < <(find engine art music cli python studio/*.cpp -name '*.cpp' | sort)
 total=${#wanted[@]}
 if [ "$all" != --all ]; then
-    mapfile -t wanted < <(git diff --name-only --diff-filter=d HEAD~1 -- engine art music cli python 2> /dev/null |
+    mapfile -t wanted < <(git diff --name-only --diff-filter=d HEAD~1 -- engine art music cli python 'studio/*.cpp' ':!studio/wasm' 2> /dev/null |
         grep '\.cpp$' || true)
 fi
 mkdir -p "$build/tidy"
@@ -22,7 +24,7 @@ mkdir -p "$build/tidy"
 sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
     > "$build/tidy/compile_commands.json"
 # All headers and settings.
-seen=$(cat .clang-tidy $(find engine art music cli python -name '*.h' | sort) | sha256sum | cut -c1-24)
+seen=$(cat .clang-tidy $(find engine art music cli python studio/*.h -name '*.h' | sort) | sha256sum | cut -c1-24)
 export build seen
 tidy() {
     local source=$1 stamp

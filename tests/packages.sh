@@ -7,10 +7,14 @@ test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimagei
     ghostscript libtiff-tools libimage-exiftool-perl
     midicsv python3-mido clang-format clang-tidy
     pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)
-# For ./check --full. A program that is there already may come from elsewhere, as npm does with newer versions of node.
-full_packages=(clang libclang-rt-14-dev libc++-13-dev libfast-float-dev inkscape lilypond musescore3 fluidsynth
-    timgm6mb-soundfont flac chromium slurm-wlm munge)
-command -v npm > /dev/null || full_packages+=(npm)
+# For the studio: the compiler to WebAssembly, and what its C++ library lacks; browsers for its tests. npm may be there
+# already and come from elsewhere, with a newer version of node.
+studio_packages=(emscripten libfast-float-dev)
+browser_packages=(chromium firefox-esr)
+# For ./check --full, with those of the studio.
+full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 fluidsynth
+    timgm6mb-soundfont flac slurm-wlm munge)
+command -v npm > /dev/null || studio_packages+=(npm)
 
 # Those of its arguments that are not installed, a line each.
 missing_packages() {

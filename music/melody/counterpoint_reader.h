@@ -66,6 +66,7 @@ public:
             const std::int64_t room = options_.from / melody_.unit - margin_units - time_;
             if (room < 0 || length > room) return false;
             for (Voice& voice : voices_) end_note(voice);
+            is_counted_ = false;
             walk_.skip(at_, stretch);
             here_ = point();
             time_ += length.convert_to<std::int64_t>();
@@ -87,6 +88,7 @@ private:
         std::int64_t sounding = unknown;  // its height, in whole steps
         Number onset = 0;
         int turned = 0;
+        std::uint64_t symbol = 0;
         glm::dvec2 from{0.0};
         Emitter::Line line;
     };
@@ -113,6 +115,7 @@ private:
             end_note(voice);
             voice.sounding = height;
             voice.onset = time_;
+            voice.symbol = is_counted_ ? position_ : 0;
             voice.turned = turned_;
             // The picture of a note is where its coordinate stays.
             voice.from = Walk::is_level(is_upper ? step.y : step.x) ? here_ : point();
@@ -133,7 +136,7 @@ private:
         const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
                                   ticks(voice.onset));
         emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
-                      ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_);
+                      ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_, voice.symbol);
         voice.sounding = unknown;
     }
 
@@ -151,6 +154,7 @@ private:
     Number time_ = 0;
     int turned_ = 0;
     std::uint64_t position_ = 0;
+    bool is_counted_ = true;  // nothing was skipped
     Number lowest_ = 0;
     Number highest_ = 0;
     std::int64_t lowest_degree_ = unknown;

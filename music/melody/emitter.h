@@ -33,8 +33,9 @@ public:
         bool falling = false;
     };
 
+    /// @param symbol  as in Note
     void note(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
-              glm::dvec2 to) {
+              glm::dvec2 to, std::uint64_t symbol) {
         if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
         line.last_degree = degree;
         if (end <= onset) {
@@ -58,7 +59,7 @@ public:
         onset = std::max(onset, options_.from);
         block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
                           static_cast<std::int16_t>(line.voice),
-                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to});
+                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol});
         if (block_.size() == notes_in_block) flush();
     }
 

@@ -32,7 +32,7 @@ public:
             ++position_;
             switch (kinds_[symbol]) {
                 case Kind::draw:
-                    draw(walk_.step(state_.at, symbol));
+                    draw(walk_.step(state_.at, symbol), position_);
                     break;
                 case Kind::move:
                     move(symbol);
@@ -76,6 +76,7 @@ public:
             if (room < 0 || longest > room) return false;
             end_run();
             release_held();
+            is_counted_ = false;
             walk_.skip(state_.at, stretch);
             state_.time += (both ? Integer(across + up) : across).convert_to<std::int64_t>();
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
@@ -103,6 +104,7 @@ private:
         Position from;
         Number steps = 0;  // drawn so far: their number times their length
         int turned = 0;    // sign of the turn that led into it
+        std::uint64_t symbol = 0;
     };
     struct Sounding {
         bool is_open = false;
@@ -110,6 +112,7 @@ private:
         Number onset = 0, end = 0;
         int velocity = 80;
         glm::dvec2 from{0.0}, to{0.0};
+        std::uint64_t symbol = 0;
     };
     struct State {
         Position at;
@@ -130,6 +133,7 @@ private:
         struct Straight {
             std::uint32_t turn;  ///< quarters, before it
             std::int64_t length;
+            std::uint64_t symbol;  ///< of the block, counted from 1, that begins it
         };
         std::vector<Straight> runs;
         std::uint32_t turn = 0;  ///< after the last
@@ -144,11 +148,11 @@ private:
         Block& block = blocks_[number];
         if (!block.is_known) learn(block, run.symbols);
         if (!block.is_simple) return false;
-        position_ += run.symbols.size();
-        for (const auto& [turn, length] : block.runs) {
+        for (const auto& [turn, length, symbol] : block.runs) {
             state_.at.heading = (state_.at.heading + turn) & 3;
-            draw(walk_.ahead(state_.at, length));
+            draw(walk_.ahead(state_.at, length), position_ + symbol);
         }
+        position_ += run.symbols.size();
         state_.at.heading = (state_.at.heading + block.turn) & 3;
         require_in_range();
         return true;
@@ -162,7 +166,9 @@ private:
 
     void learn(Block& block, std::span<const Symbol> symbols) {
         block.is_known = true;
+        std::uint64_t position = 0;
         for (const Symbol symbol : symbols) {
+            ++position;
             if (kinds_[symbol] == Kind::turn) {
                 block.turn = (block.turn + walk_.quarters(symbol)) & 3;
             } else if (kinds_[symbol] == Kind::draw) {
@@ -172,7 +178,7 @@ private:
                 if (goes_on) {
                     block.runs.back().length += length;
                 } else {
-                    block.runs.push_back({block.turn, length});
+                    block.runs.push_back({block.turn, length, position});
                 }
                 block.turn = 0;
             } else if (kinds_[symbol] != Kind::nothing) {
@@ -182,7 +188,8 @@ private:
         block.is_simple = true;
     }
 
-    void draw(const Step& step) {
+    /// @param symbol  position in the word
+    void draw(const Step& step, std::uint64_t symbol) {
         if (step.x == 0 && step.y == 0) return;
         Pending& run = state_.run;
         if (!run.is_open || !Walk::same_direction(run.direction, step) || melody_.runs == Runs::each_step) {
@@ -197,6 +204,7 @@ private:
             run.direction = step;
             run.from = state_.at;
             run.turned = turned;
+            run.symbol = is_counted_ ? symbol : 0;
         }
         state_.at.x += step.x;
         state_.at.y += step.y;
@@ -261,7 +269,7 @@ private:
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
         emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
-                      ticks(note.end), note.velocity, note.from, note.to);
+                      ticks(note.end), note.velocity, note.from, note.to, note.symbol);
     }
 
     void sound(Number twice, Number steps, int velocity, const Pending& run) {
@@ -274,8 +282,8 @@ private:
             state_.lead = 0;
             state_.has_sounded = true;
         }
-        const Sounding note = {true,     twice,           state_.time,     state_.time + steps,
-                               velocity, point(run.from), point(state_.at)};
+        const Sounding note = {true,     twice,           state_.time,      state_.time + steps,
+                               velocity, point(run.from), point(state_.at), run.symbol};
         state_.time += steps;
         if (is_held) {
             state_.held = note;
@@ -313,7 +321,7 @@ private:
             case Vertical::voice: {
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 emitter_.note(state_.other, degree, ticks(state_.other_time), ticks(state_.other_time + steps),
-                              velocity, point(run.from), point(state_.at));
+                              velocity, point(run.from), point(state_.at), run.symbol);
                 state_.other_time += steps;
                 break;
             }
@@ -329,7 +337,7 @@ private:
             to.y += sign;
             if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
             const Number steps = (to.y - from.y) * sign;
-            emit({true, 2 * to.y, state_.time, state_.time + steps, velocity, point(from), point(to)});
+            emit({true, 2 * to.y, state_.time, state_.time + steps, velocity, point(from), point(to), run.symbol});
             state_.time += steps;
             from = to;
         }
@@ -386,6 +394,7 @@ private:
     Brackets<State> stack_;
     std::vector<Block> blocks_;
     std::uint64_t position_ = 0;
+    bool is_counted_ = true;  // nothing was skipped
     Number lowest_ = 0;
     Number highest_ = 0;
     std::int64_t first_degree_ = unknown;

@@ -69,6 +69,7 @@ public:
         const double room = static_cast<double>(units) - state_.time;
         if (room < 0 || length > Integer(room) || abs(stretch.rise) >= farthest) return false;
         end_note();
+        is_counted_ = false;
         state_.time += length.convert_to<double>();
         state_.degree += stretch.rise.convert_to<std::int64_t>();
         return true;
@@ -81,6 +82,7 @@ private:
         std::int64_t degree = 0;
         std::int64_t sounding = unknown;
         int turned = 0;
+        std::uint64_t symbol = 0;
         Emitter::Line line;
     };
 
@@ -92,6 +94,7 @@ private:
             end_note();
             state_.sounding = state_.degree;
             state_.onset = state_.time;
+            state_.symbol = is_counted_ ? position_ : 0;
         }
         state_.time += length;
         if (may_stop_ && ticks(state_.time) >= options_.to) end_note();
@@ -106,7 +109,7 @@ private:
             const int velocity =
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
             emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), ticks(state_.time), velocity,
-                          {state_.onset, height}, {state_.time, height});
+                          {state_.onset, height}, {state_.time, height}, state_.symbol);
         }
         state_.sounding = unknown;
     }
@@ -124,6 +127,7 @@ private:
     State state_;
     Brackets<State> stack_;
     std::uint64_t position_ = 0;
+    bool is_counted_ = true;  // nothing was skipped
 };
 
 }  // namespace sikku::mapping

@@ -6,6 +6,8 @@ import { byId, element } from "./elements";
 import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
 import type { History } from "./store";
 
+const fact_seconds = 12; // that a line of the status bar stays
+
 type OpenedListener = (facts: Opened, work: Work) => void;
 type Place = { line: number; column: number; length: number };
 
@@ -14,12 +16,18 @@ export class Application implements Studio {
     patterns!: PatternEntry[];
     opened: { facts: Opened; work: Work } | null = null;
 
+    private saying = 0;
     private readonly listeners = new Set<OpenedListener>();
     private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
     private readonly marked = new Set<(place: Place | null) => void>();
 
-    constructor(readonly engine: Engine, readonly store: History) {
-        store.subscribe((work, before) => { if (work.pattern !== before.pattern) void this.open(); });
+    constructor(
+        readonly engine: Engine,
+        readonly store: History,
+    ) {
+        store.subscribe((work, before) => {
+            if (work.pattern !== before.pattern) void this.open();
+        });
     }
 
     onOpened(listener: OpenedListener): () => void {
@@ -32,7 +40,9 @@ export class Application implements Studio {
         this.failed.add(listener);
     }
 
-    onHighlight(listener: (place: Place | null) => void): void { this.marked.add(listener); }
+    onHighlight(listener: (place: Place | null) => void): void {
+        this.marked.add(listener);
+    }
 
     /// Reads the work's pattern; the panels draw it again if it has no errors.
     async open(): Promise<void> {
@@ -51,8 +61,14 @@ export class Application implements Studio {
     say(text: string, kind: "fact" | "warning" | "error" = "fact"): void {
         const message = byId("message");
         message.dataset["kind"] = kind;
+        message.dataset["source"] = "";
         message.textContent = text;
         message.title = text;
+        clearTimeout(this.saying);
+        if (kind === "fact")
+            this.saying = window.setTimeout(() => {
+                message.textContent = "";
+            }, fact_seconds * 1000);
     }
 
     highlight(place: Place | null): void {

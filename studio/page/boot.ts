@@ -1,10 +1,13 @@
 // The only script that the page carries as it is: it unpacks the others.
 import { scriptAddress } from "./embedded";
 
-scriptAddress("sikku-script").then((address) => {
-    const script = document.createElement("script");
-    script.src = address;
-    document.body.append(script);
-}, (error: unknown) => {
-    document.getElementById("message")!.textContent = `The studio could not start: ${String(error)}`;
-});
+scriptAddress("sikku-script").then(
+    (address) => {
+        const script = document.createElement("script");
+        script.src = address;
+        document.body.append(script);
+    },
+    (error: unknown) => {
+        document.getElementById("message")!.textContent = `The studio could not start: ${String(error)}`;
+    },
+);

@@ -1,18 +1,38 @@
 // A swatch before each colour of the text; a click opens the browser's palette and writes the colour that is chosen.
 import { type Extension } from "@codemirror/state";
-import { Decoration, type DecorationSet, EditorView, MatchDecorator, ViewPlugin, type ViewUpdate, WidgetType } from "@codemirror/view";
+import {
+    Decoration,
+    type DecorationSet,
+    EditorView,
+    MatchDecorator,
+    ViewPlugin,
+    type ViewUpdate,
+    WidgetType,
+} from "@codemirror/view";
 import { element } from "./elements";
 
 class Swatch extends WidgetType {
-    constructor(private readonly colour: string) { super(); }
-    override eq(other: Swatch): boolean { return other.colour === this.colour; }
+    constructor(private readonly colour: string) {
+        super();
+    }
+    override eq(other: Swatch): boolean {
+        return other.colour === this.colour;
+    }
 
     toDOM(view: EditorView): HTMLElement {
         const digits = this.colour.slice(1);
-        const plain = digits.length < 6 ? `#${[...digits.slice(0, 3)].map((digit) => digit + digit).join("")}`
-            : `#${digits.slice(0, 6)}`;
+        const plain =
+            digits.length < 6
+                ? `#${[...digits.slice(0, 3)].map((digit) => digit + digit).join("")}`
+                : `#${digits.slice(0, 6)}`;
         // The text beside it says the same: the swatch is a shortcut for the pointer.
-        const input = element("input", { type: "color", class: "swatch", value: plain, tabindex: -1, "aria-hidden": "true" });
+        const input = element("input", {
+            type: "color",
+            class: "swatch",
+            value: plain,
+            tabindex: -1,
+            "aria-hidden": "true",
+        });
         input.addEventListener("input", () => {
             const from = view.posAtDOM(input);
             const old = /^#[\da-fA-F]{3,8}/.exec(view.state.doc.sliceString(from, from + 9))?.[0];
@@ -28,7 +48,9 @@ class Swatch extends WidgetType {
         return true;
     }
 
-    override ignoreEvent(): boolean { return true; }
+    override ignoreEvent(): boolean {
+        return true;
+    }
 }
 
 const matcher = new MatchDecorator({
@@ -36,8 +58,15 @@ const matcher = new MatchDecorator({
     decorate: (add, from, _to, match) => add(from, from, Decoration.widget({ widget: new Swatch(match[0]), side: -1 })),
 });
 
-export const colour_swatches: Extension = ViewPlugin.fromClass(class {
-    marks: DecorationSet;
-    constructor(view: EditorView) { this.marks = matcher.createDeco(view); }
-    update(update: ViewUpdate): void { this.marks = matcher.updateDeco(update, this.marks); }
-}, { decorations: (plugin) => plugin.marks });
+export const colour_swatches: Extension = ViewPlugin.fromClass(
+    class {
+        marks: DecorationSet;
+        constructor(view: EditorView) {
+            this.marks = matcher.createDeco(view);
+        }
+        update(update: ViewUpdate): void {
+            this.marks = matcher.updateDeco(update, this.marks);
+        }
+    },
+    { decorations: (plugin) => plugin.marks },
+);

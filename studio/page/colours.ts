@@ -15,8 +15,10 @@ function plain(colour: string): string | null {
 
 export function makeColours(application: Application): { element: HTMLElement; update(facts: Opened): void } {
     const { store } = application;
-    const value = (name: string, absent: string) => store.work.pattern.settings.find(([each]) => each === name)?.[1]
-        ?? valueInText(store.work.pattern, name) ?? absent;
+    const value = (name: string, absent: string) =>
+        store.work.pattern.settings.find(([each]) => each === name)?.[1] ??
+        valueInText(store.work.pattern, name) ??
+        absent;
 
     const field = (id: string, label: string, write: (colour: string) => void) => {
         const input = element("input", { type: "color", id });
@@ -25,12 +27,21 @@ export function makeColours(application: Application): { element: HTMLElement; u
     };
     const stroke = field("stroke-colour", "Stroke", (colour) => {
         const { width, unit } = splitStroke(value("stroke", "0.4mm black"));
-        store.setting("stroke", `${width || "0.4"}${unit === "step" ? " step" : unit} ${colour}`, "setting stroke colour");
+        store.setting(
+            "stroke",
+            `${width || "0.4"}${unit === "step" ? " step" : unit} ${colour}`,
+            "setting stroke colour",
+        );
     });
     const ground = field("ground-colour", "Ground", (colour) => store.setting("ground", colour, "setting ground"));
 
     return {
-        element: element("div", { class: "colour-row", role: "group", "aria-label": "Colours" }, stroke.row, ground.row),
+        element: element(
+            "div",
+            { class: "colour-row", role: "group", "aria-label": "Colours" },
+            stroke.row,
+            ground.row,
+        ),
         update() {
             stroke.input.value = plain(splitStroke(value("stroke", "0.4mm black")).rest || "black") ?? "#000000";
             ground.input.value = plain(value("ground", "white")) ?? "#ffffff";

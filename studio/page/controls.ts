@@ -9,9 +9,13 @@ import { makeSeed } from "./seed";
 import { makeSlider, type Slider } from "./slider";
 import { makeColours } from "./colours";
 
-interface Row { slider: Slider; update(facts: Opened): void }
+interface Row {
+    slider: Slider;
+    update(facts: Opened): void;
+}
 
-const deep_room = 30; // steps of n beyond what can be derived, for patterns that the view can still show
+const further_keys = ["heading", "elasticity"]; // with a slider if the text sets them
+const deep_room = 8; // steps of n on the slider beyond what can be derived, if the view can show them
 
 function spread(base: number): { least: number; most: number; step: number } {
     if (base === 0) return { least: -1, most: 1, step: 0.01 };
@@ -24,8 +28,12 @@ export class Controls {
     private rows = new Map<string, Row>();
     private shape = ""; // which rows there are
     private readonly variant = element("select", { id: "variant" });
-    private readonly variantField = element("div", { class: "field row variant-field" },
-        element("label", { for: "variant" }, "Variant"), this.variant);
+    private readonly variantField = element(
+        "div",
+        { class: "field row variant-field" },
+        element("label", { for: "variant" }, "Variant"),
+        this.variant,
+    );
     private readonly list = element("div", { class: "value-rows" });
     private readonly cost = element("p", { class: "cost" });
     private readonly seed;
@@ -44,12 +52,18 @@ export class Controls {
             store.change({ pattern: { ...pattern, text: withSettings(pattern), settings: [] } });
             application.say("The values are now in the text.");
         });
-        const reset = button("Reset all", () => store.change({ pattern: { ...store.work.pattern, settings: [] } }),
-            { kind: "quiet" });
+        const reset = button("Reset all", () => store.change({ pattern: { ...store.work.pattern, settings: [] } }), {
+            kind: "quiet",
+        });
         this.actions = element("div", { class: "toolbar value-actions" }, write, reset);
         byId("values").append(this.variantField, this.list, this.seed.element, this.colours.element, this.actions);
         application.onOpened((facts) => this.show(facts));
-        application.onChecked((error) => byId("values").classList.toggle("stale", error !== null));
+        application.onChecked((error, diagnostics) => {
+            byId("values").classList.toggle("stale", error !== null);
+            const wrong = diagnostics.filter((each) => !each.warning).map((each) => each.setting ?? "");
+            for (const [name, row] of this.rows)
+                row.slider.setInvalid(wrong.some((each) => each === name || each.startsWith(`${name} `)));
+        });
         // The thumb follows the hand at once, not when the libraries have answered.
         store.subscribe((work) => {
             this.actions.hidden = work.pattern.settings.length === 0;
@@ -58,32 +72,42 @@ export class Controls {
     }
 
     private show(facts: Opened): void {
-        const { pattern, } = this.application.store.work;
+        const { pattern } = this.application.store.work;
         this.variantField.hidden = facts.variants.length === 0;
         const variants = ["", ...facts.variants];
-        if (this.variant.options.length !== variants.length || variants.some((each, at) => this.variant.options[at]!.value !== each)) {
-            this.variant.replaceChildren(...variants.map((each) => element("option", { value: each }, each || "as written")));
+        if (
+            this.variant.options.length !== variants.length ||
+            variants.some((each, at) => this.variant.options[at]!.value !== each)
+        ) {
+            this.variant.replaceChildren(
+                ...variants.map((each) => element("option", { value: each }, each || "as written")),
+            );
         }
         this.variant.value = pattern.variant;
         const angle = facts.keys.some((key) => key.name === "angle factor") ? "angle factor" : "angle increment";
-        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, "stroke"];
-        if (names.join("\n") !== this.shape) this.build(names, facts);
-        for (const row of this.rows.values()) row.update(facts);
+        const more = further_keys.filter((name) => facts.keys.some((key) => key.name === name));
+        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, ...more, "stroke"];
+        if (names.join("\n") !== this.shape) this.build(names);
         this.showCost(facts);
+        for (const row of this.rows.values()) row.update(facts);
         this.seed.update(facts);
         this.colours.update(facts);
         this.actions.hidden = pattern.settings.length === 0;
     }
 
-    private build(names: string[], facts: Opened): void {
+    private build(names: string[]): void {
         this.shape = names.join("\n");
-        this.rows = new Map(names.map((name) => {
-            if (name === "derivation length") return [name, this.lengthRow()];
-            if (name === "angle factor") return [name, this.factorRow()];
-            if (name === "stroke") return [name, this.strokeRow()];
-            const isDefine = facts.defines.some((each) => each.name === name);
-            return [name, this.numberRow(name, isDefine ? name : "angle", isDefine ? null : "90")];
-        }));
+        this.rows = new Map(
+            names.map((name) => {
+                if (name === "derivation length") return [name, this.lengthRow()];
+                if (name === "angle factor") return [name, this.factorRow()];
+                if (name === "stroke") return [name, this.strokeRow()];
+                return [
+                    name,
+                    name === "angle increment" ? this.numberRow(name, "angle", "90") : this.numberRow(name, name, null),
+                ];
+            }),
+        );
         const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
         const [length, ...others] = [...this.rows.values()].map((row) => row.slider.element);
         this.list.replaceChildren(length!, this.cost, ...others);
@@ -108,7 +132,15 @@ export class Controls {
             slide: (number: number) => this.change(name, text(number)),
             type: (value: string) => this.change(name, value),
             reset: () => this.change(name, null),
+            explain: () => this.explain(name),
         };
+    }
+
+    private explain(name: string): string {
+        const define = this.application.opened?.facts.defines.find((each) => each.name === name);
+        return define
+            ? `${name}, defined in line ${define.line}`
+            : (this.application.help?.keys.find((key) => key.name === name)?.help ?? "");
     }
 
     private lengthRow(): Row {
@@ -119,10 +151,16 @@ export class Controls {
                 const { now, isChanged } = this.value("derivation length", facts.n);
                 const number = Number(now);
                 const most = Number(facts.cost.most);
-                const limit = Number.isFinite(most) && facts.cost.most !== "" ? Math.min(most, 1000) : Math.max(number * 2, 10);
+                const limit =
+                    Number.isFinite(most) && facts.cost.most !== "" ? Math.min(most, 1000) : Math.max(number * 2, 10);
                 slider.set({
-                    value: now, number, least: 0, most: Math.max(limit + (facts.has_view ? deep_room : 0), number, 1), step: 1,
-                    isChanged, description: `${now}, ${this.cost.textContent}`,
+                    value: now,
+                    number,
+                    least: 0,
+                    most: Math.max(limit + (facts.has_view && facts.cost.most !== "" ? deep_room : 0), number, 1),
+                    step: 1,
+                    isChanged,
+                    description: `${now}, ${this.cost.textContent}`,
                 });
             },
         };
@@ -131,7 +169,8 @@ export class Controls {
     private factorRow(): Row {
         const name = "angle factor";
         const slider = makeSlider("angle", {
-            ...this.acts(name, String), type: (value) => this.change(name, value.replace(/^360\s*\/\s*/, "")),
+            ...this.acts(name, String),
+            type: (value) => this.change(name, value.replace(/^360\s*\/\s*/, "")),
         });
         return {
             slider,
@@ -139,7 +178,12 @@ export class Controls {
                 const { now, base, isChanged } = this.value(name, "4");
                 const most = Math.max(24, Number(base) * 2, Number(now));
                 slider.set({
-                    value: `360/${now}`, number: Number(now), least: 1, most, step: 1, isChanged,
+                    value: `360/${now}`,
+                    number: Number(now),
+                    least: 1,
+                    most,
+                    step: 1,
+                    isChanged,
                     description: `${rounded(360 / Number(now), 0.01)} degrees`,
                 });
             },
@@ -148,7 +192,10 @@ export class Controls {
 
     private numberRow(name: string, label: string, absent: string | null): Row {
         let step = 0.01;
-        const slider = makeSlider(label, this.acts(name, (number) => rounded(number, step)));
+        const slider = makeSlider(
+            label,
+            this.acts(name, (number) => rounded(number, step)),
+        );
         return {
             slider,
             update: (facts) => {
@@ -159,7 +206,11 @@ export class Controls {
                 const number = readNumber(now) ?? readNumber(fact ?? "") ?? start;
                 step = range.step;
                 slider.set({
-                    value: now, number, least: Math.min(range.least, number), most: Math.max(range.most, number), step,
+                    value: now,
+                    number,
+                    least: Math.min(range.least, number),
+                    most: Math.max(range.most, number),
+                    step,
                     isChanged,
                 });
             },
@@ -174,12 +225,19 @@ export class Controls {
         };
         const write = (width: string) => {
             const { now } = parse();
-            this.change("stroke", `${width}${now.unit === "step" ? " step" : now.unit}${now.rest ? ` ${now.rest}` : ""}`);
+            this.change(
+                "stroke",
+                `${width}${now.unit === "step" ? " step" : now.unit} ${now.rest === "none" ? "" : now.rest}`.trim(),
+            );
         };
         const slider = makeSlider("stroke", {
             slide: (number) => write(rounded(number, 0.01)),
-            type: (value) => /^[\d.]+$/.test(value) ? write(value) : this.change("stroke", value && withColour(value, parse().now.rest)),
+            type: (value) =>
+                /^[\d.]+$/.test(value)
+                    ? write(value)
+                    : this.change("stroke", value && withColour(value, parse().now.rest)),
             reset: () => this.change("stroke", null),
+            explain: () => this.explain("stroke"),
         });
         return {
             slider,
@@ -187,8 +245,12 @@ export class Controls {
                 const { now, base, isChanged } = parse();
                 const most = Math.max(Number(base.width || 0.4) * 4, Number(now.width || 0));
                 slider.set({
-                    value: now.width === "" ? now.rest : `${now.width} ${now.unit}`, number: Number(now.width || 0), least: 0.01,
-                    most, step: 0.01, isChanged,
+                    value: now.width === "" ? now.rest : `${now.width} ${now.unit}`,
+                    number: Number(now.width || 0),
+                    least: 0.01,
+                    most,
+                    step: 0.01,
+                    isChanged,
                 });
             },
         };
@@ -200,12 +262,20 @@ export class Controls {
         if (cost.symbols) parts.push(counted(cost.symbols, "symbol"));
         if (cost.segments && cost.segments !== "0") parts.push(counted(cost.segments, "segment"));
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
-        this.cost.replaceChildren(element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."));
+        this.cost.replaceChildren(
+            element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."),
+        );
         this.cost.classList.toggle("deep", !cost.is_derivable);
         if (cost.is_derivable) return;
-        this.cost.append(element("span", { class: "note" }, facts.has_view
-            ? "Too long to derive: the picture derives only what the view shows."
-            : `Too long to derive: the largest n within the budget is ${count(cost.most)}.`));
+        this.cost.append(
+            element(
+                "span",
+                { class: "note" },
+                facts.has_view
+                    ? "Too long to derive: the picture derives only what the view shows."
+                    : `Too long to derive: the largest n within the budget is ${count(cost.most)}.`,
+            ),
+        );
     }
 }
 
@@ -218,7 +288,9 @@ function readNumber(text: string): number | null {
 
 export function splitStroke(value: string): { width: string; unit: string; rest: string } {
     const parts = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px|step)?\s*(.*)$/.exec(value);
-    return parts ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! } : { width: "", unit: "mm", rest: value.trim() };
+    return parts
+        ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! }
+        : { width: "", unit: "mm", rest: value.trim() };
 }
 
 function withColour(value: string, colour: string): string {

@@ -16,21 +16,34 @@ export function openDialog(title: string, options: { wide?: boolean; closed?: ()
     const body = element("div", { class: "body", tabindex: -1 });
     const footer = element("footer");
     const close = button("Close", () => dialog.close(), { kind: "quiet", icon: "M3.5 3.5l9 9m0-9l-9 9" });
-    const dialog = element("dialog", { class: `dialog ${options.wide ? "wide" : ""}`.trim(), "aria-labelledby": id },
-        element("header", {}, element("h2", { id }, title), close), body, footer);
+    const dialog = element(
+        "dialog",
+        { class: `dialog ${options.wide ? "wide" : ""}`.trim(), "aria-labelledby": id },
+        element("header", {}, element("h2", { id }, title), close),
+        body,
+        footer,
+    );
     footer.hidden = true; // until it has buttons
-    new MutationObserver(() => { footer.hidden = footer.childElementCount === 0; }).observe(footer, { childList: true });
+    new MutationObserver(() => {
+        footer.hidden = footer.childElementCount === 0;
+    }).observe(footer, { childList: true });
     dialog.addEventListener("close", () => {
         dialog.remove();
         options.closed?.();
     });
-    dialog.addEventListener("pointerdown", (event) => { if (event.target === dialog) dialog.close(); });
+    dialog.addEventListener("pointerdown", (event) => {
+        if (event.target === dialog) dialog.close();
+    });
     document.body.append(dialog);
     dialog.showModal();
     return { element: dialog, body, footer, close: () => dialog.close() };
 }
 
-export interface MenuItem { label: string; detail?: string; act: () => void }
+export interface MenuItem {
+    label: string;
+    detail?: string;
+    act: () => void;
+}
 
 /// A button that opens a menu below itself: arrows move, Escape closes.
 export function menuButton(opener: HTMLButtonElement, items: () => (MenuItem | null)[]): void {
@@ -48,16 +61,18 @@ export function menuButton(opener: HTMLButtonElement, items: () => (MenuItem | n
         entries[(at + by + entries.length) % entries.length]?.focus();
     });
     opener.addEventListener("click", () => {
-        menu.replaceChildren(...items().map((item) => {
-            if (!item) return element("hr");
-            const entry = element("button", { type: "button", role: "menuitem" }, item.label);
-            if (item.detail) entry.append(element("kbd", {}, item.detail));
-            entry.addEventListener("click", () => {
-                menu.hidePopover();
-                item.act();
-            });
-            return entry;
-        }));
+        menu.replaceChildren(
+            ...items().map((item) => {
+                if (!item) return element("hr");
+                const entry = element("button", { type: "button", role: "menuitem" }, item.label);
+                if (item.detail) entry.append(element("kbd", {}, item.detail));
+                entry.addEventListener("click", () => {
+                    menu.hidePopover();
+                    item.act();
+                });
+                return entry;
+            }),
+        );
         if (menu.matches(":popover-open")) {
             menu.hidePopover();
             return;

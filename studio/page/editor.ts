@@ -1,20 +1,30 @@
 // The text of the pattern: every edit changes the work; errors are shown where they are.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, indentLess, toggleComment } from "@codemirror/commands";
+import { defaultKeymap, toggleComment } from "@codemirror/commands";
 import { bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, nextDiagnostic, setDiagnostics, type Diagnostic as Finding } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState, type Extension, StateEffect, StateField, type Text } from "@codemirror/state";
 import {
-    Decoration, type DecorationSet, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap,
-    lineNumbers, WidgetType,
+    Decoration,
+    type DecorationSet,
+    drawSelection,
+    EditorView,
+    highlightActiveLine,
+    highlightActiveLineGutter,
+    keymap,
+    lineNumbers,
+    WidgetType,
 } from "@codemirror/view";
 import type { Application } from "./application";
 import { colour_swatches } from "./colour_swatches";
 import { byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
+import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure } from "./protocol";
+
+const message_pause = 350; // milliseconds after the last key
 
 type Place = { line: number; column: number; length: number };
 
@@ -31,7 +41,7 @@ function offset(text: Text, line: number, column: number): number {
     return from + at;
 }
 
-// The part of the production or word that sounds.
+// The production that sounds, and the symbol in it.
 const light = StateEffect.define<Place | null>();
 const lit = StateField.define<DecorationSet>({
     create: () => Decoration.none,
@@ -39,11 +49,15 @@ const lit = StateField.define<DecorationSet>({
         marks = marks.map(transaction.changes);
         for (const effect of transaction.effects) {
             if (!effect.is(light)) continue;
-            if (!effect.value) return Decoration.none;
+            marks = Decoration.none;
             const { doc } = transaction.state;
+            if (!effect.value || effect.value.line < 1 || effect.value.line > doc.lines) continue;
             const from = offset(doc, effect.value.line, effect.value.column);
             const to = offset(doc, effect.value.line, effect.value.column + effect.value.length);
-            marks = to > from ? Decoration.set(Decoration.mark({ class: "lit" }).range(from, to)) : Decoration.none;
+            const production = Decoration.line({ class: "lit-line" }).range(doc.line(effect.value.line).from);
+            marks = Decoration.set(
+                to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production],
+            );
         }
         return marks;
     },
@@ -52,8 +66,15 @@ const lit = StateField.define<DecorationSet>({
 
 // Messages below their lines; they come when the typing pauses, so that the text does not jump.
 class Message extends WidgetType {
-    constructor(private readonly text: string, private readonly isWarning: boolean) { super(); }
-    override eq(other: Message): boolean { return other.text === this.text && other.isWarning === this.isWarning; }
+    constructor(
+        private readonly text: string,
+        private readonly isWarning: boolean,
+    ) {
+        super();
+    }
+    override eq(other: Message): boolean {
+        return other.text === this.text && other.isWarning === this.isWarning;
+    }
     toDOM(): HTMLElement {
         return element("div", { class: `line-message ${this.isWarning ? "warning" : "error"}` }, this.text);
     }
@@ -68,9 +89,14 @@ const messages = StateField.define<DecorationSet>({
             if (!effect.is(show_messages)) continue;
             const { doc } = transaction.state;
             const placed = effect.value.filter((each) => each.line >= 1 && each.line <= doc.lines);
-            marks = Decoration.set(placed.map((each) => Decoration.widget({
-                widget: new Message(each.message, each.warning), block: true, side: 1,
-            }).range(doc.line(each.line).to)), true);
+            marks = Decoration.set(
+                placed.map((each) =>
+                    Decoration.widget({ widget: new Message(each.message, each.warning), block: true, side: 1 }).range(
+                        doc.line(each.line).to,
+                    ),
+                ),
+                true,
+            );
         }
         return marks;
     },
@@ -86,14 +112,16 @@ const look = EditorView.theme({
     ".cm-activeLine, .cm-activeLineGutter": { background: "color-mix(in srgb, var(--earth-wash) 45%, transparent)" },
     ".cm-cursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
     "&.cm-focused": { outline: "none" },
-    "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground":
-        { background: "var(--mark)" },
+    "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": {
+        background: "var(--mark)",
+    },
 });
 
 export class Editor {
     readonly view: EditorView;
     private diagnostics: Diagnostic[] = [];
     private timer = 0;
+    private announced = "";
     private readonly strip = element("div", { class: "error-strip", hidden: true });
 
     constructor(private readonly application: Application) {
@@ -112,19 +140,37 @@ export class Editor {
         const undo = () => (store.undo(), true);
         const redo = () => (store.redo(), true);
         return [
-            lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), bracketMatching(),
-            closeBrackets(), lintGutter(), search({ top: true }), highlightSelectionMatches(),
-            EditorView.lineWrapping, pattern_language, syntaxHighlighting(pattern_colours), look, lit, messages,
+            lineNumbers(),
+            highlightActiveLine(),
+            highlightActiveLineGutter(),
+            drawSelection(),
+            bracketMatching(),
+            closeBrackets(),
+            lintGutter(),
+            search({ top: true }),
+            highlightSelectionMatches(),
+            EditorView.lineWrapping,
+            pattern_language,
+            syntaxHighlighting(pattern_colours),
+            look,
+            lit,
+            messages,
             colour_swatches,
             autocompletion({ override: [completePattern(() => this.application)], icons: false }),
-            hoverHelp(() => this.application), cursorHelp(() => this.application),
+            hoverHelp(() => this.application),
+            cursorHelp(() => this.application),
             EditorView.contentAttributes.of({ "aria-label": "Text of the pattern", spellcheck: "false" }),
             keymap.of([
-                { key: "Mod-z", run: undo }, { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
-                { key: "Mod-Shift-z", run: redo }, { key: "Mod-/", run: toggleComment },
-                { key: "Shift-Tab", run: indentLess }, // Tab itself leaves the text
+                { key: "Mod-z", run: undo },
+                { key: "Mod-y", mac: "Mod-Shift-z", run: redo },
+                { key: "Mod-Shift-z", run: redo },
+                { key: "Mod-/", run: toggleComment },
                 { key: "F8", run: nextDiagnostic },
-                ...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...lintKeymap, ...defaultKeymap,
+                ...closeBracketsKeymap,
+                ...completionKeymap,
+                ...searchKeymap,
+                ...lintKeymap,
+                ...defaultKeymap,
             ]),
             EditorView.updateListener.of((update) => {
                 if (!update.docChanged || update.transactions.some((each) => each.annotation(from_outside))) return;
@@ -141,8 +187,12 @@ export class Editor {
         let from = 0;
         while (from < now.length && from < text.length && now[from] === text[from]) ++from;
         let end = 0;
-        while (end < now.length - from && end < text.length - from &&
-               now[now.length - 1 - end] === text[text.length - 1 - end]) ++end;
+        while (
+            end < now.length - from &&
+            end < text.length - from &&
+            now[now.length - 1 - end] === text[text.length - 1 - end]
+        )
+            ++end;
         this.view.dispatch({
             changes: { from, to: now.length - end, insert: text.slice(from, text.length - end) },
             annotations: from_outside.of(true),
@@ -152,19 +202,28 @@ export class Editor {
     private check(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
         this.diagnostics = diagnostics;
         const { doc } = this.view.state;
-        const findings = diagnostics.filter((each) => each.line > 0 && each.line <= doc.lines).map((each): Finding => {
-            const from = offset(doc, each.line, each.column);
-            const rest = doc.sliceString(from, doc.lineAt(from).to);
-            const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
-            return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
-        });
-        const errors = diagnostics.filter((each) => !each.warning).length;
-        byId("facts").textContent = error === null ? "No errors" : errors === 1 || errors === 0 ? "1 error" : `${errors} errors`;
+        const findings = diagnostics
+            .filter((each) => each.line > 0 && each.line <= doc.lines)
+            .map((each): Finding => {
+                const from = offset(doc, each.line, each.column);
+                const rest = doc.sliceString(from, doc.lineAt(from).to);
+                const length = /^(\p{L}[\p{L}\d]*|\S)/u.exec(rest)?.[0].length ?? 0;
+                return { from, to: from + length, severity: each.warning ? "warning" : "error", message: each.message };
+            });
+        const errors = Math.max(diagnostics.filter((each) => !each.warning).length, error ? 1 : 0);
+        const warnings = diagnostics.filter((each) => each.warning).length;
+        byId("facts").textContent = [
+            errors === 0 ? "No errors" : counted(String(errors), "error"),
+            ...(warnings > 0 ? [counted(String(warnings), "warning")] : []),
+        ].join(", ");
         this.view.dispatch(setDiagnostics(this.view.state, findings));
         clearTimeout(this.timer);
         if (findings.length === 0) this.showMessages([]);
-        else this.timer = window.setTimeout(() => this.showMessages(this.diagnostics), 350);
-        this.showStrip(error, diagnostics);
+        const line = this.showStrip(error, diagnostics);
+        this.timer = window.setTimeout(() => {
+            if (findings.length > 0) this.showMessages(this.diagnostics);
+            this.announce(line);
+        }, message_pause);
     }
 
     private showMessages(diagnostics: Diagnostic[]): void {
@@ -172,25 +231,30 @@ export class Editor {
     }
 
     // Below the text: how many errors there are, the first of them, and errors without a place.
-    private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): void {
+    private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): string {
         this.strip.hidden = error === null;
-        if (!error) {
-            if (this.strip.textContent !== "") this.application.say("No errors.");
-            this.strip.replaceChildren();
-            return;
-        }
+        this.strip.replaceChildren();
+        if (!error) return "";
         const errors = diagnostics.filter((each) => !each.warning);
         const first = errors.find((each) => each.line > 0);
         const message = errors[0]?.message ?? error.message;
         const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
         const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
-        this.strip.replaceChildren(element("span", {}, where + message + more));
+        this.strip.append(element("span", {}, where + message + more));
         if (first) {
             const go = element("button", { type: "button", class: "button quiet" }, "Go to it");
             go.addEventListener("click", () => this.goTo(first));
             this.strip.append(go);
         }
-        this.application.say(where + message + more, "error");
+        return where + message + more;
+    }
+
+    // Once the typing pauses, and once only. The status bar repeats what the strip shows for those who do not see it.
+    private announce(line: string): void {
+        if (line === this.announced) return;
+        this.announced = line;
+        this.application.say(line || "No errors.", line ? "error" : "fact");
+        byId("message").dataset["source"] = "text";
     }
 
     goTo(place: { line: number; column: number }): void {

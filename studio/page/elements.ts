@@ -4,7 +4,9 @@ type Attributes = Record<string, string | number | boolean | null | undefined>;
 
 /// An element with attributes (true: present; false, null: absent) and children, of which texts stay texts.
 export function element<Name extends keyof HTMLElementTagNameMap>(
-    name: Name, attributes: Attributes = {}, ...children: (Node | string)[]
+    name: Name,
+    attributes: Attributes = {},
+    ...children: (Node | string)[]
 ): HTMLElementTagNameMap[Name] {
     const made = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) {
@@ -33,7 +35,9 @@ export function icon(path: string): SVGSVGElement {
 
 /// A button with a text, or with an icon and a text that is read out and shown on hovering.
 export function button(
-    label: string, act: (event: MouseEvent) => void, options: { kind?: string; icon?: string; shows?: boolean } = {},
+    label: string,
+    act: (event: MouseEvent) => void,
+    options: { kind?: string; icon?: string; shows?: boolean } = {},
 ): HTMLButtonElement {
     const made = element("button", { type: "button", class: `button ${options.kind ?? ""}`.trim() });
     if (options.icon) {

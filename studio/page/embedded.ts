@@ -1,10 +1,23 @@
 // What the page carries, compressed: the libraries, the worker and the script itself.
+import { alphabet } from "./alphabet";
+
+function decode(text: string): Uint8Array<ArrayBuffer> {
+    const values = new Uint8Array(128);
+    for (let index = 0; index < alphabet.length; ++index) values[alphabet.charCodeAt(index)] = index;
+    const start = text.indexOf(" ") + 1;
+    const size = Number.parseInt(text, 10);
+    const words = new DataView(new ArrayBuffer((size + 3) & ~3));
+    for (let from = start, to = 0; to < size; from += 5, to += 4) {
+        let word = 0;
+        for (let place = 0; place < 5; ++place) word = word * alphabet.length + values[text.charCodeAt(from + place)]!;
+        words.setUint32(to, word);
+    }
+    return new Uint8Array(words.buffer, 0, size);
+}
 
 /// The bytes of an element of the page.
 export async function unpack(id: string): Promise<ArrayBuffer> {
-    const text = atob(document.getElementById(id)!.textContent!.trim());
-    const bytes = new Uint8Array(text.length);
-    for (let index = 0; index < text.length; ++index) bytes[index] = text.charCodeAt(index);
+    const bytes = decode(document.getElementById(id)!.textContent!.trim());
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
 }
 

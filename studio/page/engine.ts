@@ -26,7 +26,12 @@ interface Job {
     reject(error: Error): void;
 }
 
-interface Seat { worker: Worker; job: Job | null; timer: number; isReady: boolean }
+interface Seat {
+    worker: Worker;
+    job: Job | null;
+    timer: number;
+    isReady: boolean;
+}
 
 function aborted(): DOMException {
     return new DOMException("replaced by a later request", "AbortError");
@@ -42,7 +47,11 @@ export class Pool implements Engine {
     private readonly scales = new Map<string, { json: string; bytes: Uint8Array }>(); // files that every worker knows
     private last = 0;
 
-    constructor(private readonly module: WebAssembly.Module, private readonly address: string, readonly workers: number) {
+    constructor(
+        private readonly module: WebAssembly.Module,
+        private readonly address: string,
+        readonly workers: number,
+    ) {
         for (let index = 0; index < workers; ++index) this.seats.push(this.seat());
     }
 
@@ -50,8 +59,14 @@ export class Pool implements Engine {
         if (options.signal?.aborted) return Promise.reject(aborted());
         return new Promise<Answer<T>>((resolve, reject) => {
             const job: Job = {
-                id: ++this.last, json: JSON.stringify(request), options, seconds: options.seconds ?? 20, started: 0,
-                isUnwanted: false, resolve: resolve as (answer: Answer<unknown>) => void, reject,
+                id: ++this.last,
+                json: JSON.stringify(request),
+                options,
+                seconds: options.seconds ?? 20,
+                started: 0,
+                isUnwanted: false,
+                resolve: resolve as (answer: Answer<unknown>) => void,
+                reject,
             };
             options.signal?.addEventListener("abort", () => this.abort(job), { once: true });
             if (request.do === "scale" && options.bytes) this.share(request.name, job.json, options.bytes);
@@ -185,7 +200,8 @@ export class Pool implements Engine {
 /// Starts the libraries that the page carries.
 export async function startEngine(): Promise<Engine> {
     const [module, address] = await Promise.all([
-        unpack("sikku-libraries").then((bytes) => WebAssembly.compile(bytes)), scriptAddress("sikku-worker"),
+        unpack("sikku-libraries").then((bytes) => WebAssembly.compile(bytes)),
+        scriptAddress("sikku-worker"),
     ]);
     const workers = Math.max(2, Math.min(navigator.hardwareConcurrency || 2, most_workers));
     return new Pool(module, address, workers);

@@ -10,23 +10,40 @@ import type { Command, FormatHelp, Made, Options, PatternRequest } from "./proto
 import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
-interface Choice { interpreter: Interpreter; format: FormatHelp; group: string }
+interface Choice {
+    interpreter: Interpreter;
+    format: FormatHelp;
+    group: string;
+}
 
 const groups: [string, Interpreter, RegExp][] = [
-    ["Print", "draw", /^(svg|pdf)$/], ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc)$/],
-    ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/], ["Model", "draw", /^(obj|glb|gltf)$/], ["Score", "play", /./],
+    ["Print", "draw", /^(svg|pdf)$/],
+    ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc)$/],
+    ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/],
+    ["Model", "draw", /^(obj|glb|gltf)$/],
+    ["Score", "play", /./],
 ];
-const pattern_format: FormatHelp = {
-    extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true,
-};
+const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true };
 const types: Record<string, string> = {
-    svg: "image/svg+xml", pdf: "application/pdf", png: "image/png", gif: "image/gif", mid: "audio/midi",
-    musicxml: "application/vnd.recordare.musicxml+xml", html: "text/html", glb: "model/gltf-binary", wav: "audio/wav",
-    obj: "model/obj", flac: "audio/flac",
+    svg: "image/svg+xml",
+    pdf: "application/pdf",
+    png: "image/png",
+    gif: "image/gif",
+    mid: "audio/midi",
+    musicxml: "application/vnd.recordare.musicxml+xml",
+    html: "text/html",
+    glb: "model/gltf-binary",
+    wav: "audio/wav",
+    obj: "model/obj",
+    flac: "audio/flac",
 };
 // Groups of options that are open when a format of the group is chosen.
 const openAtFirst: Record<string, RegExp> = {
-    Print: /^Page/, Plotter: /^(Page|Plotter)/, Picture: /^(Page|Picture)/, Model: /^Page/, Score: /^Passage/,
+    Print: /^Page/,
+    Plotter: /^(Page|Plotter)/,
+    Picture: /^(Page|Picture)/,
+    Model: /^Page/,
+    Score: /^Passage/,
 };
 const pause = 200; // milliseconds after a change before the file is made again
 
@@ -35,14 +52,26 @@ let chosen = "draw svg"; // remembered while the page is open
 function choicesOf(application: Application): Choice[] {
     const facts = application.opened?.facts;
     const { draw, play } = application.help;
-    const all = [...draw.formats.map((format) => ({ interpreter: "draw" as const, format })),
-        ...(facts?.is_melody === false && facts.is_spatial ? [] : play.formats).map((format) => ({ interpreter: "play" as const, format }))];
+    const all = [
+        ...draw.formats.map((format) => ({ interpreter: "draw" as const, format })),
+        ...(facts?.is_melody === false && facts.is_spatial ? [] : play.formats).map((format) => ({
+            interpreter: "play" as const,
+            format,
+        })),
+    ];
     const rows = all.map((row): Choice => ({
-        ...row, group: groups.find(([, interpreter, names]) => interpreter === row.interpreter && names.test(row.format.extension))?.[0] ?? "Other",
+        ...row,
+        group:
+            groups.find(
+                ([, interpreter, names]) => interpreter === row.interpreter && names.test(row.format.extension),
+            )?.[0] ?? "Other",
     }));
     const ordered = groups.flatMap(([group]) => rows.filter((row) => row.group === group));
-    return [...ordered.filter((row) => row.group !== "Model" || facts?.is_spatial),
-        ...rows.filter((row) => row.group === "Other"), { interpreter: "draw", format: pattern_format, group: "Pattern" }];
+    return [
+        ...ordered.filter((row) => row.group !== "Model" || facts?.is_spatial),
+        ...rows.filter((row) => row.group === "Other"),
+        { interpreter: "draw", format: pattern_format, group: "Pattern" },
+    ];
 }
 
 class Export {
@@ -53,7 +82,13 @@ class Export {
     private isWindow: boolean;
 
     private readonly dialog: Dialog;
-    private readonly preview = element("canvas", { class: "export-preview", width: 440, height: 440, role: "img", "aria-label": "The page" });
+    private readonly preview = element("canvas", {
+        class: "export-preview",
+        width: 440,
+        height: 440,
+        role: "img",
+        "aria-label": "The page",
+    });
     private readonly options = element("div", { class: "export-options" });
     private readonly remarks = element("ul", { class: "remarks", "aria-live": "polite" });
     private readonly command = element("code", { class: "command", tabindex: 0 });
@@ -64,28 +99,61 @@ class Export {
         this.choice = this.choices.find((each) => this.nameOf(each) === chosen) ?? this.choices[0]!;
         this.isWindow = windowOnScreen(application) !== null;
         const unsubscribe = application.store.subscribe(() => this.refreshSoon());
-        this.dialog = openDialog("Export", { wide: true, closed: () => { unsubscribe(); clearTimeout(this.timer); } });
+        this.dialog = openDialog("Export", {
+            wide: true,
+            closed: () => {
+                unsubscribe();
+                clearTimeout(this.timer);
+            },
+        });
         this.dialog.body.classList.add("export");
-        const copy = button("Copy", () => void navigator.clipboard.writeText(this.command.textContent ?? "")
-            .then(() => application.say("The command is copied.")), { kind: "quiet" });
-        this.dialog.body.append(this.formats(), this.options,
-            element("div", { class: "export-page" }, this.preview, this.windowSwitch(), this.remarks));
+        const copy = button(
+            "Copy",
+            () =>
+                void navigator.clipboard
+                    .writeText(this.command.textContent ?? "")
+                    .then(() => application.say("The command is copied.")),
+            { kind: "quiet" },
+        );
+        this.dialog.body.append(
+            this.formats(),
+            this.options,
+            element("div", { class: "export-page" }, this.preview, this.windowSwitch(), this.remarks),
+        );
         this.dialog.footer.append(
-            element("div", { class: "command-row" }, element("span", { class: "label" }, "As a command"), this.command, copy), this.save);
+            element(
+                "div",
+                { class: "command-row" },
+                element("span", { class: "label" }, "As a command"),
+                this.command,
+                copy,
+            ),
+            this.save,
+        );
         this.choose(this.choice);
+        this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
     }
 
-    private nameOf(choice: Choice): string { return `${choice.interpreter} ${choice.format.extension}`; }
+    private nameOf(choice: Choice): string {
+        return `${choice.interpreter} ${choice.format.extension}`;
+    }
 
     private formats(): HTMLElement {
         const fields = [...new Set(this.choices.map((each) => each.group))].map((group) => {
-            const labels = this.choices.filter((each) => each.group === group).map((each) => {
-                const radio = element("input", { type: "radio", name: "format", class: "unseen" });
-                radio.checked = each === this.choice;
-                radio.addEventListener("change", () => this.choose(each));
-                return element("label", { class: "format", title: each.format.label }, radio,
-                    element("span", {}, capital(each.format.label || each.format.extension)), element("small", {}, `.${each.format.extension}`));
-            });
+            const labels = this.choices
+                .filter((each) => each.group === group)
+                .map((each) => {
+                    const radio = element("input", { type: "radio", name: "format", class: "unseen" });
+                    radio.checked = each === this.choice;
+                    radio.addEventListener("change", () => this.choose(each));
+                    return element(
+                        "label",
+                        { class: "format", title: each.format.label },
+                        radio,
+                        element("span", {}, capital(each.format.label || each.format.extension)),
+                        element("small", {}, `.${each.format.extension}`),
+                    );
+                });
             return element("fieldset", {}, element("legend", {}, group), ...labels);
         });
         return element("div", { class: "formats" }, ...fields);
@@ -122,7 +190,11 @@ class Export {
         };
         const isSpatial = this.application.opened?.facts.is_spatial ?? false;
         const made = optionGroups(
-            help[interpreter].options.filter((option) => isSpatial || option.name !== "view"), store.work[interpreter], act, interpreter === "draw" ? "Page" : "Passage");
+            help[interpreter].options.filter((option) => isSpatial || option.name !== "view"),
+            store.work[interpreter],
+            act,
+            interpreter === "draw" ? "Page" : "Passage",
+        );
         for (const each of made) if (openAtFirst[group]?.test(each.dataset["group"]!)) each.setAttribute("open", "");
         this.options.replaceChildren(...made);
     }
@@ -143,19 +215,32 @@ class Export {
     }
 
     private optionsNow(): Options {
-        return this.choice.interpreter === "draw" ? drawOptions(this.application, this.isWindow) : this.application.store.work.play;
+        return this.choice.interpreter === "draw"
+            ? drawOptions(this.application, this.isWindow)
+            : this.application.store.work.play;
     }
 
     private async make(): Promise<void> {
         const { interpreter, format } = this.choice;
         const { engine, store } = this.application;
-        const request = { interpreter, format: format.extension, options: this.optionsNow(), pattern: store.work.pattern };
+        const request = {
+            interpreter,
+            format: format.extension,
+            options: this.optionsNow(),
+            pattern: store.work.pattern,
+        };
         try {
             void this.showCommand(request);
-            const { json, bytes } = await engine.request<Made>({ do: "make", ...request }, { key: "export", seconds: 60 });
+            const { json, bytes } = await engine.request<Made>(
+                { do: "make", ...request },
+                { key: "export", seconds: 60 },
+            );
             let from = 0;
-            const parts = json.outputs.map(({ size }) => bytes.subarray(from, from += size));
-            this.offer(json.outputs.map((output) => output.name), parts);
+            const parts = json.outputs.map(({ size }) => bytes.subarray(from, (from += size)));
+            this.offer(
+                json.outputs.map((output) => output.name),
+                parts,
+            );
             this.showRemarks(json.remarks);
         } catch (error) {
             if (!(error instanceof RequestFailed)) return;
@@ -168,23 +253,38 @@ class Export {
     private offer(names: string[], parts: Uint8Array[]): void {
         this.made = { names, parts };
         const size = sizeOf(parts.reduce((sum, part) => sum + part.length, 0));
-        this.save.textContent = names.length === 1 ? `Save ${names[0]} (${size})` : `Save ${names.length} files (${size})`;
+        this.save.textContent =
+            names.length === 1 ? `Save ${names[0]} (${size})` : `Save ${names.length} files (${size})`;
         this.save.disabled = names.length === 0;
     }
 
     private offerPattern(): void {
         const { pattern } = this.application.store.work;
         this.command.parentElement!.hidden = true;
-        this.showRemarks(pattern.settings.length > 0
-            ? [{ is_warning: false, text: "Values chosen beside the text are not part of it; “Write into the text” puts them there." }] : []);
+        this.showRemarks(
+            pattern.settings.length > 0
+                ? [
+                      {
+                          is_warning: false,
+                          text: "Values beside the text are not in it; “Write into the text” puts them there.",
+                      },
+                  ]
+                : [],
+        );
         this.offer([pattern.name], [new TextEncoder().encode(pattern.text)]);
     }
 
     private async showCommand(request: {
-        interpreter: Interpreter; format: string; options: Options; pattern: PatternRequest;
+        interpreter: Interpreter;
+        format: string;
+        options: Options;
+        pattern: PatternRequest;
     }): Promise<void> {
         try {
-            const { json } = await this.application.engine.request<Command>({ do: "command", ...request }, { key: "export-command" });
+            const { json } = await this.application.engine.request<Command>(
+                { do: "command", ...request },
+                { key: "export-command" },
+            );
             this.command.textContent = json.command;
             this.command.parentElement!.hidden = false;
         } catch {
@@ -193,7 +293,11 @@ class Export {
     }
 
     private showRemarks(remarks: Made["remarks"]): void {
-        this.remarks.replaceChildren(...remarks.map(({ is_warning, text }) => element("li", { class: is_warning ? "note warning" : "note" }, text)));
+        this.remarks.replaceChildren(
+            ...remarks.map(({ is_warning, text }) =>
+                element("li", { class: is_warning ? "note warning" : "note" }, text),
+            ),
+        );
     }
 
     private async showPreview(): Promise<void> {
@@ -201,7 +305,13 @@ class Export {
         this.preview.hidden = !isDrawn;
         if (!isDrawn) return;
         try {
-            await drawInto(this.preview, this.application.engine, this.application.store.work.pattern, this.optionsNow(), { key: "export-preview" });
+            await drawInto(
+                this.preview,
+                this.application.engine,
+                this.application.store.work.pattern,
+                this.optionsNow(),
+                { key: "export-preview" },
+            );
         } catch {
             // the remarks say why
         }
@@ -211,7 +321,9 @@ class Export {
         const { made } = this;
         if (!made) return;
         made.names.forEach((name, at) => {
-            const type = types[name.slice(name.lastIndexOf(".") + 1)] ?? (this.choice.format.is_text ? "text/plain" : "application/octet-stream");
+            const type =
+                types[name.slice(name.lastIndexOf(".") + 1)] ??
+                (this.choice.format.is_text ? "text/plain" : "application/octet-stream");
             this.application.save(name, made.parts[at]!, type);
         });
         this.application.say(`Saved ${made.names.join(", ")}.`);

@@ -10,16 +10,39 @@ const picture_size = 256;
 
 class Card {
     readonly element: HTMLButtonElement;
-    readonly canvas = element("canvas", { class: "picture", width: picture_size, height: picture_size, "aria-hidden": "true" });
+    readonly canvas = element("canvas", {
+        class: "picture",
+        width: picture_size,
+        height: picture_size,
+        "aria-hidden": "true",
+    });
     isDrawn = false;
 
-    constructor(readonly entry: PatternEntry, studio: Studio) {
-        const facts = [entry.kind, entry.is_spatial ? "in space" : "", entry.is_melody ? "music" : ""].filter(Boolean).join(" · ");
-        this.element = element("button", { type: "button", class: "card", title: entry.source }, this.canvas,
-            element("span", { class: "caption" }, element("strong", {}, entry.title || entry.name), element("small", {}, facts)));
-        this.element.addEventListener("click", () => openPattern(studio, {
-            name: `${entry.name}.lsys`, text: entry.text, variant: "", settings: [],
-        }, entry.is_spatial ? "space" : "map"));
+    constructor(
+        readonly entry: PatternEntry,
+        studio: Studio,
+    ) {
+        const facts = [entry.kind, entry.is_spatial ? "in space" : "", entry.is_melody ? "music" : ""]
+            .filter(Boolean)
+            .join(" · ");
+        this.element = element(
+            "button",
+            { type: "button", class: "card", title: entry.source },
+            this.canvas,
+            element(
+                "span",
+                { class: "caption" },
+                element("strong", {}, entry.title || entry.name),
+                element("small", {}, facts),
+            ),
+        );
+        this.element.addEventListener("click", () =>
+            openPattern(
+                studio,
+                { name: `${entry.name}.lsys`, text: entry.text, variant: "", settings: [] },
+                entry.is_spatial ? "space" : entry.is_melody ? "play" : "map",
+            ),
+        );
     }
 
     matches(words: string[], kind: string): boolean {
@@ -31,7 +54,10 @@ class Card {
 
     // Axiom and productions instead of a picture.
     private wordCard(): HTMLElement {
-        const lines = this.entry.text.split("\n").filter((line) => /-->|^axiom:/.test(line)).slice(0, 12);
+        const lines = this.entry.text
+            .split("\n")
+            .filter((line) => /-->|^axiom:/.test(line))
+            .slice(0, 12);
         return element("span", { class: "picture words", "aria-hidden": "true" }, lines.join("\n"));
     }
 
@@ -54,9 +80,17 @@ export const makeGalleryPanel: MakePanel = (studio) => {
     const kinds = [...new Set(studio.patterns.map((entry) => entry.kind))].sort();
     let kind = "";
 
-    const search = element("input", { type: "search", placeholder: "Search titles, sources and texts", "aria-label": "Search patterns" });
+    const search = element("input", {
+        type: "search",
+        placeholder: "Search titles, sources and texts",
+        "aria-label": "Search patterns",
+    });
     const chips = ["", ...kinds].map((each) => {
-        const chip = element("button", { type: "button", class: "chip", "aria-pressed": String(each === "") }, each || "all");
+        const chip = element(
+            "button",
+            { type: "button", class: "chip", "aria-pressed": String(each === "") },
+            each || "all",
+        );
         chip.addEventListener("click", () => {
             kind = each;
             for (const other of chips) other.setAttribute("aria-pressed", String(other === chip));
@@ -73,24 +107,41 @@ export const makeGalleryPanel: MakePanel = (studio) => {
             card.element.hidden = !card.matches(words, kind);
             if (!card.element.hidden) ++count;
         }
-        shown.textContent = count === cards.length ? `${count} patterns from the literature`
-            : count === 0 ? "No pattern matches." : `${count} of ${cards.length} patterns`;
+        shown.textContent =
+            count === cards.length
+                ? `${count} patterns, most of them from the literature`
+                : count === 0
+                  ? "No pattern matches."
+                  : `${count} of ${cards.length} patterns`;
     };
     search.addEventListener("input", filter);
     filter();
 
-    const sight = new IntersectionObserver((seen) => {
-        for (const { target, isIntersecting } of seen) if (isIntersecting) void byElement.get(target)!.draw(studio);
-    }, { rootMargin: "200px" });
+    const sight = new IntersectionObserver(
+        (seen) => {
+            for (const { target, isIntersecting } of seen) if (isIntersecting) void byElement.get(target)!.draw(studio);
+        },
+        { rootMargin: "200px" },
+    );
     for (const card of cards) sight.observe(card.element);
 
     return {
-        name: "gallery", label: "Gallery",
-        element: element("div", { class: "gallery" },
-            element("div", { class: "gallery-head" }, search,
-                element("div", { class: "toolbar", role: "group", "aria-label": "Kinds" }, ...chips), shown,
-                button("Open a file…", () => askForFile(studio))),
-            grid),
-        show() {}, hide() {},
+        name: "gallery",
+        label: "Gallery",
+        element: element(
+            "div",
+            { class: "gallery" },
+            element(
+                "div",
+                { class: "gallery-head" },
+                search,
+                element("div", { class: "toolbar", role: "group", "aria-label": "Kinds" }, ...chips),
+                shown,
+                button("Open a file…", () => askForFile(studio)),
+            ),
+            grid,
+        ),
+        show() {},
+        hide() {},
     };
 };

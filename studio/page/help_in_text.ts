@@ -22,7 +22,10 @@ export function keyCard(key: KeyHelp): HTMLElement {
 // Values such as `right, left`: names only, so that prose is not offered.
 function choices(key: KeyHelp): string[] {
     if (/\b(a|an|the|such|or|with)\b|;/.test(key.values)) return [];
-    return key.values.split(",").map((each) => each.trim()).filter((each) => /^[\p{L}\d/ ]+$/u.test(each));
+    return key.values
+        .split(",")
+        .map((each) => each.trim())
+        .filter((each) => /^[\p{L}\d/ ]+$/u.test(each));
 }
 
 /// Keys at the beginning of a line, and values after a key.
@@ -36,16 +39,27 @@ export function completePattern(where: Where): CompletionSource {
         if (value) {
             const key = help.keys.find((each) => each.name === value[1]);
             const options = key ? choices(key) : [];
-            return options.length === 0 ? null
+            return options.length === 0
+                ? null
                 : { from: context.pos - value[2]!.length, options: options.map((label) => ({ label })) };
         }
         const name = /^\s*([\p{L} ]*)$/u.exec(before);
         if (!name || (name[1] === "" && !context.explicit)) return null;
-        const set = new Set(context.state.doc.toString().split("\n").map((each) => /^\s*([\p{L} ]+?)\s*:/u.exec(each)?.[1]));
-        const options = help.keys.filter((key) => !set.has(key.name)).map((key): Completion => ({
-            label: key.name, apply: `${key.name}: `, detail: key.values.length < 28 ? key.values : "",
-            info: () => keyCard(key), type: "property",
-        }));
+        const set = new Set(
+            context.state.doc
+                .toString()
+                .split("\n")
+                .map((each) => /^\s*([\p{L} ]+?)\s*:/u.exec(each)?.[1]),
+        );
+        const options = help.keys
+            .filter((key) => !set.has(key.name))
+            .map((key): Completion => ({
+                label: key.name,
+                apply: `${key.name}: `,
+                detail: key.values.length < 28 ? key.values : "",
+                info: () => keyCard(key),
+                type: "property",
+            }));
         return { from: context.pos - name[1]!.length, options, validFor: /^[\p{L} ]*$/u };
     };
 }
@@ -55,7 +69,11 @@ function hasSymbols(line: string): boolean {
 }
 
 // The explanation of what stands at a column of a line, and the columns it is about.
-function explain(application: Application, line: string, column: number): { from: number; to: number; dom: HTMLElement } | null {
+function explain(
+    application: Application,
+    line: string,
+    column: number,
+): { from: number; to: number; dom: HTMLElement } | null {
     const { help } = application;
     const name = /^(\s*)([\p{L} ]+?)\s*:/u.exec(line);
     if (name && !line.includes("-->") && column <= name[0].length) {
@@ -66,20 +84,29 @@ function explain(application: Application, line: string, column: number): { from
     const identifier = identifiers.find((each) => each.index <= column && column < each.index + each[0].length);
     const define = application.opened?.facts.defines.find((each) => each.name === identifier?.[0]);
     if (identifier && define) {
-        const dom = element("div", { class: "help-card" }, element("strong", {}, `${define.name} = ${define.value}`),
-            element("p", {}, `Defined in line ${define.line}.`));
+        const dom = element(
+            "div",
+            { class: "help-card" },
+            element("strong", {}, `${define.name} = ${define.value}`),
+            element("p", {}, `Defined in line ${define.line}.`),
+        );
         return { from: identifier.index, to: identifier.index + identifier[0].length, dom };
     }
-    if (!hasSymbols(line) || line.indexOf("-->") === column || line.slice(column - 2, column + 3).includes("-->")) return null;
+    if (!hasSymbols(line) || line.indexOf("-->") === column || line.slice(column - 2, column + 3).includes("-->"))
+        return null;
     if (name && column < name[0].length) return null;
     const start = line[column - 1] === "@" ? column - 1 : column;
-    const symbol = line[start] === "@" ? line.slice(start, start + 2) : String.fromCodePoint(line.codePointAt(column) ?? 32);
+    const symbol =
+        line[start] === "@" ? line.slice(start, start + 2) : String.fromCodePoint(line.codePointAt(column) ?? 32);
     return explainSymbol(application, symbol, start);
 }
 
 function explainSymbol(application: Application, symbol: string, start: number) {
-    const row = application.help.symbols.find((each) => each.symbol === symbol || each.symbol.split(/[\s,]+/).includes(symbol));
-    const productions = application.opened?.facts.productions.filter((each) => each.predecessor.startsWith(symbol)) ?? [];
+    const row = application.help.symbols.find(
+        (each) => each.symbol === symbol || each.symbol.split(/[\s,]+/).includes(symbol),
+    );
+    const productions =
+        application.opened?.facts.productions.filter((each) => each.predecessor.startsWith(symbol)) ?? [];
     if (!row && productions.length === 0) return null;
     const dom = element("div", { class: "help-card" }, element("strong", { class: "mono" }, symbol));
     if (row) dom.append(element("p", {}, row.help));
@@ -94,7 +121,14 @@ function tooltipAt(application: Application, view: EditorView, position: number)
     if (!application.help) return null; // the libraries are starting
     const line = view.state.doc.lineAt(position);
     const found = explain(application, line.text, position - line.from);
-    return found && { pos: line.from + found.from, end: line.from + found.to, above: true, create: () => ({ dom: found.dom }) };
+    return (
+        found && {
+            pos: line.from + found.from,
+            end: line.from + found.to,
+            above: true,
+            create: () => ({ dom: found.dom }),
+        }
+    );
 }
 
 /// Explains keys, symbols and defines under the pointer.
@@ -114,23 +148,29 @@ const shown_help = StateField.define<Tooltip | null>({
 
 /// F1 explains what the cursor is at, and reads it out; Escape closes the explanation.
 export function cursorHelp(where: Where): Extension {
-    return [shown_help, keymap.of([
-        {
-            key: "F1",
-            run(view) {
-                const tooltip = tooltipAt(where(), view, view.state.selection.main.head);
-                view.dispatch({ effects: show_help.of(tooltip) });
-                where().say(tooltip?.create(view).dom.innerText ?.replaceAll("\n", " ") ?? "There is no help for this place.");
-                return true;
+    return [
+        shown_help,
+        keymap.of([
+            {
+                key: "F1",
+                run(view) {
+                    const tooltip = tooltipAt(where(), view, view.state.selection.main.head);
+                    view.dispatch({ effects: show_help.of(tooltip) });
+                    const parts = tooltip?.create(view).dom.querySelectorAll("strong, p, dt, dd") ?? [];
+                    where().say(
+                        [...parts].map((part) => part.textContent).join(" ") || "There is no help for this place.",
+                    );
+                    return true;
+                },
             },
-        },
-        {
-            key: "Escape",
-            run(view) {
-                if (!view.state.field(shown_help)) return false;
-                view.dispatch({ effects: show_help.of(null) });
-                return true;
+            {
+                key: "Escape",
+                run(view) {
+                    if (!view.state.field(shown_help)) return false;
+                    view.dispatch({ effects: show_help.of(null) });
+                    return true;
+                },
             },
-        },
-    ])];
+        ]),
+    ];
 }

@@ -18,7 +18,11 @@ function ago(time: number): string {
 export function makeHistory(application: Application, opener: HTMLButtonElement): void {
     const { store } = application;
     const list = element("ol", { class: "steps" });
-    const popover = element("div", { class: "menu history", popover: "auto", id: "history", "aria-label": "History", role: "dialog" }, list);
+    const popover = element(
+        "div",
+        { class: "menu history", popover: "auto", id: "history", "aria-label": "History", role: "dialog" },
+        list,
+    );
     opener.setAttribute("aria-haspopup", "dialog");
     opener.setAttribute("aria-expanded", "false");
     opener.after(popover);
@@ -26,13 +30,24 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     const show = () => {
         if (!popover.matches(":popover-open")) return;
         const focused = [...list.querySelectorAll("button")].indexOf(document.activeElement as HTMLButtonElement);
-        list.replaceChildren(...store.history.map((step, at) => {
-            const picture = step.picture ? element("img", { src: step.picture, alt: "", width: 44, height: 44 }) : element("span", { class: "no-picture" });
-            const entry = element("button", { type: "button", "aria-current": at === store.position ? "step" : null },
-                picture, element("span", {}, step.label), element("small", {}, ago(step.time)));
-            entry.addEventListener("click", () => store.go(at));
-            return element("li", {}, entry);
-        }).reverse());
+        list.replaceChildren(
+            ...store.history
+                .map((step, at) => {
+                    const picture = step.picture
+                        ? element("img", { src: step.picture, alt: "", width: 44, height: 44 })
+                        : element("span", { class: "no-picture" });
+                    const entry = element(
+                        "button",
+                        { type: "button", "aria-current": at === store.position ? "step" : null },
+                        picture,
+                        element("span", {}, step.label),
+                        element("small", {}, ago(step.time)),
+                    );
+                    entry.addEventListener("click", () => store.go(at));
+                    return element("li", {}, entry);
+                })
+                .reverse(),
+        );
         if (focused >= 0) list.querySelectorAll("button")[focused]?.focus();
     };
     store.watch(show);
@@ -41,6 +56,7 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
         opener.setAttribute("aria-expanded", String(isOpen));
         if (!isOpen) return;
         show();
+        void drawMissing(application, popover);
         place(popover, opener);
         list.querySelector<HTMLElement>("[aria-current]")?.focus();
     });
@@ -53,6 +69,14 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     };
     application.onOpened((_, work) => drawSoon(work));
     if (application.opened && !store.history[store.position]?.picture) drawSoon(application.opened.work);
+}
+
+// Steps that followed too quickly to be drawn then are drawn when they are looked at, the newest first.
+async function drawMissing(application: Application, popover: HTMLElement): Promise<void> {
+    for (const { work, picture } of application.store.history.toReversed()) {
+        if (!popover.matches(":popover-open")) return;
+        if (!picture) await drawStep(application, work);
+    }
 }
 
 async function drawStep(application: Application, work: Work): Promise<void> {

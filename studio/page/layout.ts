@@ -4,7 +4,10 @@ import { byId, element } from "./elements";
 const least_side = 260;
 const storage_key = "sikku-studio-layout";
 
-interface Layout { side?: number; theme?: Theme }
+interface Layout {
+    side?: number;
+    theme?: Theme;
+}
 export type Theme = "system" | "light" | "dark";
 
 function saved(): Layout {
@@ -25,7 +28,9 @@ function save(change: Layout): void {
 
 const prefers_dark = matchMedia("(prefers-color-scheme: dark)");
 
-export function theme(): Theme { return saved().theme ?? "system"; }
+export function theme(): Theme {
+    return saved().theme ?? "system";
+}
 
 export function setTheme(chosen: Theme): void {
     save({ theme: chosen });
@@ -57,7 +62,11 @@ function makeDivider(): void {
     const set = (width: number) => {
         const side = Math.round(Math.min(Math.max(width, least_side), most()));
         workbench.style.setProperty("--side", `${side}px`);
-        for (const [name, value] of [["min", least_side], ["max", most()], ["now", side]] as const) {
+        for (const [name, value] of [
+            ["min", least_side],
+            ["max", most()],
+            ["now", side],
+        ] as const) {
             divider.setAttribute(`aria-value${name}`, String(value));
         }
         save({ side });
@@ -65,7 +74,9 @@ function makeDivider(): void {
     const now = () => Number(divider.getAttribute("aria-valuenow"));
     set(saved().side ?? Math.min(440, Math.round(innerWidth * 0.34)));
     divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
-    divider.addEventListener("pointermove", (event) => { if (divider.hasPointerCapture(event.pointerId)) set(event.clientX); });
+    divider.addEventListener("pointermove", (event) => {
+        if (divider.hasPointerCapture(event.pointerId)) set(event.clientX);
+    });
     divider.addEventListener("keydown", (event) => {
         const by = { ArrowLeft: -24, ArrowRight: 24 }[event.key];
         if (by === undefined) return;
@@ -78,7 +89,12 @@ function makeDivider(): void {
 function makeSideTabs(): void {
     const side = byId("side-tabs").parentElement!;
     const group = element("div", { class: "segmented", role: "group", "aria-label": "Below the picture" });
-    const buttons = ([["values", "Values"], ["text", "Text"]] as const).map(([name, label]) => {
+    const buttons = (
+        [
+            ["values", "Values"],
+            ["text", "Text"],
+        ] as const
+    ).map(([name, label]) => {
         const choice = element("button", { type: "button", "aria-pressed": String(name === "values") }, label);
         choice.addEventListener("click", () => {
             side.dataset["shown"] = name;

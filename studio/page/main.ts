@@ -4,7 +4,7 @@ import { makeBenchPanel } from "./bench";
 import type { Work } from "./context";
 import { Controls } from "./controls";
 import { Editor } from "./editor";
-import { byId } from "./elements";
+import { button, byId, element } from "./elements";
 import { startEngine } from "./engine";
 import { makeGalleryPanel } from "./gallery";
 import { applyTheme, makeLayout } from "./layout";
@@ -12,12 +12,13 @@ import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
 import { openPattern } from "./opening";
 import { Panels } from "./panels";
+import { titleOf } from "./pattern_text";
 import { makePlayPanel } from "./play";
-import type { Help, Options, PatternRequest, Patterns } from "./protocol";
+import type { Help, PatternEntry, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
-import { History } from "./store";
+import { History, putAside } from "./store";
 import { makeTools } from "./tools";
 import { makeVariationsPanel } from "./variations";
 
@@ -36,15 +37,24 @@ line: spline
 
 const first: Work = {
     pattern: { name: "snake-kolam.lsys", text: first_text, variant: "", settings: [] },
-    draw: [], play: [], place: null, panel: "map",
+    draw: [],
+    play: [],
+    place: null,
+    panel: "map",
 };
 
-// Patterns that the program wrote into the page: `sikku studio PATTERN…`. Those of links have values and options.
-function embedded(): Pick<Work, "pattern" | "draw" | "play">[] {
-    type Entry = PatternRequest & { draw?: Options; play?: Options };
-    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as Entry[];
-    return list.map(({ name, text, variant = "", settings = [], draw = [], play = [] }) =>
-        ({ pattern: { name, text, variant, settings }, draw: draw.filter(([option]) => option !== "window"), play }));
+// Patterns that the program wrote into the page: `sikku studio PATTERN…`. The first is open; all are in the gallery.
+function embedded(): PatternEntry[] {
+    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
+    return list.map(({ name, text }) => ({
+        name: name.replace(/\.lsys$/, ""),
+        kind: "yours",
+        title: titleOf({ name, text }),
+        source: "",
+        text,
+        is_melody: false,
+        is_spatial: false,
+    }));
 }
 
 async function main(): Promise<void> {
@@ -56,26 +66,40 @@ async function main(): Promise<void> {
     restoreScales(engine);
     new Editor(application);
     new Controls(application);
-    for (const { pattern, draw, play } of embedded()) {
-        if (pattern.text !== store.work.pattern.text) openPattern(application, pattern, "map", { draw, play });
+    const [given] = embedded();
+    if (given && !store.history.some(({ work }) => work.pattern.name === `${given.name}.lsys`)) {
+        openPattern(application, { name: `${given.name}.lsys`, text: given.text, variant: "", settings: [] });
     }
     const opening = application.open();
     const [patterns, help] = await Promise.all([
-        engine.request<Patterns>({ do: "patterns" }), engine.request<Help>({ do: "help" }),
+        engine.request<Patterns>({ do: "patterns" }),
+        engine.request<Help>({ do: "help" }),
     ]);
-    application.patterns = patterns.json.patterns;
+    application.patterns = [...embedded(), ...patterns.json.patterns];
     application.help = help.json;
     new Panels(application, [
-        makeMapPanel, makeSpacePanel, makeVariationsPanel, makePlayPanel, makeBenchPanel, makeGalleryPanel,
+        makeMapPanel,
+        makeSpacePanel,
+        makeVariationsPanel,
+        makePlayPanel,
+        makeBenchPanel,
+        makeGalleryPanel,
     ]);
     makeTools(application);
     acceptDrops(application);
     await opening;
-    if (byId("message").textContent === "Starting…") application.say("");
+    if (byId("message").textContent === "Starting…") {
+        application.say(store.wasSaved ? "" : "Change the text or a value, and the picture follows. ? lists the keys.");
+    }
     watchLinks(application);
 }
 
 main().catch((error: unknown) => {
     byId("message").dataset["kind"] = "error";
     byId("message").textContent = `The studio could not start: ${String(error)}`;
+    const anew = button("Start without the saved work", () => {
+        putAside();
+        location.reload();
+    });
+    byId("panels").replaceChildren(element("div", { class: "empty" }, anew));
 });

@@ -48,9 +48,10 @@ export const makeMapPanel: MakePanel = (studio) => {
         panel.dataset["mode"] = view.mode;
         place.update(pointer);
         toDrawing.disabled = !view.hasPlane;
-        toPage.setAttribute("aria-pressed", String(view.mode === "page"));
-        if (view.problem !== text) {
-            text = view.problem;
+        toPage.setAttribute("aria-pressed", String(view.mode === "page" && !view.isMagnified));
+        const now = view.problem || (view.isElsewhere ? "The drawing lies outside this view: F fits it in." : "");
+        if (now !== text) {
+            text = now;
             problem.textContent = text;
             problem.hidden = text === "";
         }
@@ -85,7 +86,7 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
         if (measured?.facts !== facts && !facts.is_spatial) void measure(facts);
         const parts = [
             `${facts.title || "Drawing"}, derivation length ${facts.n}`,
-            facts.cost.segments ? `${facts.cost.segments} segments` : "",
+            facts.cost.segments && facts.cost.segments !== "0" ? `${facts.cost.segments} segments` : "",
             measured?.facts === facts && measured.isClosed ? "closed" : "",
             facts.is_spatial ? "in space" : "",
             view.mode === "page" ? `whole page, ${sheetOf(studio.store.work.draw).name}` : placeText(view),

@@ -1,12 +1,15 @@
 // Pointer, wheel and keys on the map.
 import type { MapView } from "./map_view";
 
+const least = 4; // pixels that a drag is longer than a click
+
 interface Finger { left: number; top: number }
 
 /// @param onPointer  where the pointer is, in CSS pixels of the view; null when it has left
 export function addGestures(view: MapView, onPointer: (at: Finger | null) => void): void {
     const { canvas } = view;
     const fingers = new Map<number, Finger>();
+    let isDragging = false; // since the pointer has moved a little
     const at = (event: MouseEvent): Finger => {
         const box = canvas.getBoundingClientRect();
         return { left: event.clientX - box.left, top: event.clientY - box.top };
@@ -16,6 +19,7 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
         if (event.pointerType === "mouse" && event.button !== 0 && event.button !== 1) return;
         canvas.setPointerCapture(event.pointerId);
         fingers.set(event.pointerId, at(event));
+        isDragging = fingers.size > 1;
         canvas.classList.add("held");
     });
     canvas.addEventListener("pointermove", (event) => {
@@ -23,6 +27,8 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
         onPointer(now);
         const before = fingers.get(event.pointerId);
         if (!before) return;
+        if (!isDragging && distance(before, now) < least) return;
+        isDragging = true;
         fingers.set(event.pointerId, now);
         if (fingers.size === 1) {
             view.panBy(now.left - before.left, now.top - before.top);

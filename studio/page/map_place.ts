@@ -72,7 +72,7 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
         update(pointer) {
             const isPlane = view.mode === "plane";
             bar.hidden = !isPlane;
-            sheet.hidden = isPlane;
+            sheet.hidden = isPlane || view.isMagnified;
             toggle.hidden = !isPlane;
             if (!isPlane) {
                 sheet.textContent = sheetOf(store.work.draw).name;

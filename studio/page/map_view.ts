@@ -3,7 +3,7 @@
 import { cameraWith, fitting, limited, panned, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { decimalsOf } from "./camera";
-import { exactText, readExact } from "./decimal";
+import { exactOf, exactText, readExact } from "./decimal";
 import { eased, flight, followed, rung, type Zoom } from "./flight";
 import { bitmapOf, isAbort, TileLoader, type Bitmap, type Subject } from "./pictures";
 import type { Opened, Pixels } from "./protocol";
@@ -46,7 +46,12 @@ export class MapView {
     private overview: Overview | null = null;
     private refused = ""; // what cannot be drawn
     private asked = ""; // the overview that is being made
+    private count = 0; // of overviews asked for
+    private shown = 0; // number of the one that is shown
+    private readonly busy = [0, 0]; // requests for overviews
     private quality = 1; // of overviews while a slider moves
+    private fineTime = 0; // milliseconds that the last one at full quality took
+    private isCoarseQuicker = true;
     private changed = -1e9; // time of the last change of the work
     private moved = -1e9; // time of the last motion
     private entered = -1e9; // time the plane was entered
@@ -146,10 +151,25 @@ export class MapView {
         return !!facts?.extent && !facts.is_spatial;
     }
 
+    /// True if the view shows no place where the drawing can be.
+    get isElsewhere(): boolean {
+        const extent = this.known?.extent?.map(readExact);
+        if (this.mode !== "plane" || !extent) return false;
+        const [x0, y0, x1, y1] = extent;
+        if (x0 == null || y0 == null || x1 == null || y1 == null) return false;
+        const low = pointAt(this.camera, this.size, 0, this.size.height);
+        const high = pointAt(this.camera, this.size, this.size.width, 0);
+        const pen = exactOf(1); // lines are wider than their positions
+        return high.x < x0 - pen || low.x > x1 + pen || high.y < y0 - pen || low.y > y1 + pen;
+    }
+
     private get isTiled(): boolean {
         const facts = this.known;
         return !!facts?.has_view && !isComposed(facts, this.work.draw);
     }
+
+    /// True if less than the whole page is seen.
+    get isMagnified(): boolean { return this.mode === "page" && this.loupe.zoom > 1; }
 
     get isMoving(): boolean {
         return this.zoom !== null || this.journey !== null;
@@ -211,12 +231,12 @@ export class MapView {
         this.journey = null;
     }
 
-    // Leaves the page for the plane; false where there is none.
-    private enter(): boolean {
+    // Leaves the page for the plane; false where there is none, or where it does not lie as the page does.
+    private enter(mayJump = false): boolean {
         if (this.mode === "plane") return true;
         const facts = this.known;
         if (!facts?.extent || !this.hasPlane) return false;
-        const camera = this.pageCamera ?? fitting(facts.extent, this.size, 48);
+        const camera = this.pageCamera ?? (mayJump ? fitting(facts.extent, this.size, 48) : null);
         if (!camera) return false;
         this.camera = camera;
         this.mode = "plane";
@@ -291,12 +311,12 @@ export class MapView {
     showDrawing(): void {
         const extent = this.known?.extent;
         const to = extent && fitting(extent, this.size, Math.min(this.size.width, this.size.height) < 480 ? 24 : 56);
-        if (to && this.enter()) this.travel(to);
+        if (to && this.enter(true)) this.travel(to);
     }
 
     /// Goes to a camera; motion takes longer the farther it is.
     travel(to: Camera, then: () => void = () => {}, milliseconds?: number): void {
-        if (!this.enter()) return;
+        if (!this.enter(true)) return;
         this.stop();
         const octaves = Math.abs(Math.log2(to.scale / this.camera.scale));
         const time = milliseconds ?? Math.min(2400, 280 + 60 * octaves);
@@ -395,16 +415,20 @@ export class MapView {
     ): Promise<void> {
         if (what === this.asked || what === this.refused) return;
         this.asked = what;
+        const number = ++this.count;
         const start = performance.now();
         try {
-            const answer = await this.studio.engine.request<Pixels>(request, { key: "map", lane: "front" });
+            const answer = await this.requestOverview<Pixels>(request);
             const overview = made(await bitmapOf(answer));
-            this.note(performance.now() - start);
+            if (number < this.shown) return overview.bitmap.close(); // a later one was quicker
+            this.shown = number;
+            this.note(performance.now() - start, overview.ratio / Math.min(1, this.ratio));
             if (this.asked === what) this.asked = "";
             if (overview.kind !== this.mode && this.overview) return overview.bitmap.close();
             this.overview?.bitmap.close();
             this.overview = overview;
-            this.setProblem("");
+            const warnings = overview.kind === "page" ? answer.json.remarks.filter((remark) => remark.is_warning) : [];
+            this.setProblem(warnings.map(({ text }) => text).join("\n"));
             this.draw();
             this.rest();
         } catch (error) {
@@ -416,15 +440,39 @@ export class MapView {
         }
     }
 
+    // With workers to spare, two pictures are made at a time while a slider moves.
+    private async requestOverview<Json>(request: Parameters<Studio["engine"]["request"]>[0]) {
+        const slots = this.studio.engine.workers >= 4 ? 2 : 1;
+        const slot = slots > 1 && this.busy[0]! > this.busy[1]! ? 1 : 0;
+        ++this.busy[slot]!;
+        try {
+            return await this.studio.engine.request<Json>(request, { key: `map-${slot}`, lane: "front" });
+        } finally {
+            --this.busy[slot]!;
+        }
+    }
+
     private setProblem(text: string): void {
         this.problem = text;
         this.onChange();
     }
 
-    // How good pictures may be while a slider moves.
-    private note(milliseconds: number): void {
-        if (milliseconds > slowPicture) this.quality = Math.max(0.5, this.quality * 0.8);
-        else if (milliseconds < slowPicture / 2) this.quality = Math.min(1, this.quality * 1.15);
+    // How good pictures may be while a slider moves: coarser ones, if they are slow and coarser ones are quicker.
+    private note(milliseconds: number, quality: number): void {
+        if (quality >= 1) {
+            const isNew = milliseconds > 2 * this.fineTime || milliseconds < this.fineTime / 2;
+            if (isNew) this.isCoarseQuicker = true;
+            this.fineTime = milliseconds;
+        } else if (milliseconds > 0.75 * this.fineTime) {
+            this.isCoarseQuicker = false;
+        }
+        this.quality = milliseconds < slowPicture || !this.isCoarseQuicker ? 1 : 0.5;
+    }
+
+    // For tests.
+    private tell({ name, ratio }: Overview): void {
+        const text = `${name} at ${ratio}`;
+        if (this.canvas.dataset["shows"] !== text) this.canvas.dataset["shows"] = text;
     }
 
     private groundOf(work: Work): string {
@@ -488,6 +536,7 @@ export class MapView {
         context.clearRect(0, 0, canvas.width, canvas.height);
         const { overview } = this;
         if (!overview) return;
+        this.tell(overview);
         if (this.mode === "page" && overview.kind === "page") this.paintPage(overview);
         else this.paintPlane(overview, now);
     }

@@ -1,12 +1,21 @@
 // Numbers as people read them.
 
+// Digits as superscripts.
+function raised(exponent: number | string): string {
+    return [...String(exponent)].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("");
+}
+
 /// "3,239", "1.2 million", or what the libraries say: "about 10^24081".
 export function count(text: string): string {
-    if (!/^\d+$/.test(text)) return text;
-    if (text.length > 15) return `about 10^${text.length - 1}`;
+    if (!/^\d+$/.test(text)) return text.replace(/\^(\d+)/g, (_, exponent: string) => raised(exponent));
+    if (text.length > 15) return `about 10${raised(text.length - 1)}`;
     const number = Number(text);
     if (number < 1e6) return number.toLocaleString("en");
-    const units: [number, string][] = [[1e12, "trillion"], [1e9, "billion"], [1e6, "million"]];
+    const units: [number, string][] = [
+        [1e12, "trillion"],
+        [1e9, "billion"],
+        [1e6, "million"],
+    ];
     const [size, unit] = units.find(([each]) => number >= each)!;
     return `${(number / size).toPrecision(3)} ${unit}`;
 }
@@ -19,8 +28,10 @@ export function counted(text: string, noun: string): string {
 /// The length of a range of decimal texts of any length, for reading.
 export function span(from: string, to: string): string {
     const size = Math.abs(Number(to) - Number(from));
-    if (!Number.isFinite(size)) return `10^${Math.max(from.replace("-", "").length, to.replace("-", "").length) - 1}`;
-    if (size >= 1e9) return size.toExponential(2).replace(/e\+?/, " × 10^");
+    if (!Number.isFinite(size))
+        return `10${raised(Math.max(from.replace("-", "").length, to.replace("-", "").length) - 1)}`;
+    if (size >= 1e9)
+        return size.toExponential(2).replace(/e\+?(\d+)/, (_, exponent: string) => ` × 10${raised(exponent)}`);
     return size.toLocaleString("en", { maximumSignificantDigits: 6 });
 }
 

@@ -12,7 +12,9 @@ const largest_file = 64 * 1024 * 1024;
 /// Lets the user choose a file.
 export function askForFile(studio: Studio): void {
     const input = element("input", { type: "file", hidden: true });
-    input.addEventListener("change", () => { if (input.files?.[0]) void openFile(studio, input.files[0], [...input.files]); });
+    input.addEventListener("change", () => {
+        if (input.files?.[0]) void openFile(studio, input.files[0], [...input.files]);
+    });
     document.body.append(input);
     input.click();
     input.remove();
@@ -48,16 +50,23 @@ async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promi
 
 async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
     const { json } = await studio.engine.request<Shown>({ do: "show", name }, { bytes });
-    const pattern = { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, variant: json.variant, settings: json.settings };
+    const pattern = {
+        name: name.replace(/\.\w+$/, ".lsys"),
+        text: json.text,
+        variant: json.variant,
+        settings: json.settings,
+    };
     openPattern(studio, pattern);
 }
 
 async function openCollection(studio: Studio, name: string, bytes: Uint8Array, all: File[]): Promise<void> {
     const view = all.find((each) => /\.v$/i.test(each.name));
     const { json } = await studio.engine.request<Imported>(
-        { do: "import", name, ...(view ? { view: await view.text() } : {}) }, { bytes });
-    const open = (system: Imported["systems"][number]) => openPattern(
-        studio, { name: `${system.name}.lsys`, text: system.text, variant: "", settings: [] });
+        { do: "import", name, ...(view ? { view: await view.text() } : {}) },
+        { bytes },
+    );
+    const open = (system: Imported["systems"][number]) =>
+        openPattern(studio, { name: `${system.name}.lsys`, text: system.text, variant: "", settings: [] });
     const [only] = json.systems;
     if (!only) {
         studio.say(`${name} contains no L-system. ${json.diagnostics[0]?.message ?? ""}`, "error");
@@ -84,8 +93,11 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
 
 /// Files can be dropped anywhere on the page.
 export function acceptDrops(studio: Studio): void {
-    const veil = element("div", { class: "drop-veil", hidden: true, "aria-hidden": "true" },
-        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, or a print made by Sikku"));
+    const veil = element(
+        "div",
+        { class: "drop-veil", hidden: true, "aria-hidden": "true" },
+        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, or a print made by Sikku"),
+    );
     document.body.append(veil);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
     addEventListener("dragover", (event) => {
@@ -93,15 +105,21 @@ export function acceptDrops(studio: Studio): void {
         event.preventDefault();
         veil.hidden = false;
     });
-    addEventListener("dragleave", (event) => { if (!event.relatedTarget) veil.hidden = true; });
-    addEventListener("drop", (event) => {
-        if (!hasFiles(event)) return;
-        event.preventDefault();
-        event.stopPropagation();
-        veil.hidden = true;
-        const files = [...event.dataTransfer!.files];
-        const first = files.find((file) => !/\.v$/i.test(file.name)) ?? files[0];
-        if (first) void openFile(studio, first, files);
-        byId("stage").focus();
-    }, { capture: true });
+    addEventListener("dragleave", (event) => {
+        if (!event.relatedTarget) veil.hidden = true;
+    });
+    addEventListener(
+        "drop",
+        (event) => {
+            if (!hasFiles(event)) return;
+            event.preventDefault();
+            event.stopPropagation();
+            veil.hidden = true;
+            const files = [...event.dataTransfer!.files];
+            const first = files.find((file) => !/\.v$/i.test(file.name)) ?? files[0];
+            if (first) void openFile(studio, first, files);
+            byId("stage").focus();
+        },
+        { capture: true },
+    );
 }

@@ -1,8 +1,11 @@
 // Opening a pattern in the place of the present one, which stays in the history.
 import type { Studio, Work } from "./context";
 import { titleOf } from "./pattern_text";
+import type { PatternRequest } from "./protocol";
 
-export function openPattern(studio: Studio, pattern: Work["pattern"], panel = "map", more: Partial<Work> = {}): void {
+export function openPattern(studio: Studio, opened: PatternRequest, panel = "map", more: Partial<Work> = {}): void {
+    const { name, text, variant = "", settings = [] } = opened;
+    const pattern = { name, text, variant, settings };
     studio.store.change({ pattern, draw: [], play: [], place: null, locked: [], ...more });
     studio.store.change({ panel });
     studio.say(`Opened ${titleOf(pattern)}. Undo returns to the pattern before.`);

@@ -7,17 +7,19 @@ import type { OptionHelp, Options } from "./protocol";
 const elsewhere = new Set(["fit", "steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help"]);
 const page_sizes = ["A0", "A1", "A2", "A3", "A4", "A5", "A6", "letter", "legal", "tabloid"];
 
-export interface OptionAct { (name: string, value: string | null): void }
+export interface OptionAct {
+    (name: string, value: string | null): void;
+}
 
 let last = 0;
 
 export function offered(options: OptionHelp[]): OptionHelp[] {
-    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // style is the pattern's
+    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // style is in the text
 }
 
 // The help ends in the default: `page size (A4)`.
 function defaultOf(option: OptionHelp): string {
-    return option.value.includes(",") ? "" : /\(([^()]+)\)$/.exec(option.help)?.[1] ?? "";
+    return option.value.includes(",") ? "" : (/\(([^()]+)\)$/.exec(option.help)?.[1] ?? "");
 }
 
 // Values that are listed: `grbl|z`.
@@ -36,11 +38,16 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
         const on = onlyValue || "true";
         const box = element("input", { type: "checkbox", id, "aria-describedby": help.id });
         box.checked = value === undefined ? option.is_on : value !== "false";
-        box.addEventListener("change", () => act(option.name, box.checked === option.is_on ? null : box.checked ? on : "false"));
+        box.addEventListener("change", () =>
+            act(option.name, box.checked === option.is_on ? null : box.checked ? on : "false"),
+        );
         const row = element("div", { class: "field" }, element("label", { class: "switch", for: id }, box, name), help);
         if (!option.value.startsWith("[")) return row;
         const detail = element("input", {
-            type: "text", "aria-label": `${name}, value`, placeholder: option.value.slice(1, -1).toLowerCase(), spellcheck: "false",
+            type: "text",
+            "aria-label": `${name}, value`,
+            placeholder: option.value.slice(1, -1).toLowerCase(),
+            spellcheck: "false",
             value: value === undefined || value === "true" ? "" : value,
         });
         detail.addEventListener("change", () => {
@@ -51,19 +58,31 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
         return row;
     }
     const choices = choicesOf(option);
-    const input = choices.length > 0
-        ? element("select", { id, "aria-describedby": help.id },
-            ...["", ...choices].map((each) => element("option", { value: each }, each || defaultOf(option) || "as usual")))
-        : element("input", {
-            type: "text", id, placeholder: defaultOf(option), spellcheck: "false",
-            inputmode: option.kind === "text" ? null : "decimal", "aria-describedby": help.id,
-        });
+    const input =
+        choices.length > 0
+            ? element(
+                  "select",
+                  { id, "aria-describedby": help.id },
+                  ...["", ...choices].map((each) =>
+                      element("option", { value: each }, each || defaultOf(option) || "as usual"),
+                  ),
+              )
+            : element("input", {
+                  type: "text",
+                  id,
+                  placeholder: defaultOf(option),
+                  spellcheck: "false",
+                  inputmode: option.kind === "text" ? null : "decimal",
+                  "aria-describedby": help.id,
+              });
     input.value = value ?? "";
     input.addEventListener("change", () => act(option.name, input.value.trim() || null));
     const field = element("div", { class: "field" }, element("label", { for: id }, name), input, help);
     if (option.name === "size") {
         input.setAttribute("list", `${id}-list`);
-        field.append(element("datalist", { id: `${id}-list` }, ...page_sizes.map((each) => element("option", { value: each }))));
+        field.append(
+            element("datalist", { id: `${id}-list` }, ...page_sizes.map((each) => element("option", { value: each }))),
+        );
     }
     return field;
 }
@@ -76,10 +95,15 @@ export function optionGroups(options: OptionHelp[], values: Options, act: Option
         groups.set(group, [...(groups.get(group) ?? []), option]);
     }
     return [...groups].map(([group, members]) => {
-        const fields = members.map((option) => optionField(option, values.find(([name]) => name === option.name)?.[1], act));
+        const fields = members.map((option) =>
+            optionField(option, values.find(([name]) => name === option.name)?.[1], act),
+        );
         const set = members.filter((option) => values.some(([name]) => name === option.name)).length;
-        return element("details", { class: "group", "data-group": group },
+        return element(
+            "details",
+            { class: "group", "data-group": group },
             element("summary", {}, capital(group) + (set > 0 ? ` (${set} set)` : "")),
-            element("div", { class: "fields" }, ...fields));
+            element("div", { class: "fields" }, ...fields),
+        );
     });
 }

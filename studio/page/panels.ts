@@ -7,7 +7,10 @@ export class Panels {
     private readonly panels: Panel[] = [];
     private shown: Panel | null = null;
 
-    constructor(private readonly studio: Studio, makers: MakePanel[]) {
+    constructor(
+        private readonly studio: Studio,
+        makers: MakePanel[],
+    ) {
         for (const make of makers) {
             try {
                 this.add(make(studio));
@@ -26,10 +29,20 @@ export class Panels {
         panel.element.setAttribute("role", "tabpanel");
         panel.element.setAttribute("aria-labelledby", `tab-${panel.name}`);
         panel.element.hidden = true;
-        const tab = element("button", {
-            type: "button", class: "tab", role: "tab", id: `tab-${panel.name}`, "aria-selected": "false",
-            "aria-controls": panel.element.id, tabindex: -1,
-        }, panel.label);
+        panel.element.prepend(element("h2", { class: "unseen" }, panel.label));
+        const tab = element(
+            "button",
+            {
+                type: "button",
+                class: "tab",
+                role: "tab",
+                id: `tab-${panel.name}`,
+                "aria-selected": "false",
+                "aria-controls": panel.element.id,
+                tabindex: -1,
+            },
+            panel.label,
+        );
         tab.addEventListener("click", () => this.studio.store.change({ panel: panel.name }));
         tab.addEventListener("keydown", (event) => this.move(event, panel));
         byId("tabs").append(tab);
@@ -37,7 +50,9 @@ export class Panels {
         this.panels.push(panel);
     }
 
-    private tab(panel: Panel): HTMLElement { return byId(`tab-${panel.name}`); }
+    private tab(panel: Panel): HTMLElement {
+        return byId(`tab-${panel.name}`);
+    }
 
     private choose(name: string): void {
         const panel = this.panels.find((each) => each.name === name) ?? this.panels[0];
@@ -60,7 +75,9 @@ export class Panels {
     private move(event: KeyboardEvent, panel: Panel): void {
         const at = this.panels.indexOf(panel);
         const count = this.panels.length;
-        const to = { ArrowRight: (at + 1) % count, ArrowLeft: (at + count - 1) % count, Home: 0, End: count - 1 }[event.key];
+        const to = { ArrowRight: (at + 1) % count, ArrowLeft: (at + count - 1) % count, Home: 0, End: count - 1 }[
+            event.key
+        ];
         if (to === undefined) return;
         event.preventDefault();
         const next = this.panels[to]!;

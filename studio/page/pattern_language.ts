@@ -3,7 +3,11 @@ import { HighlightStyle, StreamLanguage, type StreamParser, type StringStream } 
 import { Tag, tags } from "@lezer/highlight";
 
 const parts = {
-    patternKey: Tag.define(), draw: Tag.define(), turn: Tag.define(), branch: Tag.define(), arrow: Tag.define(),
+    patternKey: Tag.define(),
+    draw: Tag.define(),
+    turn: Tag.define(),
+    branch: Tag.define(),
+    arrow: Tag.define(),
     word: Tag.define(),
 };
 
@@ -83,7 +87,10 @@ const parser: StreamParser<State> = {
         if (state.kind === "word" || state.kind === "production") return readSymbol(stream, state);
         return readValue(stream);
     },
-    languageData: { commentTokens: { line: "//", block: { open: "/*", close: "*/" } }, closeBrackets: { brackets: ["(", "["] } },
+    languageData: {
+        commentTokens: { line: "//", block: { open: "/*", close: "*/" } },
+        closeBrackets: { brackets: ["(", "["] },
+    },
     tokenTable: { ...parts, comment: tags.comment, number: tags.number },
 };
 

@@ -21,7 +21,9 @@ export function valueInText(pattern: PatternRequest, name: string): string | nul
             if (value !== null) return value;
         }
     }
-    const key = new RegExp(`^\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)(.*)$`, "mu").exec(pattern.text);
+    const key = new RegExp(`^\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)(.*)$`, "mu").exec(
+        pattern.text,
+    );
     return key ? key[1]!.trim() : null;
 }
 

@@ -6,6 +6,7 @@ import { offered, optionField } from "./option_fields";
 import { CurveView } from "./play/curve_view";
 import { makeMidiMenu } from "./play/midi_menu";
 import { Player } from "./play/player";
+import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
 import { VoiceList } from "./play/voice_list";
 import type { Made, Notes, Opened, Options } from "./protocol";
@@ -15,16 +16,38 @@ import { NoteOrigins } from "./sound/origins";
 import type { Loop } from "./sound/transport";
 
 const icons = {
-    play: "M5 3v10l8-5z", pause: "M5 3.5v9M11 3.5v9", stop: "M4 4h8v8H4z",
+    play: "M5 3v10l8-5z",
+    pause: "M5 3.5v9M11 3.5v9",
+    stop: "M4 4h8v8H4z",
     loop: "M3 8V7a3 3 0 0 1 3-3h6.5M10.5 2l2 2-2 2M13 8v1a3 3 0 0 1-3 3H3.5M5.5 14l-2-2 2-2",
-    closer: "M7 3v8M3 7h8M14 14l-3.5-3.5", wider: "M3 7h8M14 14l-3.5-3.5", save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
+    closer: "M7 3v8M3 7h8M14 14l-3.5-3.5",
+    wider: "M3 7h8M14 14l-3.5-3.5",
+    save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
+const half_frame = 0.008; // seconds
 /// Options that change how the curve is read.
-const reading = ["scale", "tonic", "instrument", "unit", "meter", "mapping", "vertical", "runs", "velocity", "range", "transpose", "bars"];
+const reading = [
+    "scale",
+    "tonic",
+    "instrument",
+    "unit",
+    "meter",
+    "mapping",
+    "vertical",
+    "runs",
+    "velocity",
+    "range",
+    "transpose",
+    "bars",
+];
 
 function timeText(seconds: number): string {
     const whole = Math.max(0, Math.round(seconds));
-    return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+    const minutes = Math.floor(whole / 60);
+    const rest = String(whole % 60).padStart(2, "0");
+    return minutes < 60
+        ? `${minutes}:${rest}`
+        : `${Math.floor(minutes / 60)}:${String(minutes % 60).padStart(2, "0")}:${rest}`;
 }
 
 class PlayPanel implements Panel {
@@ -40,27 +63,72 @@ class PlayPanel implements Panel {
     private isShown = false;
     private isStale = true; // the melody belongs to an older work
     private loaded = ""; // what it was made from
+    private heardName = ""; // of the pattern whose melody is shown
+    private playsMoves = ""; // the name of the pattern whose moves are played as if they were drawn
     private frame = 0;
     private litNote = -1;
     private isLooping = false;
     private loopBars: [number, number] = [1, 4];
 
-    private readonly playButton = button("Play", () => void this.player.toggle(), { kind: "primary play-main", icon: icons.play });
-    private readonly stopButton = button("Stop, and go to the beginning", () => this.player.stop(), { icon: icons.stop });
+    private readonly playButton = button("Play", () => void this.player.toggle(), {
+        kind: "primary play-main",
+        icon: icons.play,
+    });
+    private readonly stopButton = button("Stop, and go to the beginning", () => this.player.stop(), {
+        icon: icons.stop,
+    });
     private readonly loopButton = button("Loop", () => this.setLooping(!this.isLooping), { icon: icons.loop });
-    private readonly loopFrom = element("input", { type: "number", min: 1, "aria-label": "Loop from bar", class: "play-bar-number number" });
-    private readonly loopTo = element("input", { type: "number", min: 1, "aria-label": "Loop to bar", class: "play-bar-number number" });
-    private readonly loopRange = element("span", { class: "play-loop", hidden: true }, "bars ", this.loopFrom, " to ", this.loopTo);
+    private readonly loopFrom = element("input", {
+        type: "number",
+        min: 1,
+        "aria-label": "Loop from bar",
+        class: "play-bar-number number",
+    });
+    private readonly loopTo = element("input", {
+        type: "number",
+        min: 1,
+        "aria-label": "Loop to bar",
+        class: "play-bar-number number",
+    });
+    private readonly loopRange = element(
+        "span",
+        { class: "play-loop", hidden: true },
+        "bars ",
+        this.loopFrom,
+        " to ",
+        this.loopTo,
+    );
     private readonly placeLine = element("p", { class: "play-place" });
     private readonly timeLine = element("p", { class: "play-time number" });
-    private readonly position = element("input", { type: "range", class: "play-position", min: 0, max: 1, step: 1, value: 0, "aria-label": "Position" });
+    private readonly position = element("input", {
+        type: "range",
+        class: "play-position",
+        min: 0,
+        max: 1,
+        step: 1,
+        value: 0,
+        "aria-label": "Position",
+    });
     private readonly tempo = element("input", { type: "range", id: "play-tempo", min: 20, max: 300, step: 1 });
-    private readonly tempoField = element("input", { type: "text", inputmode: "numeric", "aria-label": "Tempo, quarters a minute", class: "number" });
+    private readonly tempoField = element("input", {
+        type: "text",
+        inputmode: "numeric",
+        "aria-label": "Tempo, quarters a minute",
+        class: "number",
+    });
     private readonly volume = element("input", { type: "range", id: "play-volume", min: 0, max: 100, step: 1 });
     private readonly hover = element("p", { class: "play-hover", "aria-hidden": "true" });
-    private readonly problem = element("p", { class: "note error play-problem", role: "alert", hidden: true });
-    private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img", "aria-label": "The curve as it sounds" });
-    private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img", "aria-label": "Piano roll" });
+    private readonly problem = element("div", { class: "note error play-problem", role: "alert", hidden: true });
+    private readonly curveCanvas = element("canvas", {
+        class: "play-curve-canvas",
+        role: "img",
+        "aria-label": "The curve as it sounds",
+    });
+    private readonly rollCanvas = element("canvas", {
+        class: "play-roll-canvas",
+        role: "img",
+        "aria-label": "Piano roll",
+    });
     private readonly facts = element("p", { class: "play-facts" });
     private readonly reading = element("div", { class: "play-reading" });
 
@@ -83,31 +151,59 @@ class PlayPanel implements Panel {
     }
 
     private build(): void {
-        const transport = element("div", { class: "play-transport" },
-            this.playButton, this.stopButton, this.loopButton, this.loopRange,
-            element("div", { class: "play-where" }, this.placeLine, this.timeLine));
-        const tempo = element("div", { class: "slider play-tempo" },
-            element("label", { for: "play-tempo" }, "Tempo"), this.tempo, this.tempoField);
-        const volume = element("div", { class: "slider play-volume" },
-            element("label", { for: "play-volume" }, "Volume"), this.volume);
-        const zoom = element("div", { class: "play-zoom" },
+        const transport = element(
+            "div",
+            { class: "play-transport" },
+            this.playButton,
+            this.stopButton,
+            this.loopButton,
+            this.loopRange,
+            element("div", { class: "play-where" }, this.placeLine, this.timeLine),
+        );
+        const tempo = element(
+            "div",
+            { class: "slider play-tempo" },
+            element("label", { for: "play-tempo" }, "Tempo"),
+            this.tempo,
+            this.tempoField,
+        );
+        const volume = element(
+            "div",
+            { class: "slider play-volume" },
+            element("label", { for: "play-volume" }, "Volume"),
+            this.volume,
+        );
+        const zoom = element(
+            "div",
+            { class: "play-zoom" },
             button("See more bars", () => this.roll.zoom(1 / 1.5), { kind: "quiet", icon: icons.wider }),
-            button("See fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }));
+            button("See fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }),
+        );
         const save = button("Save as MIDI", () => void this.saveMidi(), { icon: icons.save, shows: true });
-        const side = element("aside", { class: "play-side", "aria-label": "Voices and settings" },
+        const side = element(
+            "aside",
+            { class: "play-side", "aria-label": "Voices and settings" },
             this.voices.element,
             element("details", { class: "group" }, element("summary", {}, "How the curve becomes music"), this.reading),
             element("details", { class: "group" }, element("summary", {}, "MIDI out"), makeMidiMenu(this.player)),
-            element("div", { class: "play-section" }, save, this.facts));
+            element("div", { class: "play-section" }, save, this.facts),
+        );
         this.element.append(
             element("div", { class: "play-head" }, transport, element("div", { class: "play-levels" }, tempo, volume)),
             this.problem,
-            element("div", { class: "play-body" },
-                element("div", { class: "play-views" },
+            element(
+                "div",
+                { class: "play-body" },
+                element(
+                    "div",
+                    { class: "play-views" },
                     element("div", { class: "play-curve" }, this.curveCanvas, this.hover),
                     element("div", { class: "play-roll" }, this.rollCanvas, zoom),
-                    this.position),
-                side));
+                    this.position,
+                ),
+                side,
+            ),
+        );
     }
 
     private listen(): void {
@@ -172,9 +268,24 @@ class PlayPanel implements Panel {
     }
 
     private press(event: KeyboardEvent): void {
-        if (!this.isShown || event.key !== " " || event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
+        if (
+            !this.isShown
+            || event.key !== " "
+            || event.defaultPrevented
+            || event.ctrlKey
+            || event.metaKey
+            || event.altKey
+        )
+            return;
         const target = event.target instanceof HTMLElement ? event.target : null;
-        if (target && (target.isContentEditable || target.closest("button, a, select, summary, textarea, dialog, [role='tab'], input:not([type='range'])"))) return;
+        if (
+            target
+            && (target.isContentEditable
+                || target.closest(
+                    "button, a, select, summary, textarea, dialog, [role='tab'], input:not([type='range'])",
+                ))
+        )
+            return;
         event.preventDefault();
         void this.player.toggle();
     }
@@ -190,7 +301,8 @@ class PlayPanel implements Panel {
         // The tempo changes no note.
         const isTimed = work.play.some(([name]) => name === "seconds");
         const options: Options = isTimed ? work.play : work.play.filter(([name]) => name !== "tempo");
-        const what = JSON.stringify([work.pattern, options]);
+        const pattern = this.played(work);
+        const what = JSON.stringify([pattern, options]);
         if (what === this.loaded) {
             this.isStale = false;
             return;
@@ -198,7 +310,9 @@ class PlayPanel implements Panel {
         this.element.setAttribute("aria-busy", "true");
         try {
             const { json, bytes } = await this.studio.engine.request<Notes>(
-                { do: "notes", options, pattern: work.pattern }, { key: "notes" });
+                { do: "notes", options, pattern },
+                { key: "notes" },
+            );
             this.loaded = what;
             this.isStale = false;
             this.problem.hidden = true;
@@ -207,15 +321,39 @@ class PlayPanel implements Panel {
             if (!(error instanceof RequestFailed)) return; // replaced by a later one
             this.loaded = what;
             this.isStale = false;
-            this.problem.textContent = error.message;
-            this.problem.hidden = false;
+            this.showProblem(error.message, facts, work);
         } finally {
             this.element.removeAttribute("aria-busy");
         }
     }
 
+    /// The pattern whose melody is heard.
+    private played(work: Work): Work["pattern"] {
+        return (this.playsMoves === work.pattern.name && withMovesDrawn(work.pattern)) || work.pattern;
+    }
+
+    private showProblem(message: string, facts: Opened, work: Work): void {
+        const remedies = remediesFor(message, work.pattern, work.play).map(({ label, options, pattern }) =>
+            button(label, () => {
+                if (options) {
+                    this.studio.store.change({ play: options });
+                } else if (pattern) {
+                    this.playsMoves = work.pattern.name;
+                    void this.load(facts, work);
+                }
+            }),
+        );
+        this.problem.replaceChildren(
+            element("p", {}, sentence(message)),
+            element("div", { class: "toolbar" }, ...remedies),
+        );
+        this.problem.hidden = false;
+    }
+
     private showMelody(melody: Melody, facts: Opened, work: Work): void {
-        this.origins.reset(melody, work.pattern);
+        if (work.pattern.name !== this.heardName && !this.player.transport.playing) this.player.transport.seek(0);
+        this.heardName = work.pattern.name;
+        this.origins.reset(melody, this.played(work));
         this.player.setMelody(melody);
         this.curve.show(melody);
         this.roll.show(melody);
@@ -225,13 +363,18 @@ class PlayPanel implements Panel {
         this.position.max = String(Math.max(1, Math.ceil(melody.end / melody.beat)));
         this.loopFrom.max = this.loopTo.max = String(bars);
         const scales = [...new Set(melody.parts.map((part) => part.scale))].join("; ");
-        const range = melody.count > 0 ? `, ${keyName(Math.round(melody.lowest))} to ${keyName(Math.round(melody.highest))}` : "";
-        this.facts.textContent = `${melody.count.toLocaleString("en")} ${melody.count === 1 ? "note" : "notes"} in ${
-            bars.toLocaleString("en")} ${bars === 1 ? "bar" : "bars"}${range}. ${scales}.`;
+        const range =
+            melody.count > 0 ? `, ${keyName(Math.round(melody.lowest))} to ${keyName(Math.round(melody.highest))}` : "";
+        this.facts.textContent = `${melody.count.toLocaleString("en")} ${melody.count === 1 ? "note" : "notes"} in ${bars.toLocaleString(
+            "en",
+        )} ${bars === 1 ? "bar" : "bars"}${range}. ${scales}.`;
         this.applyTempo();
         this.applyLoop();
         this.showReading();
-        this.curveCanvas.setAttribute("aria-label", `The curve of ${facts.title || "the pattern"} as it sounds: ${this.facts.textContent}`);
+        this.curveCanvas.setAttribute(
+            "aria-label",
+            `The curve of ${facts.title || "the pattern"} as it sounds: ${this.facts.textContent}`,
+        );
         this.rollCanvas.setAttribute("aria-label", `Piano roll: ${this.facts.textContent}`);
         this.update();
     }
@@ -241,10 +384,12 @@ class PlayPanel implements Panel {
         const { help, store } = this.studio;
         if (this.reading.contains(document.activeElement)) return;
         const rows = reading.flatMap((name) => offered(help.play.options).filter((option) => option.name === name));
-        this.reading.replaceChildren(...rows.map((option) => {
-            const value = store.work.play.find(([name]) => name === option.name)?.[1];
-            return optionField(option, value, (name, text) => this.setOption(name, text));
-        }));
+        this.reading.replaceChildren(
+            ...rows.map((option) => {
+                const value = store.work.play.find(([name]) => name === option.name)?.[1];
+                return optionField(option, value, (name, text) => this.setOption(name, text));
+            }),
+        );
     }
 
     private setOption(name: string, value: string | null, merge?: string): void {
@@ -266,7 +411,7 @@ class PlayPanel implements Panel {
 
     private applyTempo(): void {
         const chosen = Number(this.studio.store.work.play.find(([name]) => name === "tempo")?.[1]);
-        const tempo = chosen > 0 ? chosen : this.player.melody?.tempo ?? 120;
+        const tempo = chosen > 0 ? chosen : (this.player.melody?.tempo ?? 120);
         this.player.transport.setTempo(tempo);
         this.tempo.valueAsNumber = tempo;
         this.tempo.style.setProperty("--at", `${((Math.min(300, Math.max(20, tempo)) - 20) / 280) * 100}%`);
@@ -299,8 +444,10 @@ class PlayPanel implements Panel {
     private applyLoop(): void {
         const { melody, transport } = this.player;
         const [from, to] = this.loopBars;
-        const loop = this.isLooping && melody
-            ? { from: (from - 1) * melody.bar, to: Math.min(to * melody.bar, melody.end) } : null;
+        const loop =
+            this.isLooping && melody
+                ? { from: (from - 1) * melody.bar, to: Math.min(to * melody.bar, melody.end) }
+                : null;
         transport.setLoop(loop);
         this.roll.setLoop(loop);
         this.loopButton.setAttribute("aria-pressed", String(this.isLooping));
@@ -321,7 +468,9 @@ class PlayPanel implements Panel {
         const { work } = this.studio.store;
         try {
             const { json, bytes } = await this.studio.engine.request<Made>(
-                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: work.pattern }, { key: "midi file" });
+                { do: "make", interpreter: "play", format: "mid", options: work.play, pattern: this.played(work) },
+                { key: "midi file" },
+            );
             const name = `${work.pattern.name.replace(/\.[^.]*$/, "") || "melody"}.mid`;
             this.studio.save(name, bytes, "audio/midi");
             const warning = json.remarks.find((remark) => remark.is_warning);
@@ -345,7 +494,8 @@ class PlayPanel implements Panel {
         this.playButton.replaceChildren(icon(isActive ? icons.pause : icons.play));
         this.playButton.setAttribute("aria-label", isActive ? "Pause" : "Play");
         this.playButton.title = `${isActive ? "Pause" : "Play"} (space)`;
-        for (const each of [this.playButton, this.stopButton, this.loopButton]) each.disabled = !melody || melody.count === 0;
+        for (const each of [this.playButton, this.stopButton, this.loopButton])
+            each.disabled = !melody || melody.count === 0;
         this.voices.update();
         const muted = (voice: number) => !this.player.isHeard(voice);
         const state = this.player.voices.map((_, voice) => muted(voice)).join();
@@ -401,7 +551,10 @@ class PlayPanel implements Panel {
     }
 
     /// Marks in the editor where the note that has just begun comes from.
-    private light(melody: Melody, tick: number): void {
+    private light(melody: Melody, heard: number): void {
+        const { secondsPerTick } = this.player.transport;
+        // A note that begins before the middle of this frame's time on the screen belongs to it.
+        const tick = Math.min(heard + half_frame / secondsPerTick, melody.end);
         let note = firstFrom(melody, tick + 1e-6) - 1;
         void this.origins.lookAhead(Math.max(0, note));
         // Of notes that begin together, the first voice that is heard.
@@ -414,7 +567,7 @@ class PlayPanel implements Panel {
         this.litNote = note;
         this.studio.highlight(place);
         performance.clearMarks("note lit");
-        const late = (tick - melody.onset[note]) * this.player.transport.secondsPerTick * 1000;
+        const late = (heard - melody.onset[note]) * secondsPerTick * 1000;
         performance.mark("note lit", { detail: { note, late, line: place.line, column: place.column } });
     }
 
@@ -426,8 +579,13 @@ class PlayPanel implements Panel {
         this.roll.reset();
     }
 
-    hide(): void { this.isShown = false; }
+    hide(): void {
+        this.isShown = false;
+    }
 }
+
+const sentence = (text: string): string =>
+    `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${/[.!?`]$/.test(text) ? "" : "."}`;
 
 const memory = "sikku-volume";
 

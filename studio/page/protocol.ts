@@ -26,7 +26,7 @@ export type Request =
     | { do: "kolam"; pattern: PatternRequest }
     | { do: "check"; pattern: PatternRequest }
     | { do: "notes"; options?: Options; pattern: PatternRequest }
-    /// Where the modules of the word come from; see Origin. `symbols` are positions in the word, decimal texts.
+    /// Where the modules of the word come from; see Origin. `symbols` are positions in the word, counted from 1, decimal texts.
     | { do: "origins"; symbols: string[]; pattern: PatternRequest }
     | { do: "import"; name: string; view?: string } // with the file's bytes
     | { do: "show"; name: string } // with the file's bytes
@@ -121,9 +121,12 @@ export interface Notes {
     parts: { name: string; scale: string; program: number; voices: number }[];
 }
 
-/// The module of the text that a module of the word comes from: of each step, from the axiom down.
+/// A place of the text; line 0: none, as the text of a setting.
+export interface Place { line: number; column: number; length: number }
+
+/// The symbols of the text that a symbol of the word comes from: of the axiom, then of each production that applied.
 export interface Origin {
-    steps: { line: number; column: number; length: number; production: number }[]; // production -1: the axiom
+    steps: (Place & { production: Place | null })[]; // null: the axiom
 }
 export interface Origins { origins: Origin[] }
 

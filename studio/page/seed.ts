@@ -23,23 +23,37 @@ export function makeSeed(application: Application): { element: HTMLElement; upda
     };
 
     const field = element("input", {
-        type: "text", id: "seed", inputmode: "numeric", pattern: "[0-9]*", class: "number", autocomplete: "off",
+        type: "text",
+        id: "seed",
+        inputmode: "numeric",
+        pattern: "[0-9]*",
+        class: "number",
+        autocomplete: "off",
     });
     field.addEventListener("change", () => {
         if (/^\d+$/.test(field.value.trim())) change(field.value.trim());
         else field.value = now();
     });
-    const lock = button("Lock the seed", () => {
-        const locked = (store.work.locked ?? []).filter((each) => each !== "seed");
-        store.change({ locked: isLocked() ? locked : [...locked, "seed"] });
-    }, { kind: "quiet", icon: lock_open });
+    const lock = button(
+        "Lock the seed",
+        () => {
+            const locked = (store.work.locked ?? []).filter((each) => each !== "seed");
+            store.change({ locked: isLocked() ? locked : [...locked, "seed"] });
+        },
+        { kind: "quiet", icon: lock_open },
+    );
     const moves = [
         button("Previous seed", () => step(-1n), { icon: "M10 3 5 8l5 5" }),
         button("Next seed", () => step(1n), { icon: "M6 3l5 5-5 5" }),
         button("Throw the dice", () => change(String(Math.floor(Math.random() * largest_thrown))), { icon: dice }),
     ];
-    const row = element("div", { class: "seed-row" }, element("label", { for: "seed" }, "seed"), field,
-        element("div", { class: "toolbar" }, ...moves, lock));
+    const row = element(
+        "div",
+        { class: "seed-row" },
+        element("label", { for: "seed" }, "seed"),
+        field,
+        element("div", { class: "toolbar" }, ...moves, lock),
+    );
 
     const refresh = () => {
         const locked = isLocked();

@@ -37,7 +37,10 @@ export function openShare(application: Application): void {
 
     const make = async () => {
         try {
-            const { json } = await application.engine.request<Link>({ do: "link", shared: shared(application, box.checked) }, { key: "link" });
+            const { json } = await application.engine.request<Link>(
+                { do: "link", shared: shared(application, box.checked) },
+                { key: "link" },
+            );
             const link = `${location.href.replace(/#.*$/s, "")}#${json.link}`;
             address.value = link;
             showCode(code, facts, isServed() ? link : `#${json.link}`);
@@ -48,8 +51,20 @@ export function openShare(application: Application): void {
     box.addEventListener("change", () => void make());
     dialog.body.append(
         element("p", {}, "The link contains the pattern, its values, the view and the options. Nothing is uploaded."),
-        address, view, element("div", { class: "code-row" }, code, element("div", { class: "code-facts" }, facts, element("p", {},
-            "The program reads it, too: ", element("code", {}, "sikku draw LINK -o print.svg")))));
+        address,
+        view,
+        element(
+            "div",
+            { class: "code-row" },
+            code,
+            element(
+                "div",
+                { class: "code-facts" },
+                facts,
+                element("p", {}, "The program reads it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
+            ),
+        ),
+    );
     dialog.footer.append(copy);
     copy.focus();
     void make();
@@ -58,7 +73,8 @@ export function openShare(application: Application): void {
 async function copyText(application: Application, field: HTMLTextAreaElement): Promise<void> {
     try {
         await navigator.clipboard.writeText(field.value);
-    } catch { // a page from a file may not have a clipboard
+    } catch {
+        // a page from a file may not have a clipboard
         field.select();
         document.execCommand("copy");
     }
@@ -71,8 +87,9 @@ function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): 
         generate(text).toCanvas(canvas, { on: [42, 33, 28, 255], off: [255, 255, 255, 255], pad: quiet_zone });
         canvas.hidden = false;
         canvas.style.width = `${Math.min(canvas.width * module_size, 280)}px`;
-        facts.textContent = isServed() ? `A link of ${length}.`
-            : `This page is a file, so the code holds only the work (${length}). “Open a link…” in any studio reads it.`;
+        facts.textContent = isServed()
+            ? `A link of ${length}.`
+            : `This page is a file, so the code holds only the work (${length}). Any studio opens it: Open, A link….`;
     } catch {
         canvas.hidden = true;
         facts.textContent = `The link has ${length}: too many for a QR code, which holds up to 2,953.`;
@@ -92,33 +109,64 @@ function readPlace(text: string | undefined): Work["place"] {
 export async function inspectLink(application: Application, link: string): Promise<void> {
     let contents: Shared;
     try {
-        contents = (await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") })).json.shared;
+        contents = (await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") }))
+            .json.shared;
     } catch (error) {
-        application.say(`The link cannot be read: ${error instanceof RequestFailed ? error.failure.message : String(error)}`, "error");
+        application.say(
+            `The link cannot be read: ${error instanceof RequestFailed ? error.failure.message : String(error)}`,
+            "error",
+        );
         forget();
         return;
     }
     const { pattern } = contents;
     const dialog = openDialog("This link contains a pattern", { closed: forget });
     dialog.body.append(
-        element("p", {}, element("strong", {}, titleOf(pattern)), ". It has not been run. A pattern is only data: it can draw and play, nothing else."),
-        element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, pattern.text), ...values(contents, pattern));
-    const open = button("Open", () => {
-        dialog.close();
-        const { draw = [], play = [], page = {} } = contents;
-        openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
-            draw: draw.filter(([name]) => name !== "window"), play, place: readPlace(page["place"]),
-        });
-    }, { kind: "primary" });
-    dialog.footer.append(button("Discard", () => dialog.close()), open);
+        element(
+            "p",
+            {},
+            element("strong", {}, titleOf(pattern)),
+            ". It has not been run. A pattern is only data: it can draw and play, nothing else.",
+        ),
+        element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, pattern.text),
+        ...values(contents, pattern),
+    );
+    const open = button(
+        "Open",
+        () => {
+            dialog.close();
+            const { draw = [], play = [], page = {} } = contents;
+            openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
+                draw: draw.filter(([name]) => name !== "window"),
+                play,
+                place: readPlace(page["place"]),
+            });
+        },
+        { kind: "primary" },
+    );
+    dialog.footer.append(
+        button("Discard", () => dialog.close()),
+        open,
+    );
     open.focus();
 }
 
 function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
-    const rows = [...(pattern.variant ? [["variant", pattern.variant]] : []), ...(pattern.settings ?? []), ...(contents.draw ?? []), ...(contents.play ?? [])];
+    const rows = [
+        ...(pattern.variant ? [["variant", pattern.variant]] : []),
+        ...(pattern.settings ?? []),
+        ...(contents.draw ?? []),
+        ...(contents.play ?? []),
+    ];
     if (rows.length === 0) return [];
-    return [element("h3", {}, "Values and options"), element("ul", { class: "link-values" },
-        ...rows.map(([name, value]) => element("li", {}, element("code", {}, `${name}: ${value}`))))];
+    return [
+        element("h3", {}, "Values and options"),
+        element(
+            "ul",
+            { class: "link-values" },
+            ...rows.map(([name, value]) => element("li", {}, element("code", {}, `${name}: ${value}`))),
+        ),
+    ];
 }
 
 // The link has been answered: a reload does not ask again.
@@ -127,7 +175,9 @@ function forget(): void {
 }
 
 export function watchLinks(application: Application): void {
-    const inspect = () => { if (location.hash.length > 1) void inspectLink(application, location.hash); };
+    const inspect = () => {
+        if (location.hash.length > 1) void inspectLink(application, location.hash);
+    };
     addEventListener("hashchange", inspect);
     inspect();
 }
@@ -136,10 +186,23 @@ export function watchLinks(application: Application): void {
 export function askForLink(application: Application): void {
     const dialog = openDialog("Open a link");
     const field = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
-    dialog.body.append(element("div", { class: "field" }, element("label", { for: field.id }, "A link, or the text of a QR code"), field));
-    dialog.footer.append(button("Show what it contains", () => {
-        dialog.close();
-        void inspectLink(application, field.value.trim());
-    }, { kind: "primary" }));
+    dialog.body.append(
+        element(
+            "div",
+            { class: "field" },
+            element("label", { for: field.id }, "A link, or the text of a QR code"),
+            field,
+        ),
+    );
+    dialog.footer.append(
+        button(
+            "Show what it contains",
+            () => {
+                dialog.close();
+                void inspectLink(application, field.value.trim());
+            },
+            { kind: "primary" },
+        ),
+    );
     field.focus();
 }

@@ -57,18 +57,24 @@ export interface Laid { readonly left: number; readonly top: number; readonly wi
 export function laidOut(sheet: Sheet, size: Size): Laid {
     const narrow = Math.min(size.width, size.height) < 480;
     const around = narrow ? 16 : 40;
-    const below = narrow ? 60 : 64; // for what is written below the sheet
-    const room = { width: Math.max(40, size.width - 2 * around), height: Math.max(40, size.height - around - below) };
+    const beside = narrow ? 16 : 62; // the buttons lie there
+    const below = narrow ? 48 : 64; // for what is written below the sheet
+    const right = narrow ? 60 : beside;
+    const room = { width: Math.max(40, size.width - beside - right), height: Math.max(40, size.height - around - below) };
     const factor = Math.min(room.width / sheet.width, room.height / sheet.height);
     const width = sheet.width * factor;
     const height = sheet.height * factor;
-    return { left: (size.width - width) / 2, top: around + (room.height - height) / 2, width, height };
+    // In the middle, unless the buttons are in the way.
+    const left = Math.min((size.width - width) / 2, size.width - right - width);
+    return { left, top: around + (room.height - height) / 2, width, height };
 }
 
 /// What a key of the drawing is: an option, or the pattern's.
 export function styleOf(name: string, facts: Opened, options: Options): string | undefined {
     return optionOf(options, name) ?? facts.keys.find((key) => key.name === name)?.value;
 }
+
+const borderShare = 1.6 / 24; // of the shorter side: what a border takes beyond the margin
 
 /// The camera under which the endless plane lies as the drawing does on the sheet; null where that has no answer: for
 /// drawings in space, turned ones, and several on a sheet.
@@ -87,7 +93,8 @@ export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opene
     const inMillimetres = isInSteps ? 0 : (lengthOf(`${width}${pen?.[2] ?? "mm"}`) ?? 0);
     const share = Number.parseFloat(facts.keys.find((key) => key.name === "scale factor")?.value ?? "100") / 100;
     const fixed = optionOf(options, "step");
-    const fit = (room: number, extent: number) => (room - 2 * sheet.margin - inMillimetres) / (extent + inSteps);
+    const border = optionOf(options, "border") === undefined ? 0 : Math.min(sheet.width, sheet.height) * borderShare;
+    const fit = (room: number, extent: number) => (room - 2 * (sheet.margin + border) - inMillimetres) / (extent + inSteps);
     const step = fixed !== undefined ? lengthOf(fixed) : Math.min(fit(sheet.width, across), fit(sheet.height, up)) * share;
     if (!step || !(step > 0)) return null;
     const scale = sheet.width / laid.width / step;

@@ -24,6 +24,7 @@ export interface Search {
     readonly candidates: (index: number) => readonly Variant[] | null;
     readonly count: number; // of valid ones wanted
     readonly most: number; // candidates to try
+    readonly milliseconds: number; // after which no further ones are tried
     readonly side: number; // pixels
     readonly ratio: number;
     readonly filters: ReadonlySet<string>;
@@ -31,7 +32,7 @@ export interface Search {
     readonly isDistinct: boolean; // leave out pictures that are there already
     readonly signal: AbortSignal;
     readonly onFound: (found: Found) => void;
-    readonly onTried: (tried: number) => void;
+    readonly onTried: (tried: number, found: number) => void;
 }
 
 const budget = "3000000"; // nodes: so that a sheet takes a second
@@ -45,7 +46,9 @@ export function thumbnailOptions(draw: Work["draw"]): Options {
 /// Resolves with the number of candidates tried, when enough were found or none is left.
 export async function searchVariants(engine: Engine, search: Search): Promise<number> {
     const options = thumbnailOptions(search.draw);
-    const seen = new Set<string>();
+    const seen = new Set<string>(); // pictures
+    const known = new Set<string>(); // patterns
+    const start = performance.now();
     const valid: number[] = []; // indices
     let next = 0;
     let tried = 0;
@@ -53,6 +56,11 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
 
     async function tryOne(index: number, lane: "front" | "back"): Promise<void> {
         for (const variant of search.candidates(index) ?? []) {
+            if (search.isDistinct) {
+                const text = JSON.stringify(variant.pattern);
+                if (known.has(text)) continue;
+                known.add(text);
+            }
             const picture = await drawn(engine, variant, search, options, lane);
             if (search.signal.aborted) return;
             if (!picture) continue;
@@ -66,14 +74,15 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
     }
     // One lane of work for each worker; the first is what the user waits for.
     async function work(lane: "front" | "back"): Promise<void> {
-        while (!isOver && !search.signal.aborted && valid.length < search.count && next < search.most) {
+        while (!isOver && !search.signal.aborted && valid.length < search.count && next < search.most
+            && performance.now() - start < search.milliseconds) {
             const index = next++;
             if (search.candidates(index) === null) {
                 isOver = true;
                 return;
             }
             await tryOne(index, lane);
-            search.onTried(++tried);
+            search.onTried(++tried, valid.length);
         }
     }
     const lanes = Array.from({ length: Math.max(1, engine.workers) }, (_, index) => (index === 0 ? "front" : "back"));

@@ -17,15 +17,30 @@ export function shown(keys: string): string {
 }
 
 function pressed(event: KeyboardEvent): string {
-    const names = [event.ctrlKey || event.metaKey ? "Ctrl" : "", event.altKey ? "Alt" : "", event.shiftKey && event.key.length > 1 || (event.shiftKey && event.ctrlKey) ? "Shift" : ""];
+    const names = [
+        event.ctrlKey || event.metaKey ? "Ctrl" : "",
+        event.altKey ? "Alt" : "",
+        (event.shiftKey && event.key.length > 1) || (event.shiftKey && event.ctrlKey) ? "Shift" : "",
+    ];
     // With Alt some systems type another letter: the place of the key counts.
     const place = /^(?:Key|Digit)(.)$/.exec(event.code)?.[1];
-    const key = event.altKey && place ? place : event.key.length === 1 ? event.key.toUpperCase() : event.key.replace("Arrow", "");
+    const key =
+        event.altKey && place
+            ? place
+            : event.key.length === 1
+              ? event.key.toUpperCase()
+              : event.key.replace("Arrow", "");
     return [...names.filter(Boolean), key].join("+");
 }
 
 function isField(target: EventTarget | null): boolean {
-    return target instanceof HTMLElement && (target.isContentEditable || target.matches("textarea, select, input:not([type='range'], [type='checkbox'], [type='radio'], [type='color'])"));
+    return (
+        target instanceof HTMLElement &&
+        (target.isContentEditable ||
+            target.matches(
+                "textarea, select, input:not([type='range'], [type='checkbox'], [type='radio'], [type='color'])",
+            ))
+    );
 }
 
 export function listen(shortcuts: Shortcut[]): void {
@@ -41,8 +56,20 @@ export function listen(shortcuts: Shortcut[]): void {
 
 export function openShortcuts(shortcuts: Shortcut[]): void {
     const dialog = openDialog("Keyboard");
-    dialog.body.append(element("dl", { class: "shortcuts" }, ...shortcuts.flatMap(({ keys, label }) => [
-        element("dt", {}, ...shown(keys).split(" or ").flatMap((each, at) => [...(at > 0 ? [" or "] : []), element("kbd", {}, each)])),
-        element("dd", {}, label),
-    ])));
+    dialog.body.append(
+        element(
+            "dl",
+            { class: "shortcuts" },
+            ...shortcuts.flatMap(({ keys, label }) => [
+                element(
+                    "dt",
+                    {},
+                    ...shown(keys)
+                        .split(" or ")
+                        .flatMap((each, at) => [...(at > 0 ? [" or "] : []), element("kbd", {}, each)]),
+                ),
+                element("dd", {}, label),
+            ]),
+        ),
+    );
 }

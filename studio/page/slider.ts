@@ -16,21 +16,37 @@ export interface SliderState {
 export interface Slider {
     element: HTMLElement;
     set(state: SliderState): void;
+    /// Marks the value as wrong.
+    setInvalid(isInvalid: boolean): void;
 }
 
 let last = 0;
 
 /// `slide` gets the number of the thumb, `type` the text of the field, `reset` nothing.
-export function makeSlider(label: string, acts: {
-    slide(number: number): void; type(text: string): void; reset(): void;
-}): Slider {
+export function makeSlider(
+    label: string,
+    acts: {
+        slide(number: number): void;
+        type(text: string): void;
+        reset(): void;
+        explain?(): string; // help, when the pointer is on the name
+    },
+): Slider {
     const id = `slider-${++last}`;
     const name = element("label", { for: id, title: label }, label);
     const range = element("input", { type: "range", id, title: "Double click: as in the text" });
-    const field = element("input", { type: "text", "aria-label": `${label}, value`, spellcheck: "false", autocomplete: "off" });
+    const field = element("input", {
+        type: "text",
+        "aria-label": `${label}, value`,
+        spellcheck: "false",
+        autocomplete: "off",
+    });
     const reset = button(`Reset ${label}`, acts.reset, { kind: "quiet", icon: reset_icon });
     const row = element("div", { class: "slider" }, name, range, field, reset);
 
+    name.addEventListener("pointerenter", () => {
+        name.title = acts.explain?.() || label;
+    });
     range.addEventListener("input", () => acts.slide(range.valueAsNumber));
     range.addEventListener("dblclick", acts.reset);
     name.addEventListener("dblclick", acts.reset);
@@ -46,12 +62,17 @@ export function makeSlider(label: string, acts: {
 
     return {
         element: row,
+        setInvalid(isInvalid) {
+            field.setAttribute("aria-invalid", String(isInvalid));
+        },
         set(state) {
             range.min = String(state.least);
             range.max = String(state.most);
             range.step = String(state.step);
             range.valueAsNumber = state.number;
-            const share = (Math.min(Math.max(state.number, state.least), state.most) - state.least) / (state.most - state.least || 1);
+            const share =
+                (Math.min(Math.max(state.number, state.least), state.most) - state.least) /
+                (state.most - state.least || 1);
             range.style.setProperty("--at", `${(share * 100).toFixed(2)}%`);
             range.setAttribute("aria-valuetext", state.description ?? state.value);
             if (document.activeElement !== field || field.value === "") field.value = state.value;

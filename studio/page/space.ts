@@ -16,6 +16,30 @@ const turning = 380; // milliseconds in which one model turns into the next
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
 const usualLight = { azimuth: -38, elevation: 46 };
 
+/// How finely motion is drawn, so that it stays smooth on slow graphics.
+class Pace {
+    quality = 1;
+    private learned = 1; // for the next motion
+    private last = 0;
+    private slow = 0;
+
+    frame(now: number): void {
+        const passed = now - this.last;
+        this.last = now;
+        if (passed > 2500) return; // the first of a motion
+        this.quality = this.learned;
+        this.slow = passed > 26 ? this.slow + 1 : Math.max(0, this.slow - 0.25);
+        if (this.slow < 3 || this.learned <= 0.36) return;
+        this.slow = 0;
+        this.quality = this.learned = this.learned * 0.7;
+    }
+
+    rest(): void {
+        this.quality = 1;
+        this.last = -1e9;
+    }
+}
+
 const icons = {
     play: "M5 3.2v9.6l8-4.8z",
     pause: "M5 3v10M11 3v10",
@@ -55,6 +79,7 @@ class SpaceView {
     private readonly turn: HTMLButtonElement;
     private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
     private readonly use: HTMLButtonElement;
+    private readonly useLength: HTMLButtonElement;
 
     private isShown = false;
     private work: Work;
@@ -75,6 +100,8 @@ class SpaceView {
     private grownAt = 0;
     private frame = 0;
     private last = 0;
+    private readonly pace = new Pace();
+    private restTimer = 0;
     private asked = 0;
 
     static make(studio: Studio, panel: HTMLElement): SpaceView | null {
@@ -99,6 +126,8 @@ class SpaceView {
         this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
         this.turn = button("Turn around", () => this.spin(!this.isTurning), { icon: icons.turn });
         this.use = button("Use this view for prints", () => this.useView());
+        this.useLength = button("Use this n", () => this.studio.store.setting("derivation length", String(this.n)));
+        this.useLength.hidden = true;
         panel.append(canvas, element("p", { class: "unseen", id: "space-hint" },
             "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right mouse button or "
             + "with Alt moves the light."), this.note, this.facts, this.makeTools(), this.makeLight());
@@ -113,7 +142,7 @@ class SpaceView {
         });
         return element("div", { class: "space-tools" },
             element("div", { class: "space-growth" }, this.play,
-                element("label", { for: "space-n" }, "Growth"), this.slider, this.count),
+                element("label", { for: "space-n" }, "Growth"), this.slider, this.count, this.useLength),
             element("div", { class: "toolbar" }, this.turn, reset,
                 element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"), this.use));
     }
@@ -249,6 +278,7 @@ class SpaceView {
         this.slider.value = String(n);
         this.slider.style.setProperty("--at", `${this.most > 0 ? (100 * n) / this.most : 100}%`);
         this.count.textContent = `n = ${n}`;
+        this.useLength.hidden = n === this.most;
         void this.load(n);
     }
 
@@ -363,15 +393,27 @@ class SpaceView {
         if (!this.isShown || this.frame) return;
         this.frame = requestAnimationFrame((now) => {
             this.frame = 0;
+            this.pace.frame(now);
             this.advance(now);
             this.paint(now);
             if (this.isTurning || this.isGrowing || this.before) this.draw();
+            this.rest();
         });
+    }
+
+    // Motion may have been drawn coarsely: what stands still is drawn finely.
+    private rest(): void {
+        clearTimeout(this.restTimer);
+        if (this.pace.quality === 1) return;
+        this.restTimer = window.setTimeout(() => {
+            this.pace.rest();
+            if (this.isShown && !this.frame) this.paint(performance.now());
+        }, 250);
     }
 
     private paint(now: number): void {
         const { canvas } = this;
-        const ratio = Math.min(2, window.devicePixelRatio || 1);
+        const ratio = Math.min(2, window.devicePixelRatio || 1) * this.pace.quality;
         const width = Math.round(canvas.clientWidth * ratio);
         const height = Math.round(canvas.clientHeight * ratio);
         if (width === 0 || height === 0) return;

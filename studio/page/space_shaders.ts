@@ -9,7 +9,7 @@ precision highp sampler2DShadow;
 export const modelVertex = `${shared}
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 colour; // linear; above 1: of a leaf
+layout(location = 2) in vec4 colour; // roots of linear values; the last is 1 for leaves
 uniform mat4 eye;
 uniform mat4 sun;
 uniform float nudge; // of shadows away from the surface, in steps
@@ -20,7 +20,7 @@ out vec4 lit_at;
 void main() {
     at = position;
     out_of = normal;
-    hue = colour;
+    hue = vec4(colour.rgb * colour.rgb, colour.a);
     lit_at = sun * vec4(position + normal * nudge, 1.0);
     gl_Position = eye * vec4(position, 1.0);
 }`;
@@ -66,7 +66,7 @@ void main() {
     float height = clamp((at.y - heights.x) * heights.y, 0.0, 1.0);
     vec3 sky = mix(vec3(0.30, 0.27, 0.25), vec3(0.46, 0.49, 0.55), normal.y * 0.5 + 0.5) * mix(0.72, 1.0, height);
     vec3 direct = vec3(1.02, 0.96, 0.86) * max(facing, 0.0) * sun;
-    float leaf = step(0.75, hue.a); // leaves let light through
+    float leaf = step(0.5, hue.a); // leaves let light through
     vec3 through = vec3(0.55, 0.6, 0.3) * leaf * max(-facing, 0.0) * mix(0.35, 1.0, sun);
     float rim = pow(1.0 - max(dot(normal, back), 0.0), 3.0) * 0.10;
     vec3 sheen = vec3(pow(max(dot(normal, normalize(light + back)), 0.0), 28.0)) * 0.06 * sun;

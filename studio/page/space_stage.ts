@@ -103,14 +103,13 @@ export class Stage {
         let first = 0;
         let next = 0;
         for (const { positions, normals, corners: those, colour, isTwoSided } of model.parts) {
-            const [red, green, blue] = colour.slice(0, 3).map((value) => Math.round(value * 65535)) as [number, number, number];
-            const opacity = isTwoSided ? 65535 : 32768;
+            const hue = packedColour(colour, isTwoSided);
             for (let index = 0, offset = first * stride; index < positions.length; index += 3, offset += stride) {
                 for (let axis = 0; axis < 3; ++axis) {
                     packed.setFloat32(offset + 4 * axis, positions[index + axis]!, true);
                 }
                 packed.setUint32(offset + 12, packedNormal(normals, index), true);
-                packed.setUint32(offset + 16, packedColour(red, green, blue, opacity), true);
+                packed.setUint32(offset + 16, hue, true);
             }
             for (let index = 0; index < those.length; ++index) order[next++] = those[index]! + first;
             first += positions.length / 3;
@@ -125,9 +124,9 @@ export class Stage {
         gl.enableVertexAttribArray(0);
         gl.vertexAttribPointer(0, 3, gl.FLOAT, false, stride, 0);
         gl.enableVertexAttribArray(1);
-        gl.vertexAttribPointer(1, 4, gl.INT_2_10_10_10_REV, true, stride, 12);
+        gl.vertexAttribPointer(1, 4, gl.BYTE, true, stride, 12);
         gl.enableVertexAttribArray(2);
-        gl.vertexAttribPointer(2, 4, gl.UNSIGNED_INT_2_10_10_10_REV, true, stride, 16);
+        gl.vertexAttribPointer(2, 4, gl.UNSIGNED_BYTE, true, stride, 16);
         gl.bindVertexArray(null);
         return {
             low: model.low, high: model.high, triangles: model.triangles, corners, array, buffers,
@@ -242,19 +241,20 @@ export class Stage {
     }
 }
 
-// Three numbers of 10 bits with a sign.
+// Three bytes with a sign.
 function packedNormal(normals: Float32Array, index: number): number {
     let packed = 0;
     for (let axis = 0; axis < 3; ++axis) {
-        const value = Math.round(Math.max(-1, Math.min(1, normals[index + axis]!)) * 511);
-        packed |= (value & 1023) << (10 * axis);
+        const value = Math.round(Math.max(-1, Math.min(1, normals[index + axis]!)) * 127);
+        packed |= (value & 255) << (8 * axis);
     }
     return packed >>> 0;
 }
 
-// Linear colours as three numbers of 10 bits, and whether it is a leaf.
-function packedColour(red: number, green: number, blue: number, opacity: number): number {
-    return ((red >> 6) | ((green >> 6) << 10) | ((blue >> 6) << 20) | ((opacity >> 14) << 30)) >>> 0;
+// Roots of linear colours, which are as fine in the dark as they need to be, and whether it is a leaf.
+function packedColour([red, green, blue]: readonly [number, number, number, number], isLeaf: boolean): number {
+    const byte = (value: number) => Math.round(Math.sqrt(value) * 255);
+    return (byte(red) | (byte(green) << 8) | (byte(blue) << 16) | ((isLeaf ? 255 : 0) << 24)) >>> 0;
 }
 
 export function middleOf({ low, high }: { low: Vector; high: Vector }): Vector {

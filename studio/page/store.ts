@@ -3,6 +3,7 @@ import type { Store, Work } from "./context";
 
 const most_steps = 100;
 const merge_milliseconds = 1000;
+const most_saved = 4_000_000; // characters; browsers keep about five million
 const storage_key = "sikku-studio";
 
 /// A state that undo returns to.
@@ -13,7 +14,10 @@ export interface Step {
     picture?: string; // a thumbnail, as a data address
 }
 
-interface Saved { steps: Step[]; at: number }
+interface Saved {
+    steps: Step[];
+    at: number;
+}
 
 type Listener = (work: Work, before: Work) => void;
 
@@ -32,20 +36,29 @@ export class History implements Store {
         this.at = saved?.at ?? 0;
         this.wasSaved = saved !== null;
         addEventListener("pagehide", () => this.save());
-        document.addEventListener("visibilitychange", () => { if (document.hidden) this.save(); });
+        document.addEventListener("visibilitychange", () => {
+            if (document.hidden) this.save();
+        });
     }
 
     readonly wasSaved: boolean; // by an earlier visit
 
-    get work(): Work { return this.steps[this.at]!.work; }
-    get history(): readonly Step[] { return this.steps; }
-    get position(): number { return this.at; }
+    get work(): Work {
+        return this.steps[this.at]!.work;
+    }
+    get history(): readonly Step[] {
+        return this.steps;
+    }
+    get position(): number {
+        return this.at;
+    }
 
     change(change: Partial<Work>, merge = ""): void {
         const before = this.work;
         const work = { ...before, ...change };
         if (isSame(work, before)) return;
-        if (!change.pattern && !change.draw && !change.play) { // where one looks is no step of the work
+        if (!change.pattern && !change.draw && !change.play) {
+            // where one looks is no step of the work
             this.steps[this.at]!.work = work;
             this.tell(before);
             return;
@@ -72,8 +85,12 @@ export class History implements Store {
         this.change({ pattern: { ...pattern, settings } }, merge);
     }
 
-    undo(): void { this.go(this.at - 1); }
-    redo(): void { this.go(this.at + 1); }
+    undo(): void {
+        this.go(this.at - 1);
+    }
+    redo(): void {
+        this.go(this.at + 1);
+    }
 
     /// Returns to a step of the history.
     go(position: number): void {
@@ -119,7 +136,10 @@ export class History implements Store {
     // The storage is small: if all does not fit, the newest steps are kept.
     private save(): void {
         clearTimeout(this.timer);
-        for (let kept = this.steps.length; kept > 0; kept = Math.floor(kept / 2)) {
+        let room = most_saved;
+        let kept = 0;
+        for (; kept < this.steps.length && room > 0; ++kept) room -= sizeOf(this.steps[this.steps.length - 1 - kept]!);
+        for (; kept > 0; kept = Math.floor(kept / 2)) {
             const from = Math.max(0, Math.min(this.at, this.steps.length - kept));
             const saved: Saved = { steps: this.steps.slice(from, from + kept), at: Math.min(this.at - from, kept - 1) };
             try {
@@ -132,18 +152,34 @@ export class History implements Store {
     }
 }
 
+function sizeOf(step: Step): number {
+    return step.work.pattern.text.length + (step.picture?.length ?? 0) + 1000;
+}
+
 // Texts are compared as such: a pattern may be long.
 function isSame(one: Work, other: Work): boolean {
     const [a, b] = [one.pattern, other.pattern];
-    const rest = (work: Work) => JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
+    const rest = (work: Work) =>
+        JSON.stringify([work.pattern.settings, work.draw, work.play, work.place, work.panel, work.locked]);
     return a.text === b.text && a.name === b.name && a.variant === b.variant && rest(one) === rest(other);
+}
+
+function isWork(work: Work): boolean {
+    const { name, text, variant, settings } = work.pattern;
+    const texts = [name, text, variant, work.panel].every((each) => typeof each === "string");
+    return texts && [settings, work.draw, work.play].every(Array.isArray);
+}
+
+/// Puts the work of earlier visits aside, for a page that cannot start with it.
+export function putAside(): void {
+    localStorage.setItem(`${storage_key}-aside`, localStorage.getItem(storage_key) ?? "");
+    localStorage.removeItem(storage_key);
 }
 
 function read(): Saved | null {
     try {
         const saved = JSON.parse(localStorage.getItem(storage_key) ?? "null") as Saved | null;
-        const work = saved?.steps[saved.at]?.work;
-        return work && typeof work.pattern.text === "string" && Array.isArray(work.draw) ? saved : null;
+        return saved?.steps[saved.at] && saved.steps.every((step) => isWork(step.work)) ? saved : null;
     } catch {
         return null;
     }

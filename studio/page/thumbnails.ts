@@ -4,13 +4,23 @@ import type { Options, PatternRequest, Pixels } from "./protocol";
 
 /// Draws a pattern's page into a canvas of its size; false if it was given up.
 export async function drawInto(
-    canvas: HTMLCanvasElement, engine: Engine, pattern: PatternRequest, options: Options, request: { key?: string; signal?: AbortSignal } = {},
+    canvas: HTMLCanvasElement,
+    engine: Engine,
+    pattern: PatternRequest,
+    options: Options,
+    request: { key?: string; signal?: AbortSignal } = {},
 ): Promise<boolean> {
     const { json, bytes } = await engine.request<Pixels>(
-        { do: "pixels", width: canvas.width, height: canvas.height, options, pattern }, { lane: "back", seconds: 10, ...request });
+        { do: "pixels", width: canvas.width, height: canvas.height, options, pattern },
+        { lane: "back", seconds: 10, ...request },
+    );
     canvas.width = json.width;
     canvas.height = json.height;
-    const pixels = new ImageData(new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.length), json.width, json.height);
+    const pixels = new ImageData(
+        new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.length),
+        json.width,
+        json.height,
+    );
     canvas.getContext("2d")!.putImageData(pixels, 0, 0);
     return true;
 }

@@ -48,9 +48,20 @@ function shortcutsOf(application: Application): Shortcut[] {
         { keys: "Alt+Up", label: "n, one more", act: () => stepN(1) },
         { keys: "Alt+Down", label: "n, one less", act: () => stepN(-1) },
         ...tabs.map((tab, at): Shortcut => ({
-            keys: `Alt+${at + 1}`, label: tab.textContent ?? "", everywhere: true, act: () => { tab.click(); tab.focus(); },
+            keys: `Alt+${at + 1}`,
+            label: tab.textContent ?? "",
+            everywhere: true,
+            act: () => {
+                tab.click();
+                tab.focus();
+            },
         })),
-        { keys: "Alt+T", label: "Go to the text", everywhere: true, act: () => document.querySelector<HTMLElement>(".cm-content")?.focus() },
+        {
+            keys: "Alt+T",
+            label: "Go to the text",
+            everywhere: true,
+            act: () => document.querySelector<HTMLElement>(".cm-content")?.focus(),
+        },
         { keys: "Ctrl+Space", label: "Complete a key, in the text" },
         { keys: "F1", label: "Explain the key or symbol at the cursor, in the text" },
         { keys: "F8", label: "Next error, in the text" },
@@ -73,12 +84,19 @@ export function makeTools(application: Application): void {
 
     makeHistory(application, steps);
     menuButton(open, () => [
-        { label: "New pattern", act: () => openPattern(application, { name: "mine.lsys", text: empty_pattern, variant: "", settings: [] }) },
+        {
+            label: "New pattern",
+            act: () => openPattern(application, { name: "mine.lsys", text: empty_pattern, variant: "", settings: [] }),
+        },
         { label: "A bundled pattern…", act: () => store.change({ panel: "gallery" }) },
         { label: "A file…", detail: shown("Ctrl+O"), act: () => askForFile(application) },
         { label: "A link…", act: () => askForLink(application) },
     ]);
-    const themes: [Theme, string][] = [["system", "Colours of the system"], ["light", "Light"], ["dark", "Dark"]];
+    const themes: [Theme, string][] = [
+        ["system", "Colours of the system"],
+        ["light", "Light"],
+        ["dark", "Dark"],
+    ];
     menuButton(more, () => [
         ...themes.map(([name, label]) => ({ label, detail: theme() === name ? "✓" : "", act: () => setTheme(name) })),
         null,

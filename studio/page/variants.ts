@@ -9,6 +9,23 @@ export type Pattern = Work["pattern"];
 export interface Variant {
     readonly pattern: Pattern;
     readonly label: string; // what is different
+    readonly part?: ChangedPart & { readonly predecessor: string }; // of an edited production
+}
+
+/// What one text has in place of another, with a little of what lies around it.
+export interface ChangedPart { readonly before: string; readonly changed: string; readonly after: string }
+
+export function changedPart(old: string, now: string): ChangedPart {
+    const shorter = Math.min(old.length, now.length);
+    let same = 0;
+    while (same < shorter && old[same] === now[same]) ++same;
+    let end = 0;
+    while (end < shorter - same && old[old.length - 1 - end] === now[now.length - 1 - end]) ++end;
+    const before = now.slice(0, same);
+    return {
+        before: before.length > 4 ? `…${before.slice(-3)}` : before, changed: now.slice(same, now.length - end),
+        after: now.slice(now.length - end),
+    };
 }
 
 /// A value that can be varied, or kept.
@@ -115,6 +132,7 @@ export function mutantOf(
     const values = parametersOf(facts).filter(({ name, kind }) => !kept.has(name) && kind !== "production");
     let made = pattern;
     const labels: string[] = [];
+    let part: Variant["part"];
     const change = (parameter: Parameter, value: string, label = `${parameter.label} ${value}`) => {
         made = withSetting(made, parameter.name, value);
         labels.push(label);
@@ -126,6 +144,7 @@ export function mutantOf(
         if (!text) continue;
         made = { ...made, text: text.text };
         labels.push(text.label);
+        part ??= text.part;
     }
     for (const parameter of values) {
         if (chance.share() > (isEdited ? 0.22 : 0.7)) continue;
@@ -141,10 +160,13 @@ export function mutantOf(
             change(parameter, String(chance.below(1_000_000)));
         }
     }
-    return labels.length > 0 ? { pattern: made, label: [...new Set(labels)].join(", ") } : null;
+    if (labels.length === 0) return null;
+    return { pattern: made, label: [...new Set(labels)].join(", "), ...(part && labels.length === 1 ? { part } : {}) };
 }
 
-function edited(text: string, facts: Opened, index: number, chance: Chance): { text: string; label: string } | null {
+function edited(
+    text: string, facts: Opened, index: number, chance: Chance,
+): { text: string; label: string; part: NonNullable<Variant["part"]> } | null {
     const production = facts.productions[index];
     if (!production) return null;
     const names = namesIn(facts.keys.find(({ name }) => name === "symbols")?.value);
@@ -157,5 +179,8 @@ function edited(text: string, facts: Opened, index: number, chance: Chance): { t
     if (successor === null) return null;
     // The text may have been edited in this line already: then it does not fit, and stays.
     const made = withSuccessor(text, production, successor);
-    return made === null ? null : { text: made, label: `${production.predecessor} → ${successor}` };
+    if (made === null) return null;
+    const { predecessor } = production;
+    const part = { predecessor, ...changedPart(production.successor, successor) };
+    return { text: made, label: `${predecessor} → ${successor}`, part };
 }

@@ -11,7 +11,8 @@ type Mode = "mutations" | "values" | "seeds";
 
 const count = 24;
 const columns = 6;
-const mostTried = 480;
+const mostTried = { plain: 480, filtered: 6000 };
+const mostTime = { plain: 6_000, filtered: 15_000 }; // milliseconds
 const modes: readonly { mode: Mode; label: string }[] = [
     { mode: "mutations", label: "Mutations" }, { mode: "values", label: "Two values" }, { mode: "seeds", label: "Seeds" },
 ];
@@ -112,6 +113,7 @@ class Variations {
             for (const name of ["derivation length", "seed"]) this.kept.add(name);
             this.axes.across = this.axes.down = null;
         }
+        for (const name of work.locked ?? []) this.kept.add(name);
         this.restart();
     }
 
@@ -150,11 +152,10 @@ class Variations {
         this.again.hidden = this.mode === "values";
         if (this.mode === "mutations") this.settings.append(this.lockRow(base.facts));
         if (this.mode === "values") this.settings.append(...this.axisRows(base.facts));
-        if (this.mode === "seeds" && !base.facts.is_random) {
-            this.settings.append(element("p", { class: "note" },
-                "This pattern makes no random choices, so every seed draws the same. Productions with weights do: "
-                + "F --> FF : 0.8"));
-        }
+        const seedNote = !base.facts.is_random
+            ? "This pattern makes no random choices, so every seed draws the same. Productions with weights do: F --> FF : 0.8"
+            : this.isSeedLocked ? "The seed is locked." : "";
+        if (this.mode === "seeds" && seedNote !== "") this.settings.append(element("p", { class: "note" }, seedNote));
         this.settings.hidden = this.settings.childElementCount === 0;
         if (had !== "") document.getElementById(had)?.focus();
     }
@@ -170,17 +171,29 @@ class Variations {
                 type: "button", class: "chip", id: `keep-${parameter.name.replace(/\W+/g, "-")}`, "aria-pressed": String(isKept),
                 title: parameter.label,
             }, lockIcon(), element("span", { class: parameter.kind === "production" ? "mono" : "" }, text));
-            chip.addEventListener("click", () => {
-                if (!this.kept.delete(parameter.name)) this.kept.add(parameter.name);
-                this.restart();
-            });
+            chip.addEventListener("click", () => this.keep(parameter, !this.kept.has(parameter.name)));
             row.append(chip);
         }
         return row;
     }
 
+    // Values are locked everywhere, productions only here.
+    private keep({ name, kind }: Parameter, isKept: boolean): void {
+        if (isKept) this.kept.add(name);
+        else this.kept.delete(name);
+        if (kind !== "production") {
+            const others = (this.studio.store.work.locked ?? []).filter((each) => each !== name);
+            this.studio.store.change({ locked: isKept ? [...others, name] : others });
+        }
+        this.restart();
+    }
+
+    private get isSeedLocked(): boolean { return this.studio.store.work.locked?.includes("seed") ?? false; }
+
     private axisRows(facts: Opened): HTMLElement[] {
-        const parameters = parametersOf(facts);
+        const locked = this.studio.store.work.locked ?? [];
+        const free = parametersOf(facts).filter(({ name }) => !locked.includes(name));
+        const parameters = free.length > 0 ? free : parametersOf(facts);
         const preferred = [...parameters].sort((one, other) => rank(one) - rank(other));
         const choice = (old: AxisChoice | null, parameter: Parameter): AxisChoice =>
             parameters.some(({ name }) => name === old?.parameter.name) ? old!
@@ -243,6 +256,8 @@ class Variations {
         const side = 160;
         const ratio = Math.min(2, Math.max(1, window.devicePixelRatio || 1));
         const start = performance.now();
+        const kind = this.filters.size > 0 ? "filtered" : "plain";
+        let told = start;
         const add = (one: Found) => {
             if (search.signal.aborted) return;
             found.push(one);
@@ -252,9 +267,15 @@ class Variations {
         };
         try {
             tried = await searchVariants(this.studio.engine, {
-                candidates: plan.candidates, count: plan.cells, most: plan.isFixed ? plan.cells : mostTried,
+                candidates: plan.candidates, count: plan.cells, most: plan.isFixed ? plan.cells : mostTried[kind],
+                milliseconds: mostTime[kind],
                 side: Math.round(side * ratio), ratio, filters: this.filters, draw, isDistinct: !plan.isFixed && this.mode === "mutations",
-                signal: search.signal, onFound: add, onTried: () => {},
+                signal: search.signal, onFound: add,
+                onTried: (count, valid) => {
+                    if (search.signal.aborted || performance.now() - told < 400) return;
+                    told = performance.now();
+                    this.status.textContent = `Looking … ${valid} among ${count}`;
+                },
             });
         } catch (error) {
             if (search.signal.aborted) return;
@@ -276,7 +297,7 @@ class Variations {
     private plan(base: { facts: Opened; work: Work }): Plan | null {
         const { facts, work: { pattern } } = base;
         if (this.mode === "seeds") {
-            if (!facts.is_random) return null;
+            if (!facts.is_random || this.isSeedLocked) return null;
             const from = BigInt(/^\d+$/.test(facts.seed) ? facts.seed : "0") + BigInt(this.first);
             return { cells: count, isFixed: false, candidates: (index) => [seedVariant(pattern, from, index)] };
         }
@@ -339,7 +360,13 @@ class Variations {
         canvas.height = picture.height;
         canvas.getContext("2d")!.putImageData(picture, 0, 0);
         const caption = cell.querySelector(".caption")!;
-        caption.textContent = variant.label;
+        const { part } = variant;
+        if (part) {
+            const mark = element("mark", { class: part.changed === "" ? "gone" : "" }, part.changed);
+            caption.replaceChildren(`${part.predecessor.split("(")[0]} → ${part.before}`, mark, part.after);
+        } else {
+            caption.textContent = variant.label;
+        }
         cell.title = variant.label;
         cell.setAttribute("aria-label", `Take ${variant.label}`);
         cell.disabled = false;

@@ -35,4 +35,5 @@ async function answer(message: ToWorker): Promise<void> {
     }
 }
 
+onmessageerror = () => send({ failed: "this browser cannot hand a WebAssembly module to a worker" });
 onmessage = (event: MessageEvent<ToWorker>) => void answer(event.data);

@@ -1,6 +1,9 @@
 // Coordinates, cameras, flights and tiles of the map: arithmetic that loses no digit.
 import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { load } from "./load.mjs";
 
 const { readExact, exactText, grouped, exactOf, numberOf, wholes } = await load("decimal");
@@ -141,4 +144,32 @@ test("the plane lies as the drawing does on the page", () => {
     assert.ok(Math.abs(low.left - (laid.left + laid.width / 10)) < 1e-9);
     assert.ok(Math.abs(low.top - (laid.top + laid.height / 10)) < 1e-9);
     assert.equal(cameraOfSheet(sheet, laid, size, facts, [["rotate", "30"]]), null);
+});
+
+// With the libraries, if they have been built.
+const built = join(dirname(fileURLToPath(import.meta.url)), "../../build/studio/sikku-bridge.wasm");
+test("tiles join without a seam", { skip: existsSync(built) ? false : "the libraries have not been built" }, async () => {
+    const { loadBridge } = await import("./load_bridge.mjs");
+    const bridge = await loadBridge();
+    const text = "derivation length: 60\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #f2e6cf\n";
+    const grid = tileGrid(1);
+    const side = grid.side;
+    for (const scale of [0.11, 3, 2 ** 45]) {
+        const tile = { scale, column: BigInt(Math.floor(-3e17 / (side * scale))), row: BigInt(Math.floor(5e17 / (side * scale))) };
+        const next = { ...tile, column: tile.column + 1n };
+        const [x0, y0, , y1] = tileWindow(tile, grid);
+        const [, , x1] = tileWindow(next, grid);
+        const pixels = (width, window) => bridge(JSON.stringify({
+            do: "pixels", width, height: side, window, pattern: { name: "hilbert.lsys", text },
+        })).bytes;
+        const both = pixels(2 * side, [x0, y0, x1, y1]);
+        for (const [index, each] of [tile, next].entries()) {
+            const bytes = pixels(side, tileWindow(each, grid));
+            for (let row = 0; row < side; ++row) {
+                const from = (2 * row + index) * side * 4;
+                assert.ok(Buffer.compare(bytes.subarray(row * side * 4, (row + 1) * side * 4), both.subarray(from, from + side * 4)) === 0,
+                    `scale ${scale}, row ${row}`);
+            }
+        }
+    }
 });

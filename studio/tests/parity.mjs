@@ -2,7 +2,7 @@
 //     node parity.mjs NATIVE_BUILD [--quick]
 // NATIVE_BUILD has bin/sikku and bin/sikku-bridge; the module is in build/studio.
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { loadBridge, root } from "./load_bridge.mjs";
@@ -15,22 +15,26 @@ const counts = new Map();
 /// Asks the native program, one request after the other.
 function native_bridge() {
     const program = spawn(join(build, "bin/sikku-bridge"), { stdio: ["pipe", "pipe", "inherit"] });
-    let buffer = Buffer.alloc(0);
-    let wanted = null;
-    program.stdout.on("data", (data) => {
-        buffer = Buffer.concat([buffer, data]);
-        wanted?.();
-    });
-    const taken = async (find) => {
-        for (;;) {
-            const found = find();
-            if (found) return found;
-            await new Promise((ready, fail) => {
-                wanted = ready;
-                program.once("exit", () => fail(new Error("the native bridge ended")));
-            });
-            program.removeAllListeners("exit");
-        }
+    const output = program.stdout[Symbol.asyncIterator]();
+    let rest = Buffer.alloc(0);
+    const more = async () => {
+        const { value, done } = await output.next();
+        if (done) throw new Error("the native bridge ended");
+        return value;
+    };
+    const line = async () => {
+        while (!rest.includes(10)) rest = Buffer.concat([rest, await more()]);
+        const end = rest.indexOf(10);
+        const text = rest.subarray(0, end).toString();
+        rest = rest.subarray(end + 1);
+        return text;
+    };
+    const take = async (size) => {
+        const pieces = [rest];
+        for (let length = rest.length; length < size; length += pieces.at(-1).length) pieces.push(await more());
+        const all = Buffer.concat(pieces);
+        rest = all.subarray(size);
+        return all.subarray(0, size);
     };
     return {
         async ask(json, bytes) {
@@ -38,22 +42,8 @@ function native_bridge() {
             program.stdin.write(`${text.length} ${bytes.length}\n`);
             program.stdin.write(text);
             program.stdin.write(bytes);
-            const sizes = await taken(() => {
-                const end = buffer.indexOf(10);
-                if (end < 0) return null;
-                const head = buffer.subarray(0, end).toString().split(" ").map(Number);
-                buffer = buffer.subarray(end + 1);
-                return head;
-            });
-            return taken(() => {
-                if (buffer.length < sizes[0] + sizes[1]) return null;
-                const reply = {
-                    json: buffer.subarray(0, sizes[0]).toString(),
-                    bytes: Buffer.from(buffer.subarray(sizes[0], sizes[0] + sizes[1])),
-                };
-                buffer = buffer.subarray(sizes[0] + sizes[1]);
-                return reply;
-            });
+            const [json_size, bytes_size] = (await line()).split(" ").map(Number);
+            return { json: (await take(json_size)).toString(), bytes: await take(bytes_size) };
         },
         end: () => program.stdin.end(),
     };
@@ -83,9 +73,12 @@ async function compare(request, bytes = Buffer.alloc(0)) {
     if (expected.json !== got.json) fail(request, difference(expected.json, got.json));
     else if (request.do === "pixels") {
         let most = 0;
-        for (let i = 0; i < expected.bytes.length; ++i) most = Math.max(most, Math.abs(expected.bytes[i] - got.bytes[i]));
+        for (let i = 0; i < expected.bytes.length; ++i) {
+            const apart = Math.abs(expected.bytes[i] - got.bytes[i]);
+            if (apart > most) most = apart;
+        }
         if (expected.bytes.length !== got.bytes.length || most > 1) fail(request, `pixels differ by ${most}`);
-    } else if (request.format !== "png" && Buffer.compare(expected.bytes, got.bytes) !== 0) {
+    } else if (Buffer.compare(expected.bytes, got.bytes) !== 0) {
         fail(request, difference(expected.bytes.toString("latin1"), Buffer.from(got.bytes).toString("latin1")));
     }
     return expected;
@@ -219,6 +212,23 @@ for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) ==
     };
     same({ do: "make", interpreter: "draw", format: "svg", options: draw, pattern }, () => written("draw", "svg"));
     same({ do: "make", interpreter: "play", format: "mid", options: play, pattern }, () => written("play", "mid"));
+}
+
+// The commands that the page shows write what the page saves.
+for (const [name, interpreter, format, options, settings] of [
+    ["snake-kolam", "draw", "svg", [["dots", ""], ["border", "kaavi"], ["size", "A3"]], [["derivation length", "3"]]],
+    ["plant-d", "draw", "svg", [["stroke", "0.3mm navy"], ["landscape", "true"]], [["seed", "11"]]],
+    ["honda-trees", "draw", "pdf", [["rotate", "30"], ["ground", "#fed"]], []],
+    ["hilbert", "play", "mid", [["scale", "dorian"], ["tempo", "96"]], [["derivation length", "5"]]],
+]) {
+    const { text } = patterns.find((pattern) => pattern.name === name);
+    const pattern = { name: `${name}.lsys`, text, settings };
+    writeFileSync(join(folder, pattern.name), text);
+    const { command } = JSON.parse(web(JSON.stringify({ do: "command", interpreter, format, options, pattern })).json);
+    same({ do: "make", interpreter, format, options, pattern }, () => {
+        execFileSync("sh", ["-c", command.replace(/^sikku/, `"${join(build, "bin/sikku")}" -q`)], { cwd: folder, stdio: "ignore" });
+        return readFileSync(join(folder, `${name}.${format}`));
+    });
 }
 rmSync(folder, { recursive: true });
 native.end();

@@ -110,6 +110,30 @@ TEST(Runs, SequencesOfPeanoAndTheDragon) {
     EXPECT_EQ(played(dragon(10, "heading: 0\n"), plain()).all.size(), 512u);
 }
 
+TEST(Runs, NotesTellTheSymbolAtWhichTheyBegin) {
+    for (const int n : {3, 7}) {  // of the longer word, parts are read as blocks
+        const Grammar grammar = hilbert(n);
+        const std::string word = reference::derived_text(grammar);
+        for (const Runs runs : {Runs::merged, Runs::each_step}) {
+            Melody melody = plain();
+            melody.runs = runs;
+            const Collector collector = played(grammar, melody);
+            std::uint64_t last = 0;
+            for (const Note& note : collector.all) {
+                ASSERT_GT(note.symbol, last);
+                ASSERT_EQ(word.at(note.symbol - 1), 'F');
+                if (runs == Runs::merged && note.symbol > 1) {
+                    const std::size_t before = word.find_last_of("F+-", note.symbol - 2);
+                    if (before != std::string::npos) {
+                        ASSERT_NE(word[before], 'F');
+                    }
+                }
+                last = note.symbol;
+            }
+        }
+    }
+}
+
 TEST(Runs, WhatVerticalRunsAre) {
     Melody melody = plain();
     melody.vertical = Vertical::rest;

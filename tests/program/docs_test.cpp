@@ -34,7 +34,7 @@ std::vector<std::filesystem::path> pages() {
 }
 
 TEST(Docs, FilesThatAreNamedExist) {
-    static const std::regex form("`((?:engine|art|music|cli|python|tests|patterns)/[a-z0-9_./-]*)`");
+    static const std::regex form("`((?:engine|art|music|cli|python|studio|tests|patterns)/[a-z0-9_./-]*)`");
     for (const auto& page : pages()) {
         const std::string text = contents(page);
         for (std::sregex_iterator match(text.begin(), text.end(), form), end; match != end; ++match) {

@@ -1,7 +1,7 @@
 // The curve as it sounds: the whole path faint, what has sounded in the colour of its voice, what sounds bright, and
 // the place where the music is.
 import type { Melody } from "../sound/melody";
-import { eachSounding } from "../sound/melody";
+import { eachSounding, firstFrom } from "../sound/melody";
 import type { Ink } from "./surface";
 import { readInk, Surface } from "./surface";
 import { voiceColour } from "./voice_colours";
@@ -9,6 +9,9 @@ import { voiceColour } from "./voice_colours";
 const room = 28; // pixels around the curve
 const chunk = 2000; // notes between two looks at the time
 const budget = 7; // milliseconds of a frame for long paths
+const fine_scale = 4; // pixels in a step below which a glass shows what sounds
+const glass_scale = 15;
+const glass_notes = 500; // before and after what sounds
 
 export class CurveView {
     private readonly surface: Surface;
@@ -25,7 +28,10 @@ export class CurveView {
     private top = 0;
     private muted: (voice: number) => boolean = () => false;
 
-    constructor(readonly canvas: HTMLCanvasElement, private readonly redraw: () => void) {
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        private readonly redraw: () => void,
+    ) {
         this.surface = new Surface(canvas, () => this.reset());
     }
 
@@ -34,7 +40,10 @@ export class CurveView {
         this.byEnd = new Uint32Array(0);
         if (melody) {
             const end = (i: number) => melody.onset[i] + melody.duration[i];
-            this.byEnd = Uint32Array.from({ length: melody.count }, (_, i) => i).sort((a, b) => end(a) - end(b) || a - b);
+            this.byEnd = Uint32Array.from({ length: melody.count }, (_, i) => i);
+            let isOrdered = true;
+            for (let i = 1; i < melody.count && isOrdered; ++i) isOrdered = end(i - 1) <= end(i);
+            if (!isOrdered) this.byEnd.sort((a, b) => end(a) - end(b) || a - b);
             this.before = leading(melody);
         }
         this.reset();
@@ -64,9 +73,15 @@ export class CurveView {
         this.top = this.surface.height / 2 + (this.scale * (y0 + y1)) / 2;
     }
 
-    private x(value: number): number { return this.left + this.scale * value; }
-    private y(value: number): number { return this.top - this.scale * value; }
-    private get thickness(): number { return Math.min(6, Math.max(1.3, this.scale * 0.17)); }
+    private x(value: number): number {
+        return this.left + this.scale * value;
+    }
+    private y(value: number): number {
+        return this.top - this.scale * value;
+    }
+    private get thickness(): number {
+        return Math.min(6, Math.max(Math.min(1.3, this.scale * 0.8), this.scale * 0.17));
+    }
 
     /// True if some of it is left for the next frame.
     draw(tick: number): boolean {
@@ -79,13 +94,14 @@ export class CurveView {
         this.drawDone(melody, done, tick, until);
         surface.put(faint);
         surface.put(done);
-        this.drawSounding(melody, tick);
+        this.drawSounding(melody, tick, this.scale);
+        if (this.scale < fine_scale) this.drawGlass(melody, tick);
         return this.faintCount < melody.count || this.isBehind(melody, tick);
     }
 
     private drawFaint(melody: Melody, layer: CanvasRenderingContext2D, until: number): void {
         layer.strokeStyle = this.ink.strong;
-        layer.globalAlpha = this.ink.isDark ? 0.42 : 0.5;
+        layer.globalAlpha = this.ink.isDark ? 0.62 : 0.5;
         layer.lineWidth = Math.min(2, this.thickness * 0.55);
         layer.lineCap = "round";
         layer.lineJoin = "round";
@@ -149,17 +165,61 @@ export class CurveView {
         }
     }
 
-    private drawSounding(melody: Melody, tick: number): void {
+    /// Where the curve is too fine to be followed: the notes around the one that sounds, larger.
+    private drawGlass(melody: Melody, tick: number): void {
+        const { context, width, height } = this.surface;
+        const side = Math.min(220, height * 0.5, width * 0.4);
+        const now = Math.max(0, firstFrom(melody, tick + 1e-6) - 1);
+        const share = Math.min(1, Math.max(0, (tick - melody.onset[now]) / melody.duration[now]));
+        const { path } = melody;
+        const x = path[4 * now] + share * (path[4 * now + 2] - path[4 * now]);
+        const y = path[4 * now + 1] + share * (path[4 * now + 3] - path[4 * now + 1]);
+        const whole = [this.scale, this.left, this.top] as const;
+        const [left, top] = [width - side - 14, height - side - 14];
+        context.save();
+        context.beginPath();
+        context.roundRect(left, top, side, side, 10);
+        context.fillStyle = this.ink.raised;
+        context.fill();
+        context.strokeStyle = this.ink.strong;
+        context.lineWidth = 1;
+        context.stroke();
+        context.clip();
+        this.scale = glass_scale;
+        this.left = left + side / 2 - glass_scale * x;
+        this.top = top + side / 2 + glass_scale * y;
+        context.lineCap = context.lineJoin = "round";
+        for (let i = Math.max(0, now - glass_notes); i < Math.min(melody.count, now + glass_notes); ++i) {
+            const isPast = melody.onset[i] + melody.duration[i] <= tick;
+            context.strokeStyle = isPast ? voiceColour(melody.voice[i], this.ink.isDark) : this.ink.strong;
+            context.globalAlpha = isPast ? 0.85 : 0.5;
+            context.lineWidth = this.thickness * (isPast ? 1 : 0.55);
+            context.beginPath();
+            this.trace(melody, context, i, 1);
+            context.stroke();
+        }
+        this.drawSounding(melody, tick, this.scale);
+        context.restore();
+        [this.scale, this.left, this.top] = whole;
+    }
+
+    private drawSounding(melody: Melody, tick: number, scale: number): void {
         const { context } = this.surface;
         context.lineCap = "round";
         context.lineJoin = "round";
-        if (tick <= 0 && melody.count > 0) this.drawHead(melody, 0, 0);
+        if (tick <= 0 && melody.count > 0) this.drawHead(melody, 0, 0, scale);
         eachSounding(melody, tick, tick + 1e-6, (i) => {
             if (melody.onset[i] > tick) return;
             const share = Math.min(1, (tick - melody.onset[i]) / melody.duration[i]);
             const isMuted = this.muted(melody.voice[i]);
             context.strokeStyle = voiceColour(melody.voice[i], this.ink.isDark);
-            for (const [width, alpha] of isMuted ? [[1, 0.3]] : [[3.6, 0.16], [2.2, 0.3], [1.25, 1]]) {
+            for (const [width, alpha] of isMuted
+                ? [[1, 0.3]]
+                : [
+                      [3.6, 0.16],
+                      [2.2, 0.3],
+                      [1.25, 1],
+                  ]) {
                 context.globalAlpha = alpha;
                 context.lineWidth = this.thickness * width;
                 context.beginPath();
@@ -167,17 +227,17 @@ export class CurveView {
                 context.stroke();
             }
             context.globalAlpha = 1;
-            if (!isMuted) this.drawHead(melody, i, share);
+            if (!isMuted) this.drawHead(melody, i, share, scale);
         });
         context.globalAlpha = 1;
     }
 
-    private drawHead(melody: Melody, i: number, share: number): void {
+    private drawHead(melody: Melody, i: number, share: number, scale: number): void {
         const { context } = this.surface;
         const { path } = melody;
         const x = this.x(path[4 * i] + share * (path[4 * i + 2] - path[4 * i]));
         const y = this.y(path[4 * i + 1] + share * (path[4 * i + 3] - path[4 * i + 1]));
-        const radius = Math.max(4.5, this.thickness * 1.1);
+        const radius = Math.max(scale < fine_scale ? 3.5 : 4.5, this.thickness * 1.1);
         const colour = voiceColour(melody.voice[i], this.ink.isDark);
         context.globalAlpha = 0.22;
         context.fillStyle = colour;
@@ -217,18 +277,25 @@ export class CurveView {
     }
 }
 
-/// The note of the same voice from whose end a straight run leads to each note; -1 where the curve jumps.
+/// The note of the same voice from whose end a straight run leads to each note; -1 where the curve jumps, and where
+/// another voice sounds that run.
 function leading(melody: Melody): Int32Array {
     const before = new Int32Array(melody.count).fill(-1);
     const last = new Int32Array(melody.voices).fill(-1);
+    const { path } = melody;
+    const run = (x0: number, y0: number, x1: number, y1: number): string =>
+        x0 < x1 || (x0 === x1 && y0 < y1) ? `${x0} ${y0} ${x1} ${y1}` : `${x1} ${y1} ${x0} ${y0}`;
+    const sounded = new Set<string>();
+    if (melody.voices > 1) {
+        for (let i = 0; i < 4 * melody.count; i += 4) sounded.add(run(path[i], path[i + 1], path[i + 2], path[i + 3]));
+    }
     for (let i = 0; i < melody.count; ++i) {
         const old = last[melody.voice[i]];
-        if (old >= 0) {
-            const aside = Math.abs(melody.path[4 * i] - melody.path[4 * old + 2]) > 1e-6;
-            const up = Math.abs(melody.path[4 * i + 1] - melody.path[4 * old + 3]) > 1e-6;
-            if (!(aside && up)) before[i] = old;
-        }
         last[melody.voice[i]] = i;
+        if (old < 0) continue;
+        const [x0, y0, x1, y1] = [path[4 * old + 2], path[4 * old + 3], path[4 * i], path[4 * i + 1]];
+        const isStraight = Math.abs(x1 - x0) < 1e-6 || Math.abs(y1 - y0) < 1e-6;
+        if (isStraight && !(melody.voices > 1 && sounded.has(run(x0, y0, x1, y1)))) before[i] = old;
     }
     return before;
 }

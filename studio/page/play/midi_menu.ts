@@ -3,15 +3,21 @@ import { button, element } from "../elements";
 import type { Player } from "./player";
 
 export function makeMidiMenu(player: Player): HTMLElement {
-    const note = element("p", { class: "play-hint", role: "status" },
-        "Notes, clock, start and stop go to a connected instrument or another program.");
+    const note = element(
+        "p",
+        { class: "play-hint", role: "status" },
+        "Notes, clock, start and stop go to a connected instrument or another program.",
+    );
     const ports = element("select", { id: "play-midi-port" }, element("option", { value: "" }, "None"));
     const alone = element("input", { type: "checkbox", checked: true });
     const clock = element("input", { type: "checkbox", checked: true });
-    const settings = element("div", { class: "play-midi", hidden: true },
+    const settings = element(
+        "div",
+        { class: "play-midi", hidden: true },
         element("div", { class: "field" }, element("label", { for: "play-midi-port" }, "MIDI output"), ports),
         element("label", { class: "switch" }, clock, "Send clock, start and stop"),
-        element("label", { class: "switch" }, alone, "Silence the sound of this page"));
+        element("label", { class: "switch" }, alone, "Silence the sound of this page"),
+    );
     let access: MIDIAccess | null = null;
 
     const apply = (): void => {
@@ -21,25 +27,32 @@ export function makeMidiMenu(player: Player): HTMLElement {
     const list = (): void => {
         const chosen = ports.value;
         const outputs = access ? [...access.outputs.values()].filter((port) => port.state === "connected") : [];
-        ports.replaceChildren(element("option", { value: "" }, "None"),
-            ...outputs.map((port) => element("option", { value: port.id }, port.name || "Unnamed output")));
+        ports.replaceChildren(
+            element("option", { value: "" }, "None"),
+            ...outputs.map((port) => element("option", { value: port.id }, port.name || "Unnamed output")),
+        );
         ports.value = outputs.some((port) => port.id === chosen) ? chosen : "";
         if (ports.value !== chosen) apply();
         note.textContent = outputs.length === 0 ? "No MIDI output is connected." : "";
     };
-    const connect = button("Connect MIDI", () => void (async () => {
-        try {
-            access = await navigator.requestMIDIAccess();
-        } catch {
-            note.textContent = "The browser has not allowed MIDI. Allow it in the settings of this page, then connect again.";
-            return;
-        }
-        access.onstatechange = list;
-        connect.hidden = true;
-        settings.hidden = false;
-        list();
-        ports.focus();
-    })());
+    const connect = button(
+        "Connect MIDI",
+        () =>
+            void (async () => {
+                try {
+                    access = await navigator.requestMIDIAccess();
+                } catch {
+                    note.textContent =
+                        "The browser has not allowed MIDI. Allow it in the settings of this page, then connect again.";
+                    return;
+                }
+                access.onstatechange = list;
+                connect.hidden = true;
+                settings.hidden = false;
+                list();
+                ports.focus();
+            })(),
+    );
     for (const control of [ports, alone, clock]) control.addEventListener("change", apply);
     if (!("requestMIDIAccess" in navigator)) {
         connect.disabled = true;

@@ -35,27 +35,35 @@ export class Player {
     private isSilent = false; // only MIDI is heard
     private readonly timer = new Timer(() => this.tick());
     private lastPrepared = 0;
+    private wallOffset = Infinity; // of the page's clock to the sound's, milliseconds
 
     constructor(private readonly studio: Studio) {
         const each = (act: (sink: NoteSink) => void): void => {
             if (this.output && !this.isSilent) act(this.output);
             if (this.midi) act(this.midi);
         };
-        this.transport = new Transport(() => this.now(), [{
-            note: (index, time, seconds) => each((sink) => sink.note(index, time, seconds)),
-            cancel: (time) => each((sink) => sink.cancel(time)),
-            silence: () => each((sink) => sink.silence()),
-            started: (tick, time) => this.midi?.started(tick, time),
-            stopped: (time) => this.midi?.stopped(time),
-            clock: (time) => this.midi?.clock(time),
-        }]);
+        this.transport = new Transport(
+            () => this.now(),
+            [
+                {
+                    note: (index, time, seconds) => each((sink) => sink.note(index, time, seconds)),
+                    cancel: (time) => each((sink) => sink.cancel(time)),
+                    silence: () => each((sink) => sink.silence()),
+                    started: (tick, time) => this.midi?.started(tick, time),
+                    stopped: (time) => this.midi?.stopped(time),
+                    clock: (time) => this.midi?.clock(time),
+                },
+            ],
+        );
         this.transport.onEnd = () => {
             this.timer.stop();
             this.onChange();
         };
     }
 
-    private now(): number { return this.context ? this.context.currentTime : performance.now() / 1000; }
+    private now(): number {
+        return this.context ? this.context.currentTime : performance.now() / 1000;
+    }
 
     /// The time of the sound that is heard at this moment.
     heard(): number {
@@ -70,7 +78,9 @@ export class Player {
     }
 
     /// Where the music is for the listener.
-    place(): number { return this.transport.tickAt(this.heard()); }
+    place(): number {
+        return this.transport.tickAt(this.heard());
+    }
 
     setMelody(melody: Melody | null): void {
         this.melody = melody;
@@ -92,8 +102,12 @@ export class Player {
             const instrument = timbreOf(part?.program ?? 0).name;
             const name = melody.parts.length > 1 && part ? `${part.name}, ${index + 1}` : `Voice ${index + 1}`;
             return {
-                name, chosen: before?.chosen ?? "", timbre: before?.chosen || instrument, volume: before?.volume ?? 0.8,
-                muted: before?.muted ?? false, solo: before?.solo ?? false,
+                name,
+                chosen: before?.chosen ?? "",
+                timbre: before?.chosen || instrument,
+                volume: before?.volume ?? 0.8,
+                muted: before?.muted ?? false,
+                solo: before?.solo ?? false,
             };
         });
         this.applyVoices();
@@ -120,10 +134,14 @@ export class Player {
 
     private applyVoices(): void {
         this.output?.setVoices(this.voices);
-        this.midi?.setVoices(this.voices.map((voice, index) => ({
-            program: this.melody?.parts[this.melody.partOfVoice[index]]?.program ?? 0,
-            isDrums: voice.timbre === "drums", isHeard: this.isHeard(index), volume: voice.volume,
-        })));
+        this.midi?.setVoices(
+            this.voices.map((voice, index) => ({
+                program: this.melody?.parts[this.melody.partOfVoice[index]]?.program ?? 0,
+                isDrums: voice.timbre === "drums",
+                isHeard: this.isHeard(index),
+                volume: voice.volume,
+            })),
+        );
     }
 
     setVolume(volume: number): void {
@@ -132,7 +150,11 @@ export class Player {
     }
 
     /// Notes go to that port, too, or instead.
-    setMidi(port: { send(bytes: number[], time?: number): void; clear?(): void } | null, isAlone: boolean, sendsClock: boolean): void {
+    setMidi(
+        port: { send(bytes: number[], time?: number): void; clear?(): void } | null,
+        isAlone: boolean,
+        sendsClock: boolean,
+    ): void {
         const wasPlaying = this.transport.playing;
         if (wasPlaying) this.transport.pause();
         this.isSilent = port !== null && isAlone;
@@ -145,9 +167,13 @@ export class Player {
         if (wasPlaying) this.transport.play();
     }
 
-    /// Milliseconds of the page's clock at which a time of the sound is heard.
+    /// Milliseconds of the page's clock at which a time of the sound is heard. The two clocks are compared again and
+    /// again, and the mean is used: a single look may be off by a block of the device.
     private wallTime(time: number): number {
-        return performance.now() + (time - this.heard()) * 1000;
+        const offset = performance.now() - this.heard() * 1000;
+        const isNear = Math.abs(offset - this.wallOffset) < 40;
+        this.wallOffset = isNear ? this.wallOffset + 0.02 * (offset - this.wallOffset) : offset;
+        return time * 1000 + this.wallOffset;
     }
 
     private open(): void {

@@ -31,12 +31,17 @@ export class RollView {
     private muted: (voice: number) => boolean = () => false;
     private drag: { x: number; left: number; isRuler: boolean; tick: number; moved: boolean } | null = null;
 
-    constructor(readonly canvas: HTMLCanvasElement, private readonly acts: RollActs) {
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        private readonly acts: RollActs,
+    ) {
         this.surface = new Surface(canvas, () => this.reset());
         canvas.addEventListener("pointerdown", (event) => this.press(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
         canvas.addEventListener("pointerup", (event) => this.release(event));
-        canvas.addEventListener("pointercancel", () => { this.drag = null; });
+        canvas.addEventListener("pointercancel", () => {
+            this.drag = null;
+        });
         canvas.addEventListener("pointerleave", () => this.acts.point(null));
         canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     }
@@ -55,8 +60,12 @@ export class RollView {
         this.reset();
     }
 
-    setMuted(muted: (voice: number) => boolean): void { this.muted = muted; }
-    setLoop(loop: Loop | null): void { this.shownLoop = loop; }
+    setMuted(muted: (voice: number) => boolean): void {
+        this.muted = muted;
+    }
+    setLoop(loop: Loop | null): void {
+        this.shownLoop = loop;
+    }
 
     reset(): void {
         this.surface.fit();
@@ -64,7 +73,9 @@ export class RollView {
         this.acts.redraw();
     }
 
-    private get span(): number { return Math.max(1, this.surface.width - gutter) / this.pixels; }
+    private get span(): number {
+        return Math.max(1, this.surface.width - gutter) / this.pixels;
+    }
 
     private zoomTo(melody: Melody, ticks: number): void {
         this.surface.fit();
@@ -87,10 +98,18 @@ export class RollView {
         this.left = Math.max(0, Math.min(tick, this.melody.end + 0.1 * this.span - this.span * 0.9));
     }
 
-    private tickOf(x: number): number { return this.left + (x - gutter) / this.pixels; }
-    private x(tick: number): number { return gutter + (tick - this.left) * this.pixels; }
-    private rowHeight(): number { return (this.surface.height - ruler) / (this.high - this.low + 1); }
-    private y(key: number): number { return ruler + (this.high - key + 0.5) * this.rowHeight(); }
+    private tickOf(x: number): number {
+        return this.left + (x - gutter) / this.pixels;
+    }
+    private x(tick: number): number {
+        return gutter + (tick - this.left) * this.pixels;
+    }
+    private rowHeight(): number {
+        return (this.surface.height - ruler) / (this.high - this.low + 1);
+    }
+    private y(key: number): number {
+        return ruler + (this.high - key + 0.5) * this.rowHeight();
+    }
 
     /// The bars stay with the music: they move under its head, or turn like pages where motion is not wanted.
     follow(tick: number, isPlaying: boolean): void {

@@ -1,14 +1,30 @@
 // A canvas that fills its element at the resolution of the screen.
 
-export interface Ink { paper: string; raised: string; line: string; strong: string; ink: string; soft: string; faint: string; accent: string; isDark: boolean }
+export interface Ink {
+    paper: string;
+    raised: string;
+    line: string;
+    strong: string;
+    ink: string;
+    soft: string;
+    faint: string;
+    accent: string;
+    isDark: boolean;
+}
 
 /// The page's colours, as they are now.
 export function readInk(): Ink {
     const style = getComputedStyle(document.documentElement);
     const of = (name: string) => style.getPropertyValue(`--${name}`).trim();
     return {
-        paper: of("sunken"), raised: of("raised"), line: of("line"), strong: of("line-strong"), ink: of("ink"),
-        soft: of("ink-soft"), faint: of("ink-faint"), accent: of("accent"),
+        paper: of("sunken"),
+        raised: of("raised"),
+        line: of("line"),
+        strong: of("line-strong"),
+        ink: of("ink"),
+        soft: of("ink-soft"),
+        faint: of("ink-faint"),
+        accent: of("accent"),
         isDark: document.documentElement.dataset["theme"] === "dark",
     };
 }
@@ -19,7 +35,10 @@ export class Surface {
     height = 1;
     ratio = 1;
 
-    constructor(readonly canvas: HTMLCanvasElement, changed: () => void) {
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        changed: () => void,
+    ) {
         this.context = canvas.getContext("2d")!;
         new ResizeObserver(() => {
             if (this.fit()) changed();

@@ -44,7 +44,12 @@ export class VoiceList {
         row.volume.setAttribute("aria-valuetext", `${Math.round(voice.volume * 100)} percent`);
         row.own.textContent = `As written: ${timbreNamed(this.player.instrumentOf(index)).label}`;
         row.timbre.value = voice.chosen;
-        for (const [control, what] of [[row.mute, "Mute"], [row.solo, "Solo"], [row.volume, "Volume"], [row.timbre, "Timbre"]] as const) {
+        for (const [control, what] of [
+            [row.mute, "Mute"],
+            [row.solo, "Solo"],
+            [row.volume, "Volume"],
+            [row.timbre, "Timbre"],
+        ] as const) {
             control.setAttribute("aria-label", `${what}, ${voice.name}`);
         }
     }
@@ -57,8 +62,12 @@ export class VoiceList {
         const solo = element("button", { type: "button", class: "play-toggle", title: "Solo: only this voice" }, "S");
         const volume = element("input", { type: "range", min: 0, max: 100, step: 1, title: "Volume" });
         const own = element("option", { value: "" });
-        const timbre = element("select", { title: "Timbre" }, own,
-            ...timbres.map((each) => element("option", { value: each.name }, each.label)));
+        const timbre = element(
+            "select",
+            { title: "Timbre" },
+            own,
+            ...timbres.map((each) => element("option", { value: each.name }, each.label)),
+        );
         mute.addEventListener("click", () => player.change(index, { muted: !player.voices[index].muted }));
         solo.addEventListener("click", () => player.change(index, { solo: !player.voices[index].solo }));
         volume.addEventListener("input", () => player.change(index, { volume: volume.valueAsNumber / 100 }));

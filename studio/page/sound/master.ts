@@ -34,13 +34,18 @@ export class Master {
         this.analyser.fftSize = 1024;
         this.wet.connect(high).connect(room).connect(this.volume);
         this.dry.connect(this.volume);
-        this.volume.connect(compressor).connect(input).connect(clip).connect(this.analyser).connect(context.destination);
+        this.volume
+            .connect(compressor)
+            .connect(input)
+            .connect(clip)
+            .connect(this.analyser)
+            .connect(context.destination);
         this.setVolume(0.8);
     }
 
     /// From 0 to 1.
     setVolume(share: number): void {
-        this.volume.gain.setTargetAtTime(1.1 * share * share, this.context.currentTime, 0.015);
+        this.volume.gain.setTargetAtTime(1.8 * share * share, this.context.currentTime, 0.015);
     }
 }
 
@@ -76,7 +81,8 @@ function impulse(context: BaseAudioContext): AudioBuffer {
             const swell = Math.min(1, time / 0.012);
             data[i] = low * swell * Math.exp((-6.9 * time) / room_seconds);
         }
-        for (let echo = 0; echo < 7; ++echo) data[Math.round((0.008 + 0.05 * chance()) * rate)] += 0.5 * (chance() - 0.5);
+        for (let echo = 0; echo < 7; ++echo)
+            data[Math.round((0.008 + 0.05 * chance()) * rate)] += 0.5 * (chance() - 0.5);
         const fade = Math.round(0.05 * rate);
         for (let i = 0; i < fade; ++i) data[length - 1 - i] *= i / fade;
         for (const value of data) power += value * value;

@@ -45,15 +45,36 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
         box[axis] = Math.min(box[axis], path[i]);
         box[axis + 2] = Math.max(box[axis + 2], path[i]);
     }
-    const voices = Math.max(1, most(voice) + 1, notes.parts.reduce((sum, part) => sum + part.voices, 0));
+    const voices = Math.max(
+        1,
+        most(voice) + 1,
+        notes.parts.reduce((sum, part) => sum + part.voices, 0),
+    );
     const partOfVoice = notes.parts.flatMap((part, index) => Array<number>(part.voices).fill(index));
     while (partOfVoice.length < voices) partOfVoice.push(Math.max(0, notes.parts.length - 1));
     const unit = (4 * notes.ticks) / notes.unit;
     return {
-        count, end: Math.max(notes.end, 1), ticks: notes.ticks, bar: unit * notes.beats, beat: unit, beats: notes.beats,
-        tempo: notes.tempo, parts: notes.parts, voices, partOfVoice, longest: most(duration),
-        lowest: -most(key.map((value) => -value)), highest: most(key), onset, duration, key,
-        velocity: Uint8Array.from(column(3)), voice, path, symbol: column(9), box,
+        count,
+        end: Math.max(notes.end, 1),
+        ticks: notes.ticks,
+        bar: unit * notes.beats,
+        beat: unit,
+        beats: notes.beats,
+        tempo: notes.tempo,
+        parts: notes.parts,
+        voices,
+        partOfVoice,
+        longest: most(duration),
+        lowest: -most(key.map((value) => -value)),
+        highest: most(key),
+        onset,
+        duration,
+        key,
+        velocity: Uint8Array.from(column(3)),
+        voice,
+        path,
+        symbol: column(9),
+        box,
     };
 }
 

@@ -2,7 +2,10 @@
 import type { Melody } from "./melody";
 import type { NoteSink } from "./transport";
 
-export interface MidiPort { send(bytes: number[], time?: number): void; clear?(): void }
+export interface MidiPort {
+    send(bytes: number[], time?: number): void;
+    clear?(): void;
+}
 
 const bend_range = 2; // semitones to either side, which all instruments start with
 const percussion = 9;
@@ -27,7 +30,12 @@ export function songPosition(tick: number, ticks: number): number[] {
     return [0xf2, sixteenths & 127, sixteenths >> 7];
 }
 
-export interface MidiVoice { program: number; isDrums: boolean; isHeard: boolean; volume: number }
+export interface MidiVoice {
+    program: number;
+    isDrums: boolean;
+    isHeard: boolean;
+    volume: number;
+}
 
 export class MidiOutput implements NoteSink {
     melody: Melody | null = null;
@@ -37,7 +45,10 @@ export class MidiOutput implements NoteSink {
     private on: { channel: number; key: number; begin: number; end: number }[] = [];
 
     /// `wallTime`: milliseconds of the browser's clock for a time of the sound's clock.
-    constructor(readonly port: MidiPort, private readonly wallTime: (time: number) => number) {}
+    constructor(
+        readonly port: MidiPort,
+        private readonly wallTime: (time: number) => number,
+    ) {}
 
     setVoices(voices: MidiVoice[]): void {
         this.voices = voices;

@@ -3,7 +3,11 @@ import type { Engine } from "../context";
 import type { Origins, PatternRequest } from "../protocol";
 import type { Melody } from "./melody";
 
-export interface Place { line: number; column: number; length: number }
+export interface Place {
+    line: number;
+    column: number;
+    length: number;
+}
 
 const batch = 200;
 const most_kept = 20_000;
@@ -26,7 +30,7 @@ export class NoteOrigins {
     }
 
     placeOf(note: number): Place | null {
-        return this.melody ? this.found.get(this.melody.symbol[note]) ?? null : null;
+        return this.melody ? (this.found.get(this.melody.symbol[note]) ?? null) : null;
     }
 
     /// Asks for the notes from this one on, unless they are known.
@@ -48,7 +52,9 @@ export class NoteOrigins {
         this.asking = true;
         try {
             const { json } = await this.engine.request<Origins>(
-                { do: "origins", symbols: symbols.map(String), pattern }, { key: "origins", lane: "back" });
+                { do: "origins", symbols: symbols.map(String), pattern },
+                { key: "origins", lane: "back" },
+            );
             if (generation !== this.generation) return;
             if (this.found.size > most_kept) this.found.clear();
             json.origins.forEach(({ steps }, index) => {

@@ -12,8 +12,14 @@ export interface Partial {
 const step = 32; // samples between two looks at the envelopes
 
 /// `level(partial, seconds)` is the envelope beside the decay; it is followed in straight lines.
-export function partials(list: readonly Partial[], key: number, rate: number, seconds: number,
-                         shape: ((partial: number, time: number) => number) | null, seed: number): Float32Array {
+export function partials(
+    list: readonly Partial[],
+    key: number,
+    rate: number,
+    seconds: number,
+    shape: ((partial: number, time: number) => number) | null,
+    seed: number,
+): Float32Array {
     const count = Math.ceil((seconds * rate) / step) * step;
     const data = new Float32Array(count);
     const fundamental = keyFrequency(key);
@@ -56,7 +62,14 @@ export function onset(data: Float32Array, rate: number, seconds: number): Float3
 }
 
 /// A knock: noise in a band that decays.
-export function addKnock(data: Float32Array, rate: number, hertz: number, seconds: number, level: number, seed: number): void {
+export function addKnock(
+    data: Float32Array,
+    rate: number,
+    hertz: number,
+    seconds: number,
+    level: number,
+    seed: number,
+): void {
     const chance = makeChance(seed);
     const share = 1 - Math.exp((-2 * Math.PI * hertz) / rate);
     const fade = 10 ** (-3 / (seconds * rate));

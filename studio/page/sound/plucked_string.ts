@@ -31,7 +31,7 @@ function excitation(length: number, string: PluckedString, rate: number, key: nu
     const chance = makeChance(key * 7919 + 17);
     const burst = new Float64Array(length);
     burst[0] = 1;
-    for (let i = 0; i < length; ++i) burst[i] += string.noise * (2 * chance() - 1) / Math.sqrt(length);
+    for (let i = 0; i < length; ++i) burst[i] += (string.noise * (2 * chance() - 1)) / Math.sqrt(length);
     // The width of the finger.
     const cutoff = 700 + 9000 * string.hardness ** 1.5 + 2 * keyFrequency(key);
     const share = 1 - Math.exp((-2 * Math.PI * cutoff) / rate);

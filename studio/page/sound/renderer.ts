@@ -1,10 +1,14 @@
 // Rendered notes as buffers of the browser: made in a worker, a while before they sound.
-import source from "worker:sound/render_worker.ts";
+import source from "worker:./render_worker.ts";
 import type { Rendered, RenderRequest } from "./render_worker";
 import type { Timbre } from "./timbres";
 import { renderedKey } from "./timbres";
 
-export interface Voiced { buffer: AudioBuffer; frequency: number; loops: boolean }
+export interface Voiced {
+    buffer: AudioBuffer;
+    frequency: number;
+    loops: boolean;
+}
 
 const most_bytes = 128 * 1024 * 1024;
 
@@ -19,7 +23,9 @@ export class Renderer {
         this.worker.onmessage = (event: MessageEvent<Rendered>) => this.receive(event.data);
     }
 
-    private name(timbre: string, key: number): string { return `${timbre} ${key}`; }
+    private name(timbre: string, key: number): string {
+        return `${timbre} ${key}`;
+    }
 
     /// The buffer for a key, if it is there; otherwise it is asked for.
     find(timbre: Timbre, key: number): Voiced | null {
@@ -39,7 +45,8 @@ export class Renderer {
         const whole = renderedKey(timbre, key);
         if (timbre.everyKey) return null;
         for (let away = 1; away <= 12; ++away) {
-            const found = this.ready.get(this.name(timbre.name, whole + away))
+            const found =
+                this.ready.get(this.name(timbre.name, whole + away))
                 ?? this.ready.get(this.name(timbre.name, whole - away));
             if (found) return found;
         }
@@ -55,7 +62,11 @@ export class Renderer {
             return;
         }
         this.waiting.set(name, done ? [done] : []);
-        this.worker.postMessage({ timbre: timbre.name, key: whole, rate: this.context.sampleRate } satisfies RenderRequest);
+        this.worker.postMessage({
+            timbre: timbre.name,
+            key: whole,
+            rate: this.context.sampleRate,
+        } satisfies RenderRequest);
     }
 
     /// Renders all of these, each once.
@@ -87,5 +98,7 @@ export class Renderer {
         for (const done of listeners) done();
     }
 
-    close(): void { this.worker.terminate(); }
+    close(): void {
+        this.worker.terminate();
+    }
 }

@@ -10,7 +10,7 @@ export const keyFrequency = (key: number): number => 440 * 2 ** ((key - 69) / 12
 
 const window_seconds = 0.25;
 const loudness = 0.07; // root mean square of the loudest quarter of a second
-const most_peak = 0.9;
+const most_peak = 1.25; // the master limits sums of notes anyway
 
 /// The loudest quarter of a second, or the whole if that is shorter.
 export function loudestLevel(data: Float32Array, rate: number): number {
@@ -26,9 +26,18 @@ export function loudestLevel(data: Float32Array, rate: number): number {
     return Math.sqrt(most / length);
 }
 
+/// As loud as a note seems: the loudest moment of one that decays; for one that lasts, between that and the mean.
+export function levelOf({ data, loops }: Sample, rate: number): number {
+    const loudest = loudestLevel(data, rate);
+    if (!loops) return loudest;
+    const power = data.reduce((sum, value) => sum + value * value, 0) / data.length;
+    return Math.sqrt(loudest * Math.sqrt(power));
+}
+
 /// Scales to the loudness that all timbres share. High notes seem louder than low ones and are made a little softer.
-export function levelled(data: Float32Array, rate: number, key: number): Float32Array {
-    const level = loudestLevel(data, rate);
+export function levelled(sample: Sample, rate: number, key: number): Float32Array {
+    const { data } = sample;
+    const level = levelOf(sample, rate);
     if (!(level > 0)) return data;
     let peak = 0;
     for (const value of data) peak = Math.max(peak, Math.abs(value));

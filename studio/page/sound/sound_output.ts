@@ -8,13 +8,30 @@ import { timbreNamed } from "./timbres";
 import type { NoteSink } from "./transport";
 
 /// What a voice is heard through.
-export interface VoiceSettings { timbre: string; volume: number; muted: boolean; solo: boolean }
+export interface VoiceSettings {
+    timbre: string;
+    volume: number;
+    muted: boolean;
+    solo: boolean;
+}
 
 /// Buffers of timbres: Renderer, or what a test has.
-export interface Buffers { find(timbre: Timbre, key: number): Voiced | null }
+export interface Buffers {
+    find(timbre: Timbre, key: number): Voiced | null;
+}
 
-interface Strip { gain: GainNode; pan: StereoPannerNode; send: GainNode }
-interface Sounding { source: AudioBufferSourceNode; envelope: GainNode; vibrato: OscillatorNode | null; begin: number; end: number }
+interface Strip {
+    gain: GainNode;
+    pan: StereoPannerNode;
+    send: GainNode;
+}
+interface Sounding {
+    source: AudioBufferSourceNode;
+    envelope: GainNode;
+    vibrato: OscillatorNode | null;
+    begin: number;
+    end: number;
+}
 
 const most_sounding = 96;
 
@@ -25,7 +42,10 @@ export class SoundOutput implements NoteSink {
     private strips: Strip[] = [];
     private sounding: Sounding[] = [];
 
-    constructor(readonly context: BaseAudioContext, private readonly buffers: Buffers) {
+    constructor(
+        readonly context: BaseAudioContext,
+        private readonly buffers: Buffers,
+    ) {
         this.master = new Master(context);
     }
 
@@ -41,7 +61,12 @@ export class SoundOutput implements NoteSink {
             strip.gain.gain.setTargetAtTime(level, now, 0.012);
             strip.send.gain.setTargetAtTime(timbreNamed(voice?.timbre ?? "").reverb, now, 0.012);
             // Voices sit beside each other, the first in the middle.
-            const place = voices.length < 2 ? 0 : (index % 2 === 0 ? 1 : -1) * 0.5 * Math.min(1, Math.ceil(index / 2) / Math.max(1, (voices.length - 1) / 2));
+            const place =
+                voices.length < 2
+                    ? 0
+                    : (index % 2 === 0 ? 1 : -1)
+                      * 0.5
+                      * Math.min(1, Math.ceil(index / 2) / Math.max(1, (voices.length - 1) / 2));
             strip.pan.pan.setTargetAtTime(place, now, 0.02);
         });
     }
@@ -93,9 +118,9 @@ export class SoundOutput implements NoteSink {
         filter.Q.value = -3;
         const [dark, bright] = timbre.brightness;
         const cutoff = frequency * (dark + (bright - dark) * force ** 1.5);
-        filter.frequency.value = Math.min(0.45 * context.sampleRate, Math.max(700 + 2500 * force, cutoff));
+        filter.frequency.value = Math.min(0.45 * context.sampleRate, Math.max(300 + 1500 * force, cutoff));
 
-        const level = (velocity / 100) ** 1.3;
+        const level = (timbre.trim ?? 1) * (velocity / 100) ** 1.3;
         const envelope = context.createGain();
         const attack = Math.min(timbre.attack, 0.7 * seconds);
         const end = begin + seconds;
@@ -121,12 +146,19 @@ export class SoundOutput implements NoteSink {
         if (this.sounding.length > most_sounding) this.fade(this.sounding.shift()!, begin, 0.01);
     }
 
-    private vibrato(timbre: Timbre, source: AudioBufferSourceNode, begin: number, seconds: number, rate: number): OscillatorNode | null {
+    private vibrato(
+        timbre: Timbre,
+        source: AudioBufferSourceNode,
+        begin: number,
+        seconds: number,
+        rate: number,
+    ): OscillatorNode | null {
         if (!timbre.vibrato || seconds < timbre.vibrato.delay + 0.15) return null;
         const { hertz, cents, delay } = timbre.vibrato;
         const oscillator = this.context.createOscillator();
         oscillator.frequency.value = hertz;
         const depth = this.context.createGain();
+        depth.gain.value = 0;
         depth.gain.setValueAtTime(0, begin + delay);
         depth.gain.linearRampToValueAtTime(rate * (2 ** (cents / 1200) - 1), begin + delay + 0.4);
         oscillator.connect(depth).connect(source.playbackRate);

@@ -50,8 +50,14 @@ function spread(amplitude: Float64Array, centre: number, width: number, level: n
     }
 }
 
-function breathe(sound: Sustained, amplitude: Float64Array, fundamental: number, bin: number, level: number,
-                 chance: () => number): void {
+function breathe(
+    sound: Sustained,
+    amplitude: Float64Array,
+    fundamental: number,
+    bin: number,
+    level: number,
+    chance: () => number,
+): void {
     const [low, high] = sound.breath_hertz ?? [fundamental * bin * 0.5, Math.min(12000, fundamental * bin * 12)];
     const noise = new Float64Array(amplitude.length);
     let power = 0;
@@ -68,8 +74,9 @@ function breathe(sound: Sustained, amplitude: Float64Array, fundamental: number,
 
 /// Resonances that do not move with the key, such as those of a voice or a violin: hertz, bandwidth, level.
 export function formants(list: readonly [number, number, number][], floor: number): (hertz: number) => number {
-    return (hertz) => list.reduce((sum, [centre, bandwidth, level]) => {
-        const distance = (hertz - centre) / bandwidth;
-        return sum + level / (1 + distance * distance);
-    }, floor);
+    return (hertz) =>
+        list.reduce((sum, [centre, bandwidth, level]) => {
+            const distance = (hertz - centre) / bandwidth;
+            return sum + level / (1 + distance * distance);
+        }, floor);
 }

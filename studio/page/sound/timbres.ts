@@ -17,6 +17,7 @@ export interface Timbre {
     brightness: [number, number]; // the filter opens to this many harmonics for the softest and the loudest notes
     vibrato?: { hertz: number; cents: number; delay: number }; // comes late
     reverb: number; // share that is sent
+    trim?: number; // of the level, after the filter has taken its part
     lasts?: boolean; // as long as its note
     everyKey?: boolean; // each key is a sound of its own: a drum kit
 }
@@ -38,11 +39,12 @@ const odd = (k: number): number => (k % 2 === 1 ? 1 : 0.12);
 
 const list: Timbre[] = [
     {
-        name: "piano", label: "Piano", attack: 0.001, release: 0.28, brightness: [5, 40], reverb: 0.16,
+        name: "piano", label: "Piano", attack: 0.001, release: 0.28, brightness: [2, 34], reverb: 0.16,
         render: piano,
     },
     {
-        name: "electric-piano", label: "Electric piano", attack: 0.002, release: 0.3, brightness: [4, 24], reverb: 0.18,
+        name: "electric-piano", label: "Electric piano", attack: 0.002, release: 0.3,
+        brightness: [1.4, 20], reverb: 0.18,
         render: electricPiano,
     },
     {
@@ -51,34 +53,34 @@ const list: Timbre[] = [
             { seconds: 3.2, ring: 0.5, position: 0.11, hardness: 1, noise: 0.5, body: harpBody }, key, rate),
     },
     {
-        name: "celesta", label: "Music box", attack: 0.001, release: 0.9, brightness: [6, 20], reverb: 0.3,
+        name: "celesta", label: "Music box", attack: 0.001, release: 0.9, brightness: [2, 16], reverb: 0.3,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 1.9], [2.76, 0.22, 0.7], [5.4, 0.16, 0.3], [8.93, 0.06, 0.12]]),
             stretch: 0.7, attack: 0.001, knock: [4500, 0.02, 0.12],
         }, key, rate),
     },
     {
-        name: "vibraphone", label: "Vibraphone", attack: 0.001, release: 0.7, brightness: [4, 14], reverb: 0.26,
+        name: "vibraphone", label: "Vibraphone", attack: 0.001, release: 0.7, brightness: [1.5, 12], reverb: 0.26,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 3.2], [3.99, 0.22, 1], [9.9, 0.05, 0.2]]), stretch: 0.6, attack: 0.002,
         }, key, rate),
     },
     {
-        name: "marimba", label: "Marimba", attack: 0.001, release: 0.3, brightness: [4, 14], reverb: 0.2,
+        name: "marimba", label: "Marimba", attack: 0.001, release: 0.3, brightness: [1.6, 12], reverb: 0.2,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 0.75], [3.93, 0.3, 0.16], [9.2, 0.12, 0.06]]),
             stretch: 1, attack: 0.001, knock: [900, 0.025, 0.35],
         }, key, rate),
     },
     {
-        name: "xylophone", label: "Xylophone", attack: 0.001, release: 0.2, brightness: [8, 24], reverb: 0.2,
+        name: "xylophone", label: "Xylophone", attack: 0.001, release: 0.2, brightness: [3, 20], reverb: 0.2,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 0.42], [3, 0.5, 0.2], [6.1, 0.3, 0.1]]),
             stretch: 0.8, attack: 0.001, knock: [2500, 0.02, 0.3],
         }, key, rate),
     },
     {
-        name: "bell", label: "Bell", attack: 0.001, release: 1.6, brightness: [6, 24], reverb: 0.34,
+        name: "bell", label: "Bell", attack: 0.001, release: 1.6, brightness: [2, 20], reverb: 0.34,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 4.2], [0.501, 0.5, 5.2], [1.19, 0.55, 3], [1.502, 0.4, 2.2], [2.003, 0.6, 2],
                             [2.62, 0.3, 1.1], [3.01, 0.25, 0.9], [4.17, 0.2, 0.6], [5.43, 0.14, 0.4]]),
@@ -86,7 +88,7 @@ const list: Timbre[] = [
         }, key, rate),
     },
     {
-        name: "organ", label: "Organ", attack: 0.012, release: 0.07, brightness: [16, 30], reverb: 0.26,
+        name: "organ", label: "Organ", attack: 0.012, release: 0.07, brightness: [16, 30], reverb: 0.26, trim: 0.8,
         ...lasting({ level: (k) => drawbars[k] ?? 0, spread: 0, breath: 0.012, breath_hertz: [900, 5000] }),
     },
     {
@@ -98,69 +100,73 @@ const list: Timbre[] = [
         ...lasting({ level: (k, hertz) => reed(hertz) / k ** 0.7 + (k === 1 ? 0.3 : 0), spread: 9, breath: 0.02 }),
     },
     {
-        name: "guitar", label: "Guitar", attack: 0.001, release: 0.35, brightness: [10, 60], reverb: 0.16,
+        name: "guitar", label: "Guitar", attack: 0.001, release: 0.35, brightness: [3.5, 50], reverb: 0.16,
         render: (key, rate) => pluckedString(
             { seconds: 4.2, ring: 0.16, position: 0.16, hardness: 0.45, noise: 0.9, body: guitarBody }, key, rate),
     },
     {
-        name: "harp", label: "Harp", attack: 0.001, release: 0.9, brightness: [8, 50], reverb: 0.3,
+        name: "harp", label: "Harp", attack: 0.001, release: 0.9, brightness: [3, 40], reverb: 0.3,
         render: (key, rate) => pluckedString(
             { seconds: 4.6, ring: 0.1, position: 0.4, hardness: 0.3, noise: 0.4, body: harpBody }, key, rate),
     },
     {
-        name: "koto", label: "Koto", attack: 0.001, release: 0.5, brightness: [14, 60], reverb: 0.22,
+        name: "koto", label: "Koto", attack: 0.001, release: 0.5, brightness: [6, 55], reverb: 0.22,
         render: (key, rate) => pluckedString(
-            { seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7, body: [[310, 60, 0.6], [720, 120, 0.4]] },
+            { seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7,
+              body: [[310, 60, 0.6], [720, 120, 0.4]] },
             key, rate),
     },
     {
-        name: "banjo", label: "Banjo", attack: 0.001, release: 0.15, brightness: [16, 60], reverb: 0.14,
+        name: "banjo", label: "Banjo", attack: 0.001, release: 0.15, brightness: [8, 55], reverb: 0.14,
         render: (key, rate) => pluckedString(
-            { seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6, body: [[520, 160, 1.2], [950, 220, 0.8]] },
+            { seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6,
+              body: [[520, 160, 1.2], [950, 220, 0.8]] },
             key, rate),
     },
     {
-        name: "pizzicato", label: "Plucked strings", attack: 0.001, release: 0.2, brightness: [6, 26], reverb: 0.28,
+        name: "pizzicato", label: "Plucked strings", attack: 0.001, release: 0.2, brightness: [3, 26], reverb: 0.28,
         render: (key, rate) => pluckedString(
-            { seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6, body: [[280, 60, 1], [460, 90, 0.7]] },
+            { seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6,
+              body: [[280, 60, 1], [460, 90, 0.7]] },
             key, rate),
     },
     {
-        name: "bass", label: "Bass", attack: 0.002, release: 0.14, brightness: [8, 30], reverb: 0.06,
+        name: "bass", label: "Bass", attack: 0.002, release: 0.14, brightness: [4, 26], reverb: 0.06,
         render: (key, rate) => pluckedString(
             { seconds: 2.6, ring: 0.08, position: 0.2, hardness: 0.25, noise: 0.3, body: [[95, 50, 0.5]] }, key, rate),
     },
     {
-        name: "veena", label: "Veena", attack: 0.001, release: 0.5, brightness: [10, 40], reverb: 0.2,
+        name: "veena", label: "Veena", attack: 0.001, release: 0.5, brightness: [4, 34], reverb: 0.2,
         render: (key, rate) => curvedBridge(
             { seconds: 4.4, begin: 14, end: 3, fall: 1.1, buzz: 2.2, position: 0.13, attack: 0.002 }, key, rate),
     },
     {
-        name: "sitar", label: "Sitar", attack: 0.001, release: 0.5, brightness: [18, 60], reverb: 0.24,
+        name: "sitar", label: "Sitar", attack: 0.001, release: 0.5, brightness: [7, 50], reverb: 0.24,
         render: (key, rate) => curvedBridge(
             { seconds: 4, begin: 26, end: 6, fall: 0.9, buzz: 5, position: 0.08, attack: 0.0015 }, key, rate),
     },
     {
-        name: "tanpura", label: "Tanpura", attack: 0.004, release: 1.8, brightness: [16, 60], reverb: 0.34,
+        name: "tanpura", label: "Tanpura", attack: 0.004, release: 1.8, brightness: [6, 50], reverb: 0.34,
         render: (key, rate) => curvedBridge(
             { seconds: 8, begin: 22, end: 4, fall: 3.2, buzz: 6, position: 0.22, attack: 0.012 }, key, rate),
     },
     {
-        name: "kalimba", label: "Kalimba", attack: 0.001, release: 0.5, brightness: [5, 18], reverb: 0.24,
+        name: "kalimba", label: "Kalimba", attack: 0.001, release: 0.5, brightness: [1.5, 14], reverb: 0.24,
         render: (key, rate) => struck({
             partials: bars([[1, 1, 1.2], [5.8, 0.16, 0.14], [2.02, 0.1, 0.5]]),
             stretch: 0.6, attack: 0.0015, knock: [700, 0.03, 0.3],
         }, key, rate),
     },
     {
-        name: "steel-drum", label: "Steel drum", attack: 0.002, release: 0.4, brightness: [5, 16], reverb: 0.24,
+        name: "steel-drum", label: "Steel drum", attack: 0.002, release: 0.4, brightness: [2, 14], reverb: 0.24,
         render: (key, rate) => struck({
-            partials: bars([[1, 1, 1], [2, 0.7, 0.8], [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]]),
+            partials: bars([[1, 1, 1], [2, 0.7, 0.8],
+                             [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]]),
             stretch: 0.6, attack: 0.004,
         }, key, rate),
     },
     {
-        name: "strings", label: "Strings", attack: 0.16, release: 0.35, brightness: [7, 22], reverb: 0.34,
+        name: "strings", label: "Strings", attack: 0.16, release: 0.35, brightness: [5, 22], reverb: 0.34,
         vibrato: { hertz: 5.1, cents: 7, delay: 0.35 },
         ...lasting({ level: (k, hertz) => violin(hertz) / k ** 0.95, spread: 26, breath: 0.015 }),
     },
@@ -170,9 +176,10 @@ const list: Timbre[] = [
         ...lasting({ level: (k, hertz) => violin(hertz) / k ** 0.85, spread: 3, breath: 0.05 }),
     },
     {
-        name: "choir", label: "Choir", attack: 0.14, release: 0.4, brightness: [16, 30], reverb: 0.42,
+        name: "choir", label: "Choir", attack: 0.14, release: 0.4, brightness: [16, 30], reverb: 0.42, trim: 0.9,
         vibrato: { hertz: 4.8, cents: 9, delay: 0.3 },
-        ...lasting({ level: (k, hertz) => vowel(hertz) / k ** 0.4, spread: 30, breath: 0.05, breath_hertz: [500, 6000] }),
+        ...lasting({ level: (k, hertz) => vowel(hertz) / k ** 0.4, spread: 30,
+            breath: 0.05, breath_hertz: [500, 6000] }),
     },
     {
         name: "brass", label: "Brass", attack: 0.05, release: 0.12, brightness: [4, 26], reverb: 0.24,
@@ -195,7 +202,7 @@ const list: Timbre[] = [
         ...lasting({ level: (k, hertz) => odd(k) / (k * (1 + (hertz / 3200) ** 2)), spread: 0, breath: 0.02 }),
     },
     {
-        name: "flute", label: "Flute", attack: 0.07, release: 0.12, brightness: [5, 14], reverb: 0.3,
+        name: "flute", label: "Flute", attack: 0.07, release: 0.12, brightness: [2.2, 12], reverb: 0.3, trim: 0.87,
         vibrato: { hertz: 5.2, cents: 11, delay: 0.35 },
         ...lasting({
             level: (k, hertz) => [1, 0.55, 0.22, 0.1, 0.06, 0.035, 0.02][k - 1] / (1 + (hertz / 4500) ** 2) || 0,
@@ -203,14 +210,14 @@ const list: Timbre[] = [
         }),
     },
     {
-        name: "bansuri", label: "Bamboo flute", attack: 0.09, release: 0.16, brightness: [5, 12], reverb: 0.34,
+        name: "bansuri", label: "Bamboo flute", attack: 0.09, release: 0.16, brightness: [2, 11], reverb: 0.34,
         vibrato: { hertz: 4.6, cents: 18, delay: 0.45 },
         ...lasting({
             level: (k) => [1, 0.3, 0.26, 0.05, 0.07, 0.02][k - 1] ?? 0, spread: 0, breath: 0.26,
         }),
     },
     {
-        name: "lead", label: "Synth lead", attack: 0.008, release: 0.1, brightness: [5, 30], reverb: 0.18,
+        name: "lead", label: "Synth lead", attack: 0.008, release: 0.1, brightness: [5, 30], reverb: 0.18, trim: 1.35,
         vibrato: { hertz: 5.5, cents: 8, delay: 0.4 },
         ...lasting({ level: (k) => 1 / k, spread: 6, breath: 0 }),
     },
@@ -231,7 +238,8 @@ const list: Timbre[] = [
         render: tunedDrum,
     },
     {
-        name: "drums", label: "Drum kit", attack: 0.0005, release: 0.5, brightness: [200, 200], reverb: 0.12,
+        name: "drums", label: "Drum kit", attack: 0.0005, release: 0.5,
+        brightness: [200, 200], reverb: 0.12, trim: 1.25,
         render: drum, everyKey: true,
     },
 ];
@@ -272,6 +280,6 @@ export function renderedKey(timbre: Timbre, key: number): number {
 
 export function renderTimbre(timbre: Timbre, key: number, rate: number): Sample {
     const sample = timbre.render(key, rate);
-    levelled(sample.data, rate, timbre.everyKey ? 60 : key);
+    levelled(sample, rate, timbre.everyKey ? 60 : key);
     return sample;
 }

@@ -1,6 +1,10 @@
 // A timer that is not slowed down while the page is in the background: browsers leave those of workers alone.
 
-const source = "let timer; onmessage = ({data}) => { clearInterval(timer); if (data) timer = setInterval(() => postMessage(0), data); };";
+const source = `let timer;
+onmessage = ({ data }) => {
+    clearInterval(timer);
+    if (data) timer = setInterval(() => postMessage(0), data);
+};`;
 
 export class Timer {
     private worker: Worker | null = null;

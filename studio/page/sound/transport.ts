@@ -13,7 +13,10 @@ export interface NoteSink {
     clock?(time: number): void; // 24 times in a quarter
 }
 
-export interface Loop { from: number; to: number } // ticks
+export interface Loop {
+    from: number;
+    to: number;
+} // ticks
 
 const lead = 0.06; // seconds from pressing the key to the first note
 const clocks = 24; // in a quarter, as MIDI has it
@@ -32,11 +35,20 @@ export class Transport {
     private pass = 0; // of the loop
     private nextClock = 0;
 
-    constructor(private readonly now: () => number, private readonly sinks: NoteSink[]) {}
+    constructor(
+        private readonly now: () => number,
+        private readonly sinks: NoteSink[],
+    ) {}
 
-    get secondsPerTick(): number { return 60 / (this.tempo * (this.melody?.ticks ?? 480)); }
-    get quartersPerMinute(): number { return this.tempo; }
-    get loop(): Loop | null { return this.loopRange; }
+    get secondsPerTick(): number {
+        return 60 / (this.tempo * (this.melody?.ticks ?? 480));
+    }
+    get quartersPerMinute(): number {
+        return this.tempo;
+    }
+    get loop(): Loop | null {
+        return this.loopRange;
+    }
 
     /// The place in the melody at a time of the clock.
     tickAt(time: number): number {
@@ -114,15 +126,21 @@ export class Transport {
 
     setTempo(tempo: number): void {
         if (tempo === this.tempo || !(tempo > 0)) return;
-        this.keepingPlace(() => { this.tempo = tempo; });
+        this.keepingPlace(() => {
+            this.tempo = tempo;
+        });
     }
 
     setLoop(loop: Loop | null): void {
-        this.keepingPlace(() => { this.loopRange = loop && loop.to > loop.from ? loop : null; });
+        this.keepingPlace(() => {
+            this.loopRange = loop && loop.to > loop.from ? loop : null;
+        });
     }
 
     setMelody(melody: Melody | null): void {
-        this.keepingPlace(() => { this.melody = melody; });
+        this.keepingPlace(() => {
+            this.melody = melody;
+        });
         if (!melody && this.playing) this.pause();
     }
 
@@ -166,7 +184,9 @@ export class Transport {
             const onset = melody.onset[this.next];
             const time = this.timeOf(this.straight(onset));
             if (time > until) break;
-            const end = loop ? Math.min(onset + melody.duration[this.next], loop.to) : onset + melody.duration[this.next];
+            const end = loop
+                ? Math.min(onset + melody.duration[this.next], loop.to)
+                : onset + melody.duration[this.next];
             this.hand(this.next, time, end - onset);
             ++this.next;
         }
@@ -180,7 +200,7 @@ export class Transport {
     }
 
     private sendClocks(until: number, melody: Melody): void {
-        for (;; ++this.nextClock) {
+        for (; ; ++this.nextClock) {
             const time = this.timeOf((this.nextClock * melody.ticks) / clocks);
             if (time > until) break;
             for (const sink of this.sinks) sink.clock?.(time);

@@ -1,5 +1,5 @@
-// studio/wasm/include/oneapi/tbb: what the libraries use of oneTBB, on one thread. The headers beside this one include
-// it under the names of oneTBB.
+// studio/wasm/include/oneapi/tbb: what the libraries use of oneTBB, on one thread. The headers beside this one
+// include it under the names of oneTBB.
 #pragma once
 
 #include <cstddef>
@@ -59,7 +59,8 @@ private:
     std::deque<Value> values_;
 };
 
-// --- pipelines: one item at a time goes through all filters ---------------------------------------------------------
+// --- pipelines: one item at a time goes through all filters
+// ---------------------------------------------------------
 
 enum class filter_mode { serial_in_order, parallel };
 

@@ -1,0 +1,164 @@
+#include "engine/derivation/origins.h"
+
+#include "engine/derivation/levels.h"
+#include "engine/language/word_scanner.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t most_levels = 10'000;
+constexpr std::size_t most_lengths = std::size_t{1} << 22;
+
+std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
+    return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
+}
+
+/// The places of the symbols of a word in the text.
+std::vector<Span> symbol_spans(const SymbolNames& names, const Span& word) {
+    std::vector<Span> spans;
+    WordScanner scanner(names, word, nullptr);
+    std::vector<Span> parameters;
+    while (true) {
+        const bool is_after_blank = scanner.skip_blanks();
+        if (scanner.at_end()) return spans;
+        const std::size_t begin = scanner.at();
+        if (scanner.letter(is_after_blank).empty()) return spans;
+        if (scanner.at_parameters() && !scanner.parameters(parameters)) return spans;
+        spans.push_back(word.part(begin, scanner.at() - begin));
+    }
+}
+
+/// The texts of a table's productions, in the order of Table::productions().
+std::vector<const ProductionText*> texts_of(const Pattern& pattern, const TableText* table) {
+    std::vector<const ProductionText*> texts;
+    for (const ProductionText& text : pattern.common) texts.push_back(&text);
+    if (!table) return texts;
+    for (const ProductionText& text : table->productions) texts.push_back(&text);
+    return texts;
+}
+
+class Tracer {
+public:
+    explicit Tracer(const Document& document)
+        : pattern_(document.pattern()),
+          grammar_(document.grammar()),
+          levels_(grammar_, true),
+          names_(pattern_, diagnostics_),
+          symbols_(grammar_.symbols().size()) {
+        const auto& tables = grammar_.tables();
+        const bool is_traced =
+            grammar_.is_plain() && !grammar_.cut() &&
+            std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.context_free(); });
+        if (!is_traced) {
+            throw std::runtime_error("the origins of symbols are known only without contexts, parameters and chance");
+        }
+        if (levels_.count() > most_levels ||
+            static_cast<std::size_t>(levels_.count() + 1) * symbols_ > most_lengths) {
+            throw std::runtime_error("the origins of symbols are known up to 10,000 steps");
+        }
+        for (std::size_t i = 0; i < tables.size(); ++i) {
+            add_table(tables[i], texts_of(pattern_, pattern_.tables.empty() ? nullptr : &pattern_.tables[i]));
+        }
+        if (grammar_.interpretation()) {
+            std::vector<const ProductionText*> texts;
+            for (const ProductionText& text : pattern_.interpret) texts.push_back(&text);
+            add_table(*grammar_.interpretation(), texts);
+        }
+        const Key* axiom = pattern_.find("axiom");
+        if (axiom) axiom_ = symbol_spans(names_, axiom->value);
+        lengths_.assign(symbols_, 1);
+        for (std::int64_t level = 1; level <= levels_.count(); ++level) {
+            const std::size_t below = lengths_.size() - symbols_;
+            for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
+                const Word* successor = levels_.table(level).successor(symbol);
+                std::uint64_t length = successor ? 0 : lengths_[below + symbol];
+                if (successor) {
+                    for (const Symbol child : *successor) length = sum(length, lengths_[below + child]);
+                }
+                lengths_.push_back(length);
+            }
+        }
+    }
+
+    std::vector<Origin> trace(std::uint64_t position) const {
+        std::vector<Origin> found;
+        std::uint64_t before = position - 1;  // symbols of the part that are still before it
+        std::int64_t level = levels_.count();
+        const Word* word = &grammar_.axiom();
+        const std::vector<Span>* spans = &axiom_;
+        Span production;
+        while (true) {
+            std::size_t item = 0;
+            while (item < word->size() && before >= length((*word)[item], level)) {
+                before -= length((*word)[item], level);
+                ++item;
+            }
+            if (item == word->size() || item >= spans->size()) return {};
+            found.push_back({(*spans)[item], production});
+            const Symbol symbol = (*word)[item];
+            const Word* successor = nullptr;
+            while (level > 0 && !(successor = levels_.table(level).successor(symbol))) --level;
+            if (!successor) return found;
+            const Made& made = made_.at(tables_index(levels_.table(level)))[symbol];
+            word = successor;
+            spans = &made.spans;
+            production = made.production;
+            --level;
+        }
+    }
+
+private:
+    /// What a table makes of a symbol, in the text.
+    struct Made {
+        Span production;
+        std::vector<Span> spans;
+    };
+
+    void add_table(const Table& table, const std::vector<const ProductionText*>& texts) {
+        std::vector<Made> made(symbols_);
+        // The first production of a symbol applies.
+        for (std::size_t i = table.productions().size(); i > 0; --i) {
+            const Production& production = table.productions()[i - 1];
+            if (i > texts.size() || production.predecessor.size() != 1) continue;
+            const ProductionText& text = *texts[i - 1];
+            made[production.predecessor.front()] = {text.whole, symbol_spans(names_, text.successor)};
+        }
+        known_.push_back(&table);
+        made_.push_back(std::move(made));
+    }
+    std::size_t tables_index(const Table& table) const {
+        return static_cast<std::size_t>(std::find(known_.begin(), known_.end(), &table) - known_.begin());
+    }
+    std::uint64_t length(Symbol symbol, std::int64_t level) const {
+        return lengths_[static_cast<std::size_t>(level) * symbols_ + symbol];
+    }
+
+    const Pattern& pattern_;
+    const Grammar& grammar_;
+    Levels levels_;
+    Diagnostics diagnostics_;
+    SymbolNames names_;
+    std::size_t symbols_;
+    std::vector<Span> axiom_;
+    std::vector<const Table*> known_;
+    std::vector<std::vector<Made>> made_;
+    std::vector<std::uint64_t> lengths_;  // of the expansion of a symbol at a level
+};
+
+}  // namespace
+
+std::vector<std::vector<Origin>> origins(const Document& document, std::span<const std::uint64_t> positions) {
+    const Tracer tracer(document);
+    std::vector<std::vector<Origin>> all;
+    all.reserve(positions.size());
+    for (const std::uint64_t position : positions) {
+        all.push_back(position == 0 ? std::vector<Origin>() : tracer.trace(position));
+    }
+    return all;
+}
+
+}  // namespace sikku

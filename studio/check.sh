@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds and tests the studio. NATIVE_BUILD has bin/sikku and bin/sikku-bridge.
+# Usage: studio/check.sh NATIVE_BUILD [--quick]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+native=$(readlink -f "$1")
+studio/build.sh
+node --test studio/tests/*.test.mjs
+node studio/tests/parity.mjs "$native" ${2:+"$2"}
+if command -v chromium > /dev/null; then
+    node studio/tests/page.mjs build/studio/sikku-studio.html
+else
+    echo "skipped: the page in Chromium (it is not installed)"
+fi
+if command -v firefox-esr > /dev/null; then
+    node studio/tests/firefox.mjs build/studio/sikku-studio.html
+else
+    echo "skipped: the page in Firefox (it is not installed)"
+fi

@@ -1,0 +1,290 @@
+// The board: rice powder on red earth. The gap under the pointer shows what a click would do.
+import { makeChance } from "../sound/chance";
+import type { DotGrid } from "./dot_grid";
+import { followLines } from "./dot_grid";
+import { traceSegments, traceStrand } from "./strand_path";
+
+export const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
+const earth = "#7d3324";
+const line_width = 0.16 * Math.SQRT2; // as in the pattern: 0.16 of a step, which leads across a corner
+const margin = 1.55; // around the outermost dots
+
+export interface Scene {
+    grid: DotGrid;
+    states: Uint8Array;
+    strands: number[][];
+    isColoured: boolean;
+    isFilled: boolean;
+    hasDots: boolean;
+    cursor: number; // gap under the pointer or the keys, -1: none
+    orbit: number[]; // gaps that change with it
+    isFocused: boolean; // the cursor belongs to the keys
+}
+
+export class Board {
+    private readonly context: CanvasRenderingContext2D;
+    private width = 1;
+    private height = 1;
+    private ratio = 1;
+    private scale = 1; // pixels in a unit, which is half a spacing of dots
+    private readonly grain = grainTile(7, 26, 34);
+    private readonly powders: HTMLCanvasElement[] = []; // by colour
+    private ground: HTMLCanvasElement | null = null;
+    private readonly still: CanvasRenderingContext2D; // all but the preview
+    private shown: unknown[] = []; // what `still` shows
+
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        redraw: () => void,
+    ) {
+        this.context = canvas.getContext("2d")!;
+        this.still = document.createElement("canvas").getContext("2d")!;
+        new ResizeObserver(() => {
+            if (this.fit()) redraw();
+        }).observe(canvas);
+    }
+
+    fit(): boolean {
+        const { clientWidth, clientHeight } = this.canvas;
+        const ratio = Math.min(2, window.devicePixelRatio || 1);
+        if (clientWidth === 0 || clientHeight === 0) return false;
+        if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return false;
+        this.width = clientWidth;
+        this.height = clientHeight;
+        this.ratio = ratio;
+        for (const canvas of [this.canvas, this.still.canvas]) {
+            canvas.width = Math.round(clientWidth * ratio);
+            canvas.height = Math.round(clientHeight * ratio);
+        }
+        this.ground = null;
+        this.shown = [];
+        return true;
+    }
+
+    private place({ grid }: Scene): void {
+        const across = Math.max(...grid.rows) - 1 + margin;
+        const up = grid.rows.length - 1 + margin;
+        this.scale = Math.min(this.width / (2 * across), this.height / (2 * up), 56);
+    }
+
+    /// The gap nearest to a place of the canvas, -1 if that is beside the grid.
+    gapAt(scene: Scene, x: number, y: number): number {
+        this.place(scene);
+        const px = (x - this.width / 2) / this.scale;
+        const py = (this.height / 2 - y) / this.scale;
+        let nearest = 1;
+        let found = -1;
+        scene.grid.gaps.forEach((gap, i) => {
+            const distance =
+                Math.max(Math.abs(gap.x - px), Math.abs(gap.y - py)) * 0.5 + 0.5 * Math.hypot(gap.x - px, gap.y - py);
+            if (distance < nearest) {
+                nearest = distance;
+                found = i;
+            }
+        });
+        return found;
+    }
+
+    private toScene(context: CanvasRenderingContext2D): void {
+        const s = this.scale * this.ratio;
+        context.setTransform(s, 0, 0, -s, (this.width * this.ratio) / 2, (this.height * this.ratio) / 2);
+    }
+
+    draw(scene: Scene): void {
+        this.fit();
+        this.place(scene);
+        const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots];
+        if (shown.some((each, i) => each !== this.shown[i])) this.drawStill(scene);
+        this.shown = shown;
+        const { context } = this;
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.drawImage(this.still.canvas, 0, 0);
+        this.toScene(context);
+        if (scene.cursor >= 0) this.drawPreview(context, scene);
+    }
+
+    private drawStill(scene: Scene): void {
+        const { still } = this;
+        this.ground ??= this.makeGround();
+        still.setTransform(1, 0, 0, 1, 0, 0);
+        still.drawImage(this.ground, 0, 0);
+        this.toScene(still);
+        if (scene.isFilled) this.drawFields(still, scene);
+        if (scene.hasDots) this.drawDots(still, scene);
+        this.drawLines(still, scene);
+    }
+
+    /// Earth: uneven, darker towards the edges.
+    private makeGround(): HTMLCanvasElement {
+        const canvas = document.createElement("canvas");
+        canvas.width = this.canvas.width;
+        canvas.height = this.canvas.height;
+        const context = canvas.getContext("2d")!;
+        const { width, height } = canvas;
+        context.fillStyle = earth;
+        context.fillRect(0, 0, width, height);
+        const light = context.createRadialGradient(
+            width * 0.42,
+            height * 0.36,
+            0,
+            width / 2,
+            height / 2,
+            Math.hypot(width, height) * 0.6,
+        );
+        light.addColorStop(0, "rgb(196 104 70 / 26%)");
+        light.addColorStop(0.55, "rgb(125 51 36 / 0%)");
+        light.addColorStop(1, "rgb(48 14 8 / 42%)");
+        context.fillStyle = light;
+        context.fillRect(0, 0, width, height);
+        context.fillStyle = context.createPattern(this.grain, "repeat")!;
+        context.fillRect(0, 0, width, height);
+        return canvas;
+    }
+
+    private drawFields(context: CanvasRenderingContext2D, { strands }: Scene): void {
+        context.beginPath();
+        for (const strand of strands) traceStrand(context, strand);
+        context.fillStyle = "rgb(246 190 120 / 30%)";
+        context.fill("evenodd");
+    }
+
+    private drawDots(context: CanvasRenderingContext2D, { grid }: Scene): void {
+        const chance = makeChance(5);
+        context.fillStyle = "#f6ecd9";
+        for (const { x, y } of grid.dots) {
+            // Set by hand: none is quite round, none quite in its place.
+            const radius = 0.125 + 0.022 * chance();
+            const tilt = Math.PI * chance();
+            const dx = 0.022 * (chance() - 0.5);
+            const dy = 0.022 * (chance() - 0.5);
+            context.beginPath();
+            context.ellipse(x + dx, y + dy, radius, radius * (0.86 + 0.1 * chance()), tilt, 0, 2 * Math.PI);
+            context.fill();
+        }
+    }
+
+    private paths({ strands }: Scene): Path2D[] {
+        return strands.map((strand) => {
+            const path = new Path2D();
+            traceStrand(path, strand);
+            return path;
+        });
+    }
+
+    private drawLines(context: CanvasRenderingContext2D, scene: Scene): void {
+        const paths = this.paths(scene);
+        context.lineJoin = "round";
+        // A shadow, as powder lies on the earth.
+        context.save();
+        context.translate(0.025, -0.045);
+        context.strokeStyle = "rgb(40 10 4 / 34%)";
+        context.lineWidth = line_width * 1.1;
+        for (const path of paths) context.stroke(path);
+        context.restore();
+        const scale = 1 / (this.scale * this.ratio);
+        paths.forEach((path, index) => {
+            const powder = context.createPattern(
+                this.powderOf(scene.isColoured ? index % line_colours.length : 0),
+                "repeat",
+            )!;
+            powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
+            context.strokeStyle = powder;
+            context.lineWidth = line_width * 0.96;
+            context.stroke(path);
+            // The hand lets more of it fall here and there.
+            context.lineWidth = line_width * 1.14;
+            context.lineCap = "round";
+            context.setLineDash([0.5, 1.3, 1.1, 1.6, 0.3, 1.9]);
+            context.lineDashOffset = index * 0.7;
+            context.stroke(path);
+            context.setLineDash([]);
+        });
+    }
+
+    private powderOf(colour: number): HTMLCanvasElement {
+        return (this.powders[colour] ??= powderTile(line_colours[colour]));
+    }
+
+    /// The pieces that a click would draw, over a patch of earth.
+    private drawPreview(context: CanvasRenderingContext2D, scene: Scene): void {
+        const { grid, states, cursor, orbit } = scene;
+        const after = states.slice();
+        for (const gap of orbit) after[gap] = 1 - after[gap];
+        const places = new Set(orbit.map((gap) => `${grid.gaps[gap].x} ${grid.gaps[gap].y}`));
+        for (const gap of orbit) {
+            const { x, y } = grid.gaps[gap];
+            const patch = context.createRadialGradient(x, y, 0.2, x, y, 0.95);
+            patch.addColorStop(0, gap === cursor ? "rgb(98 36 24 / 92%)" : "rgb(98 36 24 / 62%)");
+            patch.addColorStop(1, "rgb(98 36 24 / 0%)");
+            context.fillStyle = patch;
+            context.beginPath();
+            context.arc(x, y, 0.95, 0, 2 * Math.PI);
+            context.fill();
+        }
+        context.strokeStyle = "#ffd58a";
+        context.lineWidth = line_width * 0.82;
+        context.lineCap = "round";
+        context.setLineDash([0.02, line_width * 1.3]);
+        context.beginPath();
+        for (const strand of followLines(grid, after).strands) {
+            for (let i = 0; i < strand.length / 2; ++i) {
+                if (places.has(`${strand[2 * i]} ${strand[2 * i + 1]}`)) traceSegments(context, strand, i - 1, 2);
+            }
+        }
+        context.stroke();
+        context.setLineDash([]);
+        if (!scene.isFocused) return;
+        const { x, y } = grid.gaps[cursor];
+        for (const [width, colour] of [
+            [0.16, "rgb(40 12 6 / 80%)"],
+            [0.08, "#ffe9c4"],
+        ] as const) {
+            context.lineWidth = width;
+            context.strokeStyle = colour;
+            context.beginPath();
+            context.arc(x, y, 0.72, 0, 2 * Math.PI);
+            context.stroke();
+        }
+    }
+}
+
+function tile(size: number, value: (chance: () => number) => [number, number, number, number]): HTMLCanvasElement {
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = size;
+    const context = canvas.getContext("2d")!;
+    const image = context.createImageData(size, size);
+    const chance = makeChance(size);
+    for (let i = 0; i < image.data.length; i += 4) image.data.set(value(chance), i);
+    context.putImageData(image, 0, 0);
+    return canvas;
+}
+
+/// Grains of earth, light and dark.
+function grainTile(seed: number, dark: number, light: number): HTMLCanvasElement {
+    return tile(240 + seed, (chance) => {
+        const grain = chance();
+        if (grain < 0.5) return [30, 8, 4, dark * chance()];
+        return grain > 0.9 ? [255, 196, 150, light * chance()] : [0, 0, 0, 0];
+    });
+}
+
+/// Powder of a colour: soft specks of earth show through it.
+function powderTile(colour: string): HTMLCanvasElement {
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = 256;
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = colour;
+    context.fillRect(0, 0, 256, 256);
+    context.globalCompositeOperation = "destination-out";
+    const chance = makeChance(211);
+    for (let speck = 0; speck < 5200; ++speck) {
+        const radius = 0.35 + 0.75 * chance() ** 3;
+        context.fillStyle = `rgb(0 0 0 / ${(6 + 26 * chance() ** 2).toFixed(0)}%)`;
+        const x = 256 * chance();
+        const y = 256 * chance();
+        context.beginPath();
+        context.arc(x, y, radius, 0, 2 * Math.PI);
+        context.fill();
+    }
+    return canvas;
+}

@@ -1,0 +1,26 @@
+// What the examination of a kolam has found, in a sentence.
+
+/// The answer to `kolam`, as far as the bench shows it.
+export interface Examined {
+    kolam: boolean;
+    faults: string[];
+    lines: number;
+    open_lines: number;
+    symmetry: string;
+    dots: unknown[];
+    loose_dots: number;
+}
+
+function many(count: number, one: string, more: string): string {
+    return count === 1 ? `One ${one}` : `${count.toLocaleString("en")} ${more}`;
+}
+
+/// `One closed line around 49 dots; symmetry D4.`
+export function certificateText(found: Examined): string {
+    const isOpen = found.open_lines > 0;
+    const lines = many(found.lines, isOpen ? "line" : "closed line", isOpen ? "lines" : "closed lines");
+    const dots = found.dots.length === 1 ? "1 dot" : `${found.dots.length.toLocaleString("en")} dots`;
+    const symmetry = found.symmetry === "" || found.symmetry === "C1" ? "no symmetry" : `symmetry ${found.symmetry}`;
+    const faults = found.faults.map((fault) => `; ${fault}`).join("");
+    return `${lines} around ${dots}; ${symmetry}${faults}.`;
+}

@@ -1,0 +1,54 @@
+// What helps where a curve gives no melody.
+import type { Options, PatternRequest } from "../protocol";
+
+export interface Remedy {
+    label: string;
+    options?: Options;
+    pattern?: Required<PatternRequest>;
+}
+
+/// The pattern with moves (f) as steps that are drawn (F); every place in the text stays where it is. Null if it
+/// draws already, or does not move.
+export function withMovesDrawn(pattern: Required<PatternRequest>): Required<PatternRequest> | null {
+    let inWord = false;
+    let draws = false;
+    const lines = pattern.text.split("\n").map((line) => {
+        // Productions, the axiom, and the lines that continue them.
+        const isWord = /^\s*axiom\s*:|-->/.test(line) || (inWord && /^\s/.test(line));
+        inWord = isWord;
+        if (!isWord) return line;
+        const at = Math.max(0, line.search(/:|-->/));
+        const word = line.slice(at);
+        draws ||= word.includes("F");
+        return line.slice(0, at) + word.replaceAll("f", "F");
+    });
+    const text = lines.join("\n");
+    return draws || text === pattern.text ? null : { ...pattern, text };
+}
+
+function replaced(options: Options, name: string, value: string): Options {
+    return [...options.filter(([each]) => each !== name), [name, value]];
+}
+
+/// In the order in which they are offered.
+export function remediesFor(message: string, pattern: Required<PatternRequest>, options: Options): Remedy[] {
+    const found: Remedy[] = [];
+    const isSet = (name: string, value: string) => options.some(([each, given]) => each === name && given === value);
+    if (message.includes("too many voices") && !isSet("mapping", "counterpoint")) {
+        found.push({ label: "Play branches one after another", options: replaced(options, "mapping", "counterpoint") });
+    }
+    if (message.includes("no notes")) {
+        const drawn = withMovesDrawn(pattern);
+        if (drawn) {
+            found.push({ label: "Play moves (f) as if they were drawn (F)", pattern: drawn });
+        } else {
+            if (!isSet("vertical", "voice")) {
+                found.push({ label: "Let vertical runs sound", options: replaced(options, "vertical", "voice") });
+            }
+            if (!isSet("mapping", "symbols")) {
+                found.push({ label: "Read symbols as notes", options: replaced(options, "mapping", "symbols") });
+            }
+        }
+    }
+    return found;
+}

@@ -1,0 +1,71 @@
+// The page in Firefox: it opens from a file, draws, reports errors, and its parts open without errors.
+//     node tests/firefox.mjs sikku-studio.html
+import puppeteer from "puppeteer-core";
+import assert from "node:assert/strict";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const address = pathToFileURL(resolve(process.argv[2] ?? join(here, "../../build/studio/sikku-studio.html"))).href;
+const browser = await puppeteer.launch({
+    browser: "firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: true,
+});
+try {
+    const page = await browser.newPage();
+    const problems = [];
+    page.on("pageerror", (error) => problems.push(error.message));
+    page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
+    await page.setViewport({ width: 1280, height: 800 });
+    await page.goto(address);
+    const facts = (text) => page.waitForFunction(
+        (wanted) => document.querySelector("#facts")?.textContent.includes(wanted), { timeout: 30_000 }, text);
+    await facts("No errors");
+
+    // Colours on the screen.
+    const colours = async () => page.evaluate(async (screenshot) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${screenshot}`;
+        await image.decode();
+        const canvas = new OffscreenCanvas(image.width, image.height);
+        const context = canvas.getContext("2d");
+        context.drawImage(image, 0, 0);
+        const pixels = context.getImageData(0, 0, canvas.width, canvas.height).data;
+        const seen = new Set();
+        for (let i = 0; i < pixels.length; i += 4) seen.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]);
+        return [...seen];
+    }, await page.screenshot({ encoding: "base64" }));
+    const has = async (colour) => {
+        for (let attempt = 0; attempt < 20; ++attempt) {
+            if ((await colours()).includes(colour)) return true;
+            await new Promise((wait) => setTimeout(wait, 100));
+        }
+        return false;
+    };
+    assert.ok(await has(0x8c3b2a), "the picture has the kolam's ground");
+
+    const press = async (key) => {
+        await page.keyboard.down("Control");
+        await page.keyboard.press(key);
+        await page.keyboard.up("Control");
+    };
+    await page.click(".cm-content");
+    await press("End");
+    await page.keyboard.type("angel: 4");
+    await facts("1 error");
+    assert.ok(await has(0x8c3b2a), "the last good picture stays");
+    for (let i = 0; i < 8; ++i) await page.keyboard.press("Backspace");
+    await facts("No errors");
+    await press("a");
+    await page.keyboard.type("axiom: F+F+F\nground: #123456");
+    await facts("No errors");
+    assert.ok(await has(0x123456), "the picture follows the text");
+
+    for (const tab of await page.$$("[role=tab]")) {
+        await tab.click();
+        await new Promise((wait) => setTimeout(wait, 500));
+    }
+    assert.deepEqual(problems, []);
+    console.log(`Firefox ${await browser.version()}: opens, draws, reports errors, opens every part`);
+} finally {
+    await browser.close();
+}

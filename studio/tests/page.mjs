@@ -1,0 +1,516 @@
+// Tests of the page in a browser, by its labels, as a user finds them:
+//     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE] [--measure]
+import { chromium } from "playwright-core";
+import assert from "node:assert/strict";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { parseArgs } from "node:util";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values, positionals } = parseArgs({
+    allowPositionals: true,
+    options: {
+        screenshots: { type: "string" },
+        only: { type: "string", default: "" },
+        measure: { type: "boolean", default: false },
+        browser: { type: "string", default: process.env.CHROMIUM ?? "/usr/bin/chromium" },
+    },
+});
+const address = pathToFileURL(resolve(positionals[0] ?? join(here, "../../build/studio/sikku-studio.html"))).href;
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+if (values.screenshots) mkdirSync(values.screenshots, { recursive: true });
+
+const browser = await chromium.launch({
+    executablePath: values.browser,
+    args: [
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ],
+});
+
+const ctrl = "Control";
+const wide = { width: 1280, height: 800 };
+const narrow = { width: 390, height: 844 };
+
+// A page with the studio, and what went wrong in it.
+async function openStudio({ viewport = wide, colorScheme = "light", fragment = "", context, at = address } = {}) {
+    const own =
+        context ??
+        (await browser.newContext({ viewport, colorScheme, acceptDownloads: true, reducedMotion: "reduce" }));
+    const page = await own.newPage();
+    page.problems = [];
+    page.on("pageerror", (error) => page.problems.push(error.message));
+    page.on("console", (message) => {
+        if (message.type() === "error") page.problems.push(message.text());
+    });
+    page.on("request", (request) => {
+        if (!/^(file|blob|data):/.test(request.url())) page.problems.push(`request of ${request.url()}`);
+    });
+    await page.goto(at + fragment);
+    await page.getByRole("tab", { name: "Gallery" }).waitFor();
+    if (!fragment) await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    return page;
+}
+
+const text = (page) => page.locator(".cm-content");
+const slider = (page, name) => page.getByRole("slider", { name, exact: true });
+const cost = (page) => page.locator(".cost").textContent();
+const message = (page) => page.locator("#message").textContent();
+
+async function setText(page, content) {
+    await text(page).click();
+    await page.keyboard.press(`${ctrl}+a`);
+    await page.evaluate((data) => navigator.clipboard?.writeText?.(data).catch(() => {}), content);
+    await page.keyboard.insertText(content);
+}
+
+async function textOf(page) {
+    return page.evaluate(
+        () =>
+            (JSON.parse(localStorage.getItem("sikku-studio") ?? "null") &&
+                document.querySelector(".cm-content").cmTile?.view?.state.doc.toString()) ||
+            [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n"),
+    );
+}
+
+// The map as a number: different pictures have different ones.
+async function picture(page) {
+    return page.evaluate(() => {
+        const canvas = document.querySelector(".map-canvas");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let sum = 0;
+        for (let index = 0; index < data.length; index += 16)
+            sum = (sum * 31 + data[index] + data[index + 1] * 3) % 1000000007;
+        return sum;
+    });
+}
+
+async function pictureAfter(page, before) {
+    for (let wait = 0; wait < 60; ++wait) {
+        const now = await picture(page);
+        if (now !== before) return now;
+        await page.waitForTimeout(50);
+    }
+    throw new Error("the picture did not change");
+}
+
+// The picture when nothing is drawn any more.
+async function steadyPicture(page) {
+    let last = await picture(page);
+    for (let same = 0; same < 4;) {
+        await page.waitForTimeout(80);
+        const now = await picture(page);
+        same = now === last ? same + 1 : 0;
+        last = now;
+    }
+    return last;
+}
+
+async function checkAccess(page, what) {
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => globalThis.axe.run({ resultTypes: ["violations"] }));
+    const lines = violations.map(
+        ({ id, nodes }) =>
+            `${what}: ${id}, ${nodes.length} times: ${nodes[0].html.slice(0, 200)} ` +
+            `(${nodes[0].any[0]?.message ?? nodes[0].failureSummary})`,
+    );
+    assert.equal(lines.join("\n"), "");
+}
+
+async function screenshot(page, name) {
+    if (values.screenshots) await page.screenshot({ path: join(values.screenshots, `${name}.png`) });
+}
+
+const tests = [];
+const test = (name, run) => tests.push({ name, run });
+const shared = { page: null }; // of the tests that need no page of their own
+
+test("the page opens and draws", async () => {
+    const page = await openStudio();
+    shared.page = page;
+    await pictureAfter(page, 0);
+    assert.match(await cost(page), /3,239 symbols/);
+    await steadyPicture(page);
+    await screenshot(page, "first");
+});
+
+test("typing draws again", async ({ page }) => {
+    await text(page).click();
+    const before = await steadyPicture(page);
+    await page.keyboard.press(`${ctrl}+Home`);
+    const start = await page.evaluate(() => performance.now());
+    await setText(
+        page,
+        "title: Typed\nderivation length: 3\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n",
+    );
+    await pictureAfter(page, before);
+    const time = await page.evaluate((from) => performance.now() - from, start);
+    assert.ok(time < 1500, `${time} ms`);
+    await page.locator("#work-title", { hasText: "Typed" }).waitFor();
+});
+
+test("errors are shown in place, and the picture stays", async ({ page }) => {
+    await page.waitForTimeout(1000); // a step of its own
+    const before = await steadyPicture(page);
+    await text(page).click();
+    await page.keyboard.press(`${ctrl}+End`);
+    await page.keyboard.type("angel factor: 3");
+    await page.locator(".line-message", { hasText: "did you mean 'angle factor'" }).first().waitFor();
+    assert.match(await message(page), /Line 7: unknown key 'angel factor'/);
+    assert.equal(await picture(page), before);
+    assert.ok((await page.locator(".cm-lintRange-error").count()) > 0);
+    await screenshot(page, "error");
+    await page.getByRole("button", { name: "Go to it" }).click();
+    await page.keyboard.press(`${ctrl}+z`);
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+});
+
+test("keys are completed and explained", async ({ page }) => {
+    await text(page).click();
+    await page.keyboard.press(`${ctrl}+End`);
+    await page.keyboard.type("tro");
+    await page.locator(".cm-tooltip-autocomplete", { hasText: "tropism" }).waitFor();
+    await page.locator(".cm-completionInfo", { hasText: "If absent" }).waitFor();
+    await page.keyboard.press("Escape");
+    await page.keyboard.press(`${ctrl}+z`);
+    await page.locator("#message", { hasText: "No errors." }).waitFor();
+    await page.keyboard.press(`${ctrl}+Home`);
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("F1");
+    await page.locator(".help-card", { hasText: "Number of derivation steps" }).waitFor();
+    assert.match(await message(page), /Number of derivation steps/);
+    await page.keyboard.press("Escape");
+    await page.locator(".cm-line", { hasText: "axiom" }).locator("span", { hasText: "axiom" }).first().hover();
+    await page.locator(".help-card", { hasText: "Initial word" }).waitFor();
+    await page.mouse.move(900, 400);
+});
+
+test("sliders change values, and a double click takes them back", async ({ page }) => {
+    const n = slider(page, "n");
+    assert.match(await cost(page), /63 segments/);
+    await n.focus();
+    await page.keyboard.press("ArrowRight");
+    await page.locator(".cost", { hasText: "255 segments" }).waitFor();
+    await page.getByRole("textbox", { name: "n, value" }).fill("5");
+    await page.keyboard.press("Enter");
+    await page.locator(".cost", { hasText: "1,023 segments" }).waitFor();
+    const before = await steadyPicture(page);
+    await slider(page, "angle").focus();
+    await page.keyboard.press("ArrowRight");
+    await pictureAfter(page, before);
+    await slider(page, "angle").dblclick();
+    await page.getByRole("button", { name: "Write into the text" }).click();
+    await page.locator(".cm-line", { hasText: "derivation length: 5" }).waitFor();
+    assert.equal(await n.inputValue(), "5");
+});
+
+test("a large n is shown without deriving it", async ({ page }) => {
+    await page.getByRole("textbox", { name: "n, value" }).fill("40");
+    await page.keyboard.press("Enter");
+    await page.locator(".cost", { hasText: "derives only what the view shows" }).waitFor();
+    await steadyPicture(page);
+    await screenshot(page, "large-n");
+    await page.getByRole("button", { name: "Reset n" }).click();
+    await page.locator(".cost", { hasText: "1,023 segments" }).waitFor();
+});
+
+test("everything can be undone, and a reload loses nothing", async ({ page }) => {
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await page.locator(".cost", { hasText: "derives only" }).waitFor();
+    await page.getByRole("button", { name: /^Redo/ }).click();
+    await page.locator(".cost", { hasText: "1,023 segments" }).waitFor();
+    await page.waitForTimeout(900);
+    await page.getByRole("button", { name: "History" }).click();
+    const steps = page.locator(".steps li");
+    await steps.nth(3).waitFor();
+    await page.locator(".steps [aria-current] img").waitFor();
+    await screenshot(page, "history");
+    await steps.last().getByRole("button").click();
+    await page.locator(".cost", { hasText: "3,239 symbols" }).waitFor();
+    await page.keyboard.press("Escape");
+    const before = await textOf(page);
+    await page.waitForTimeout(600);
+    await page.reload();
+    await page.locator(".cost", { hasText: "3,239 symbols" }).waitFor();
+    assert.equal(await textOf(page), before);
+    await page.getByRole("button", { name: /^Redo/ }).click();
+    await page.locator("#work-title", { hasText: "Typed" }).waitFor();
+    await page.getByRole("button", { name: /^Undo/ }).click();
+});
+
+test("the seed is stepped, thrown and locked", async ({ page }) => {
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    await page.getByRole("searchbox", { name: "Search patterns" }).fill("by chance");
+    await page.locator(".card:visible").first().click();
+    const seed = page.getByRole("textbox", { name: "seed", exact: true });
+    await seed.waitFor();
+    const first = Number(await seed.inputValue());
+    await page.getByRole("button", { name: "Next seed" }).click();
+    assert.equal(Number(await seed.inputValue()), first + 1);
+    await page.getByRole("button", { name: "Previous seed" }).click();
+    assert.equal(Number(await seed.inputValue()), first);
+    await page.getByRole("button", { name: "Throw the dice" }).click();
+    assert.notEqual(Number(await seed.inputValue()), first);
+    await page.getByRole("button", { name: "Lock the seed" }).click();
+    assert.ok(await page.getByRole("button", { name: "Throw the dice" }).isDisabled());
+    await page.getByRole("button", { name: "Lock the seed" }).click();
+    await page.waitForTimeout(300);
+    await screenshot(page, "plant");
+});
+
+test("the gallery finds and opens patterns", async ({ page }) => {
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    const search = page.getByRole("searchbox", { name: "Search patterns" });
+    await search.fill("");
+    await page.locator(".card .picture.drawn").nth(5).waitFor();
+    await screenshot(page, "gallery");
+    await search.fill("hilbert todi");
+    await page.locator(".gallery-count", { hasText: "1 of 107" }).waitFor();
+    await search.fill("snake");
+    await page.getByRole("button", { name: "kolams", exact: true }).click();
+    await page.locator(".card:visible").first().click();
+    await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
+    assert.equal(await page.getByRole("tab", { name: "Picture" }).getAttribute("aria-selected"), "true");
+});
+
+const dropFile = (page, name, content) =>
+    page.evaluate(
+        ([file, data]) => {
+            const transfer = new DataTransfer();
+            transfer.items.add(new File([data], file));
+            for (const type of ["dragover", "drop"]) {
+                document.body.dispatchEvent(
+                    new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }),
+                );
+            }
+        },
+        [name, content],
+    );
+
+test("files can be dropped", async ({ page }) => {
+    const drop = (name, content) => dropFile(page, name, content);
+    await drop("dropped.lsys", "title: Dropped\nderivation length: 1\naxiom: F\nF --> F+F\n");
+    await page.locator("#work-title", { hasText: "Dropped" }).waitFor();
+    await drop("two.l", "One {\n Angle 4\n Axiom F\n F=F+F\n}\nOther {\n Angle 6\n Axiom F\n F=F-F\n}\n");
+    await page.getByRole("dialog", { name: "2 patterns in two.l" }).getByRole("button", { name: "Other" }).click();
+    await page.locator(".cm-content", { hasText: "F-F" }).waitFor();
+    await drop("nothing.pdf", "no print of ours");
+    await page.locator("#message[data-kind=error]", { hasText: "nothing.pdf" }).waitFor();
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
+});
+
+test("export writes the file and tells the command", async ({ page }) => {
+    await page.getByRole("button", { name: "Export" }).click();
+    const dialog = page.getByRole("dialog", { name: "Export" });
+    await dialog.getByRole("combobox", { name: "Size", exact: true }).fill("A3");
+    await dialog.getByRole("checkbox", { name: "Landscape" }).check();
+    await dialog.locator(".command", { hasText: "--size A3 --landscape" }).waitFor();
+    const save = dialog.getByRole("button", { name: /^Save .*\.svg/ });
+    await save.waitFor();
+    const [download] = await Promise.all([page.waitForEvent("download"), save.click()]);
+    const svg = readFileSync(await download.path(), "utf8");
+    assert.match(svg, /<svg[^>]*width="420mm"/);
+    await screenshot(page, "export");
+    shared.svg = svg;
+    await dialog.getByText("G-code", { exact: true }).click();
+    await dialog.locator(".remarks", { hasText: "drawn" }).waitFor();
+    await dialog.getByRole("button", { name: /^Save .*\.gcode/ }).waitFor();
+    await checkAccess(page, "export");
+    await page.keyboard.press("Escape");
+    await dialog.waitFor({ state: "detached" });
+});
+
+test("a print that is dropped gives its pattern back", async ({ page, svg }) => {
+    const before = await textOf(page);
+    await page.getByRole("button", { name: "Open", exact: true }).click();
+    await page.getByRole("menuitem", { name: "New pattern" }).click();
+    await page.locator("#work-title", { hasText: "A curve of mine" }).waitFor();
+    await dropFile(page, "print.svg", svg);
+    await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
+    assert.equal((await textOf(page)).trim(), before.trim());
+});
+
+test("a link holds everything and runs nothing before it is opened", async ({ page }) => {
+    await slider(page, "n").focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.getByRole("button", { name: "Share" }).click();
+    const field = page.getByRole("textbox", { name: "Link" });
+    await page.locator(".code-facts", { hasText: "characters" }).waitFor();
+    const link = await field.inputValue();
+    await screenshot(page, "share");
+    await checkAccess(page, "share");
+    await page.keyboard.press("Escape");
+    const other = await openStudio({ fragment: link.slice(link.indexOf("#")) });
+    const dialog = other.getByRole("dialog", { name: "This link contains a pattern" });
+    await dialog.waitFor();
+    assert.match(await dialog.locator("pre").textContent(), /Snake kolam/);
+    await screenshot(other, "link");
+    await checkAccess(other, "link");
+    assert.equal(
+        (await other.evaluate(() => JSON.parse(localStorage.getItem("sikku-studio") ?? '{"steps":[]}').steps.length)) <=
+            1,
+        true,
+    );
+    await dialog.getByRole("button", { name: "Open" }).click();
+    await other.locator(".cost", { hasText: await cost(page) }).waitFor();
+    assert.equal(await textOf(other), await textOf(page));
+    assert.equal(await other.evaluate(() => location.hash), "");
+    assert.deepEqual(other.problems, []);
+    await other.context().close();
+});
+
+test("the page works by keyboard", async ({ page }) => {
+    await page.reload();
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    const focus = () => page.evaluate(() => document.activeElement.className || document.activeElement.id);
+    assert.match(await focus(), /cm-content/);
+    await page.keyboard.press("Alt+6");
+    assert.equal(await page.getByRole("tab", { name: "Gallery" }).getAttribute("aria-selected"), "true");
+    await page.keyboard.press("Home");
+    assert.equal(await page.getByRole("tab", { name: "Picture" }).getAttribute("aria-selected"), "true");
+    await page.keyboard.press("?");
+    const keys = page.getByRole("dialog", { name: "Keyboard" });
+    await keys.waitFor();
+    await checkAccess(page, "keyboard");
+    await page.keyboard.press("Escape");
+    await page.getByRole("button", { name: "More" }).press("Enter");
+    await page.keyboard.press("ArrowUp");
+    await page.keyboard.press("Enter");
+    await page.getByRole("dialog", { name: "About the studio" }).waitFor();
+    await checkAccess(page, "about");
+    await page.keyboard.press("Escape");
+    await page.getByRole("separator").focus();
+    const width = await page.locator(".side").evaluate((side) => side.clientWidth);
+    await page.keyboard.press("ArrowRight");
+    assert.ok((await page.locator(".side").evaluate((side) => side.clientWidth)) > width);
+});
+
+for (const colorScheme of ["light", "dark"]) {
+    for (const [size, viewport] of [
+        ["wide", wide],
+        ["narrow", narrow],
+    ]) {
+        test(`all views are accessible, ${colorScheme}, ${size}`, async () => {
+            const page = await openStudio({ viewport, colorScheme });
+            const found = [];
+            for (const tab of await page.getByRole("tab").all()) {
+                await tab.click();
+                await page.waitForTimeout(350);
+                const name = await tab.textContent();
+                await checkAccess(page, name).catch((error) => found.push(error.actual));
+                const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+                if (overflow > 0) found.push(`${name}: ${overflow} pixels too wide`);
+                await screenshot(page, `${colorScheme}-${size}-${name.toLowerCase().replaceAll(" ", "-")}`);
+            }
+            assert.equal([...found, ...page.problems].join("\n"), "");
+            await page.context().close();
+        });
+    }
+}
+
+test("patterns that the program wrote into the page are open and in the gallery", async () => {
+    const own = JSON.stringify([{ name: "own.lsys", text: "title: My </script> own\naxiom: F\nF --> F+F\n" }]);
+    const folder = mkdtempSync(join(tmpdir(), "sikku-studio-"));
+    const file = join(folder, "own.html");
+    const page_text = readFileSync(fileURLToPath(address), "utf8");
+    const slot = 'id="sikku-patterns">';
+    assert.ok(page_text.includes(`${slot}[]<`));
+    writeFileSync(file, page_text.replace(`${slot}[]`, () => slot + own.replaceAll("<", "\\u003c")));
+    const page = await openStudio({ at: pathToFileURL(file).href });
+    await page.locator("#work-title", { hasText: "My </script> own" }).waitFor();
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    await page.getByRole("button", { name: "yours", exact: true }).click();
+    await page.locator(".gallery-count", { hasText: "1 of 108" }).waitFor();
+    await page.context().close();
+    rmSync(folder, { recursive: true });
+});
+
+// Times that a user feels, in milliseconds; each machine has its own.
+async function measure() {
+    const context = await browser.newContext({ viewport: wide });
+    await context.addInitScript(() => {
+        globalThis.draws = [];
+        for (const name of ["drawImage", "putImageData"]) {
+            const draw = CanvasRenderingContext2D.prototype[name];
+            CanvasRenderingContext2D.prototype[name] = function (...given) {
+                if (this.canvas.classList.contains("map-canvas")) globalThis.draws.push(performance.now());
+                return draw.apply(this, given);
+            };
+        }
+        addEventListener("keydown", () => { globalThis.pressed = performance.now(); globalThis.draws.length = 0; }, true);
+    });
+    const page = await openStudio({ context });
+    await page.waitForFunction(() => globalThis.draws.length > 0);
+    console.log(`first picture after ${Math.round(await page.evaluate(() => globalThis.draws[0]))} ms`);
+    for (const n of [7, 10]) {
+        await setText(page, `derivation length: ${n}\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #8c3b24`);
+        await page.waitForTimeout(1500);
+        const times = [];
+        for (const key of ["Backspace", "5", "Backspace", "6", "Backspace", "4"]) {
+            await page.keyboard.press(key);
+            await page.waitForTimeout(600);
+            times.push(await page.evaluate(() => Math.round(globalThis.draws[0] - globalThis.pressed)));
+        }
+        const frames = await page.evaluate(async () => {
+            const width = document.querySelector(".value-rows .slider:last-child input[type=range]");
+            globalThis.draws.length = 0;
+            const from = performance.now();
+            for (let frame = 0; performance.now() - from < 2000; ++frame) {
+                await new Promise(requestAnimationFrame);
+                width.valueAsNumber = 0.1 + 0.3 * Math.abs(Math.sin(frame / 20));
+                width.dispatchEvent(new Event("input"));
+            }
+            return new Set(globalThis.draws.map(Math.round)).size / 2;
+        });
+        console.log(`n = ${n}, ${await cost(page)}: keystroke to picture ${times.join(", ")} ms; dragging ${frames} pictures a second`);
+    }
+    await page.getByRole("tab", { name: "Gallery" }).click();
+    const gallery = await page.evaluate(async () => {
+        const from = performance.now();
+        const panel = document.querySelector("#panel-gallery");
+        const drawn = () => document.querySelectorAll(".gallery .picture:is(.drawn, .words)").length;
+        for (let at = 0; drawn() < 107 && performance.now() - from < 20000; at += 600) {
+            panel.scrollTop = at % panel.scrollHeight;
+            await new Promise(requestAnimationFrame);
+        }
+        return [drawn(), Math.round(performance.now() - from)];
+    });
+    console.log(`gallery: ${gallery[0]} thumbnails in ${gallery[1]} ms`);
+    await context.close();
+}
+
+let failures = 0;
+const begin = Date.now();
+for (const { name, run } of tests) {
+    if (!name.includes(values.only) && name !== tests[0].name) continue;
+    const start = Date.now();
+    try {
+        if (shared.page) shared.page.setDefaultTimeout(10_000);
+        await run(shared);
+        if (shared.page) assert.deepEqual(shared.page.problems.splice(0), []);
+        console.log(`ok    ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
+    } catch (error) {
+        ++failures;
+        console.log(`FAIL  ${name}: ${String(error.message ?? error).slice(0, 900)}`);
+        if (shared.page) await screenshot(shared.page, `failed-${name.slice(0, 24).replaceAll(" ", "-")}`);
+        await shared.page?.keyboard.press("Escape");
+    }
+}
+if (values.measure) await measure();
+await browser.close();
+console.log(`${failures === 0 ? "all passed" : `${failures} failed`} in ${((Date.now() - begin) / 1000).toFixed(0)} s`);
+process.exitCode = failures === 0 ? 0 : 1;

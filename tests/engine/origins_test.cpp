@@ -1,0 +1,88 @@
+#include "engine/derivation/origins.h"
+
+#include "engine/derivation/derivation.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+
+namespace sikku {
+namespace {
+
+class Keeper : public SymbolSink {
+public:
+    void symbols(const Run& run) override { word.insert(word.end(), run.symbols.begin(), run.symbols.end()); }
+    Word word;
+};
+
+/// The word as derive() gives it, and the texts that the origins of its symbols show.
+void expect_same(const Document& document) {
+    Keeper keeper;
+    DerivationOptions options;
+    options.interpreted = true;
+    derive(document.grammar(), keeper, options);
+    std::vector<std::uint64_t> positions(std::min<std::size_t>(keeper.word.size(), 5000));
+    std::iota(positions.begin(), positions.end(), 1);
+    const auto found = origins(document, positions);
+    ASSERT_EQ(found.size(), positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        ASSERT_FALSE(found[i].empty());
+        const std::string symbol = symbol_text(document.grammar().symbols()[keeper.word[i]]);
+        EXPECT_EQ(found[i].back().symbol.view().substr(0, symbol.find('(')), symbol.substr(0, symbol.find('(')))
+            << "symbol " << positions[i];
+        EXPECT_TRUE(found[i].front().production.empty());
+    }
+}
+
+TEST(Origins, ShowTheSymbolsOfTheWord) {
+    std::size_t traced = 0;
+    for (const LibraryPattern& pattern : PatternLibrary::bundled().patterns()) {
+        SCOPED_TRACE(pattern.name);
+        const Document document = load(pattern.name);
+        try {
+            origins(document, {});
+        } catch (const std::runtime_error&) {
+            continue;
+        }
+        expect_same(document);
+        ++traced;
+    }
+    EXPECT_GT(traced, 60U);
+}
+
+TEST(Origins, TablesInterpretationAndErasedSymbolsAreFollowed) {
+    expect_same(parse("tables",
+                      "axiom: AB\nderivation length: 5\nschedule: a b a b a\n\ntable a:\nA --> A[+B]C\nB --> *\n\n"
+                      "table b:\nC --> BA\n\ninterpret:\nC --> FF\n"));
+}
+
+TEST(Origins, HavePlaces) {
+    const Document document = parse("koch", "axiom: F+X\nderivation length: 2\nF --> F - F\n");
+    const auto found = origins(document, std::vector<std::uint64_t>{1, 6, 8, 9, 10});
+    ASSERT_EQ(found.size(), 5U);
+    ASSERT_EQ(found[0].size(), 3U);  // F-F-F-F+X
+    EXPECT_EQ(document.source().place(found[0][2].symbol.at).column, 7);
+    EXPECT_EQ(found[0][2].production.view(), "F --> F - F");
+    EXPECT_EQ(found[1].back().symbol.view(), "-");
+    EXPECT_EQ(document.source().place(found[1].back().symbol.at).column, 9);
+    EXPECT_EQ(found[2].size(), 1U);
+    EXPECT_EQ(found[3].back().symbol.view(), "X");
+    EXPECT_TRUE(found[4].empty());
+}
+
+TEST(Origins, LongWordsAreNotDerived) {
+    const Document document = load("hilbert", {"", {{"test", "derivation length", "30"}}});
+    const auto found = origins(document, std::vector<std::uint64_t>{1'000'000'000'000'000'000});
+    EXPECT_GT(found.front().size(), 20U);
+}
+
+TEST(Origins, ContextsParametersAndChanceAreRefused) {
+    for (const char* text :
+         {"axiom: AB\nA < B --> A\n", "axiom: A(1)\nA(x) --> A(x+1)\n", "axiom: A\nA --> A : 1\nA --> AA : 1\n"}) {
+        EXPECT_THROW(origins(parse("refused", text), {}), std::runtime_error) << text;
+    }
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,123 @@
+#include "studio/bridge.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sikku {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json asked(const Json& question, const std::string& bytes = {}) {
+    return Json::parse(request(question.dump(), bytes).json);
+}
+
+std::string kind_of_failure(const Json& question, const std::string& bytes = {}) {
+    const Json answer = asked(question, bytes);
+    return answer.contains("error") ? answer["error"]["kind"].get<std::string>() : "";
+}
+
+/// Pairs of texts, which would otherwise become an object.
+Json pairs(std::initializer_list<std::pair<const char*, const char*>> texts) {
+    Json list = Json::array();
+    for (const auto& [name, value] : texts) list.push_back(Json::array({name, value}));
+    return list;
+}
+
+Json pattern(const std::string& text, const Json& settings = Json::array()) {
+    return {{"name", "test.lsys"}, {"text", text}, {"settings", settings}};
+}
+
+const std::string koch = "axiom: F--F--F\nangle factor: 6\nderivation length: 3\nF --> F+F--F+F\n";
+
+TEST(Bridge, RefusesWhatIsNotARequest) {
+    for (const char* text :
+         {"", "{", "[]", "3", "\"open\"", "{}", R"({"do": 3})", R"({"do": "fly"})", R"({"do": "open"})",
+          R"({"do": "open", "pattern": 3})", R"({"do": "open", "pattern": {"text": "axiom: F"}})",
+          R"({"do": "open", "pattern": {"name": "x", "text": 3}})",
+          R"({"do": "open", "pattern": {"name": "x", "text": "axiom: F", "settings": [["n"]]}})",
+          R"({"do": "open", "pattern": {"name": "x", "text": "axiom: F", "settings": {"n": 1}}})",
+          R"({"do": "make", "interpreter": "fly", "format": "svg"})"}) {
+        const Reply reply = request(text, {});
+        EXPECT_EQ(Json::parse(reply.json)["error"]["kind"], "request") << text << reply.json;
+        EXPECT_TRUE(reply.bytes.empty());
+    }
+}
+
+TEST(Bridge, ReportsEveryKindOfFailure) {
+    EXPECT_EQ(kind_of_failure({{"do", "open"}, {"pattern", pattern("angel: 3\n")}}), "pattern");
+    EXPECT_EQ(kind_of_failure({{"do", "open"}, {"pattern", pattern(koch, pairs({{"no key", "1"}}))}}), "pattern");
+    const Json make = {{"do", "make"}, {"interpreter", "draw"}, {"format", "svg"}, {"pattern", pattern(koch)}};
+    Json question = make;
+    question["options"] = pairs({{"size", "3x"}});
+    EXPECT_EQ(kind_of_failure(question), "setting");
+    EXPECT_EQ(asked(question)["error"]["option"], "size");
+    question = make;
+    question["pattern"] = pattern(koch, pairs({{"derivation length", "99"}}));
+    EXPECT_EQ(kind_of_failure(question), "budget");
+    question["pattern"] = pattern("axiom: F]\n");
+    EXPECT_EQ(kind_of_failure(question), "word");
+    question["pattern"] = pattern("axiom: X\n");
+    EXPECT_EQ(kind_of_failure(question), "other");
+    question = make;
+    question["seconds"] = 0;
+    question["pattern"] = pattern(koch, pairs({{"derivation length", "11"}}));
+    EXPECT_EQ(kind_of_failure(question), "stopped");
+}
+
+TEST(Bridge, PlacesOfErrorsCountCodePoints) {
+    const Json answer = asked({{"do", "open"}, {"pattern", pattern("axiom: éF(\n")}});
+    const Json& first = answer["error"]["diagnostics"][0];
+    EXPECT_EQ(first["line"], 1);
+    EXPECT_EQ(first["column"], 10);
+    EXPECT_EQ(first["warning"], false);
+}
+
+TEST(Bridge, OpensWordsTooLongToDerive) {
+    const Json answer = asked({{"do", "open"}, {"pattern", pattern(koch, pairs({{"derivation length", "60"}}))}});
+    EXPECT_EQ(answer["cost"]["is_derivable"], false);
+    EXPECT_EQ(answer["cost"]["segments"], "3987683987354747618711421180841033728");  // 3 * 4^60
+    EXPECT_EQ(answer["has_view"], true);
+    EXPECT_EQ(answer["extent"].size(), 4U);
+}
+
+TEST(Bridge, PixelsAreLimited) {
+    const Json picture = {{"do", "pixels"}, {"pattern", pattern(koch)}, {"width", 100}, {"height", 80}};
+    const Reply reply = request(picture.dump(), {});
+    const Json answer = Json::parse(reply.json);
+    EXPECT_EQ(reply.bytes.size(), 4 * answer["width"].get<std::size_t>() * answer["height"].get<std::size_t>());
+    EXPECT_EQ(answer["height"], 80);  // A4 in 100 x 80
+    for (const double side : {0.0, -5.0, 1e5, 1e300}) {
+        Json large = picture;
+        large["width"] = side;
+        EXPECT_EQ(kind_of_failure(large), "request") << side;
+    }
+    Json window = picture;
+    window["window"] = {"0", "0", "20", "16"};
+    EXPECT_EQ(asked(window)["width"], 100);
+    window["window"] = {"0", "0", "nan", "16"};
+    EXPECT_EQ(kind_of_failure(window), "setting");
+}
+
+TEST(Bridge, CommandsAreQuotedForTheShell) {
+    const Json answer =
+        asked({{"do", "command"},
+               {"interpreter", "draw"},
+               {"format", "svg"},
+               {"options", pairs({{"stroke", "0.3mm navy"}, {"dots", ""}, {"landscape", "true"}})},
+               {"pattern", {{"name", "it's.lsys"}, {"text", koch}, {"settings", pairs({{"seed", "7"}})}}}});
+    EXPECT_EQ(answer["command"],
+              "sikku draw 'it'\\''s.lsys' --seed 7 --stroke '0.3mm navy' --dots --landscape -o 'it'\\''s.svg'");
+}
+
+TEST(Bridge, FilesWithoutPatternsAreRefused) {
+    EXPECT_EQ(kind_of_failure({{"do", "show"}, {"name", "x.png"}}, "no picture"), "other");
+    EXPECT_EQ(kind_of_failure({{"do", "import"}, {"name", "x.l"}}, "no system"), "other");
+    const Reply svg = request(
+        Json({{"do", "make"}, {"interpreter", "draw"}, {"format", "svg"}, {"pattern", pattern(koch)}}).dump(), {});
+    EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, svg.bytes)["text"], koch);
+}
+
+}  // namespace
+}  // namespace sikku
