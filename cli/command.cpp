@@ -1,6 +1,7 @@
 #include "cli/command.h"
 
 #include "art/prints.h"
+#include "cli/link_argument.h"
 #include "cli/options.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
@@ -27,7 +28,8 @@ double now() {
 
 void add_pattern_options(CLI::App& command, PatternOptions& options) {
     command
-        .add_option("PATTERN", options.pattern, "pattern file, name of a bundled pattern, or - for standard input")
+        .add_option("PATTERN", options.pattern,
+                    "pattern file, name of a bundled pattern, link of the studio, or - for standard input")
         ->required();
     add_override_options(command, options);
 }
@@ -61,6 +63,7 @@ void add_budget_option(CLI::App& command, double& budget) {
 }
 
 NamedText read_pattern_text(const std::string& pattern) {
+    if (auto link = read_link_argument(pattern)) return {std::move(link->name), std::move(link->text)};
     PatternFile found;
     try {
         if (pattern != "-") found = find_pattern(pattern);
@@ -89,7 +92,13 @@ std::span<const Interpreter* const> interpreters() {
 }
 
 Document load(const PatternOptions& options, bool quiet) {
+    const auto link = read_link_argument(options.pattern);
+    return load(options, link ? &*link : nullptr, quiet);
+}
+
+Document load(const PatternOptions& options, const SharedWork* link, bool quiet) {
     std::vector<Setting> settings;
+    if (link) settings = settings_of(*link, options);
     for (const std::string& text : options.settings) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0) {
@@ -107,10 +116,11 @@ Document load(const PatternOptions& options, bool quiet) {
         settings.push_back({"-n", "derivation length", options.steps});
     }
     if (!options.seed.empty()) settings.push_back({"--seed", "seed", options.seed});
-    NamedText text = read_pattern_text(options.pattern);
+    NamedText text = link ? NamedText{link->name, link->text} : read_pattern_text(options.pattern);
+    const std::string& variant = link && options.variant.empty() ? link->variant : options.variant;
     Diagnostics diagnostics;
     if (interrupted()) throw Interrupted();
-    Document document = compile(std::move(text.name), std::move(text.text), {options.variant, std::move(settings)},
+    Document document = compile(std::move(text.name), std::move(text.text), {variant, std::move(settings)},
                                 interpreters(), diagnostics);
     diagnostics.throw_if_errors();
     if (!quiet) {

@@ -1,6 +1,7 @@
 // cli/command.h: what the commands share: finding and loading patterns, progress, errors.
 #pragma once
 
+#include "art/link/link.h"
 #include "art/provenance/provenance.h"
 #include "cli/signals.h"
 #include "engine/base/text.h"
@@ -51,7 +52,7 @@ struct NamedText {
     std::string name;
     std::string text;
 };
-/// Reads the text of the argument PATTERN: a path, the name of a bundled pattern, or `-` for standard input.
+/// Reads the text of the argument PATTERN: a path, the name of a bundled pattern, a link, or `-` for standard input.
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);
 
@@ -75,9 +76,12 @@ void add_budget_option(CLI::App& command, double& budget);
 /// The interpreters: prints, then scores.
 std::span<const Interpreter* const> interpreters();
 
-/// Reads, compiles and checks a pattern; warnings are printed unless `quiet`.
-/// @throws PatternError, UsageError for an unknown name
+/// Reads, compiles and checks a pattern; warnings are printed unless `quiet`. The settings of a link apply unless the
+/// options replace them.
+/// @throws PatternError, UsageError for an unknown name and a damaged link
 Document load(const PatternOptions& options, bool quiet);
+/// The same if PATTERN has been read as a link, or is not one (null).
+Document load(const PatternOptions& options, const SharedWork* link, bool quiet);
 
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
 void make(Work& work, const std::string& output, bool quiet);
@@ -129,6 +133,7 @@ void add_import(CLI::App& app, bool& quiet);
 void add_patterns(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);
+void add_studio(CLI::App& app, bool& quiet);
 void add_completion(CLI::App& app);
 void add_manual(CLI::App& app, bool& quiet);
 

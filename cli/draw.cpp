@@ -2,15 +2,16 @@
 #include "art/print/format.h"
 #include "art/prints.h"
 #include "cli/command.h"
+#include "cli/link_argument.h"
 #include "cli/options.h"
 #include "music/scores.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -44,13 +45,23 @@ std::string format_of(const std::string& output) {
 
 void run(const DrawCommand& command, bool quiet) {
     const std::string format = format_of(command.output);
-    const OptionValues values = command.options.values();
-    prints().check(format, values);
-    const Document document = load(command.pattern, quiet);
-    const auto work = prints().plan(document, format, values);
+    const OptionValues given = command.options.values();
+    auto link = read_link_argument(command.pattern.pattern);
+    if (link && has_option(given, "generations")) {
+        // A derivation length and several of them exclude each other.
+        for (OptionValues* values : {&link->settings, &link->draw}) {
+            std::erase_if(*values, [](const OptionValue& value) { return value.name == "derivation length"; });
+        }
+    }
+    if (!link) prints().check(format, given);  // before the pattern is read
+    Assignment assigned{load(command.pattern, link ? &*link : nullptr, quiet), given};
+    const OptionValues shared = link ? link->draw : OptionValues();
+    const auto work = blaming_link(shared, given, [&] {
+        if (link) assigned = assign(prints(), assigned.document, options_with(shared, given, command.pattern));
+        return prints().plan(assigned.document, format, assigned.options);
+    });
     make(*work, command.output, quiet);
-    const auto is_compression = [](const OptionValue& value) { return value.name == "compression"; };
-    if (format != "png" && std::any_of(values.begin(), values.end(), is_compression)) {
+    if (format != "png" && has_option(assigned.options, "compression")) {
         tell_unless(quiet, "sikku: warning: --compression has no effect: it is for PNG\n");
     }
 }
@@ -68,7 +79,9 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->required();
     options->options.add(*command, prints().options());
     command->footer(
-        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all.\n\n"
+        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all. A link of the studio brings its "
+        "own "
+        "values and options, which options of the command line replace.\n\n"
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"
@@ -78,6 +91,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw bush-3d -o bush.glb\n"
         "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
+        "  sikku draw 'https://…/sikku-studio.html#sikku1.…' -o print.pdf\n"
         "  sikku draw my.lsys --step 5mm --stroke '0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { run(*options, quiet); });
 }

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
     add_scales(app);
     add_show(app, quiet);
     add_check(app);
+    add_studio(app, quiet);
     add_completion(app);
     add_manual(app, quiet);
     app.footer(

@@ -1,6 +1,7 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
 #include "art/provenance/provenance.h"
 #include "cli/command.h"
+#include "cli/link_argument.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
 #include "engine/check.h"
@@ -48,6 +49,12 @@ void list_patterns(const std::string& kind, bool names_only) {
 }
 
 void show(const std::string& what, bool quiet) {
+    if (const auto link = read_link_argument(what)) {
+        std::fwrite(link->text.data(), 1, link->text.size(), stdout);
+        const std::string values = describe_settings(*link);
+        if (!values.empty() && !quiet) tell("the link sets {}\n", printable(values, std::string::npos));
+        return;
+    }
     if (lower_case(what).ends_with(".mtl")) {
         throw UsageError(fmt::format("{}: the pattern is in the .obj file beside this one", what));
     }
@@ -113,8 +120,10 @@ void add_show(CLI::App& app, bool& quiet) {
         "show", "Print the text of a pattern, or of the pattern that a print or score was made from");
     auto what = std::make_shared<std::string>();
     command
-        ->add_option("PATTERN", *what,
-                     "bundled pattern, pattern file, -, or a print or score made by sikku, but for sound")
+        ->add_option(
+            "PATTERN", *what,
+            "bundled pattern, pattern file, link of the studio, -, or a print or score made by sikku, but for "
+            "sound")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });
@@ -125,8 +134,10 @@ void add_check(CLI::App& app) {
         app.add_subcommand("check", "Report every error of pattern, Scala and MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
     command
-        ->add_option("FILE", *files,
-                     "pattern files, bundled patterns, -, scales (.scl), key maps (.kbm) or MIDI files")
+        ->add_option(
+            "FILE", *files,
+            "pattern files, bundled patterns, links of the studio, -, scales (.scl), key maps (.kbm) or MIDI "
+            "files")
         ->required();
     command->footer(
         "Exits with 0 and prints nothing if the files have no errors. Errors in MIDI files exit with 1, other errors "

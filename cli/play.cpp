@@ -1,6 +1,7 @@
 // cli/play.cpp: `sikku play`: a curve as music.
 #include "art/print/format.h"
 #include "cli/command.h"
+#include "cli/link_argument.h"
 #include "cli/options.h"
 #include "music/scores.h"
 
@@ -34,17 +35,8 @@ std::string format_of(const std::string& output) {
                     output, extension.empty() ? "no extension" : "unknown extension"));
 }
 
-void run(const PlayCommand& command, bool quiet) {
-    const std::string format = command.output.empty() ? "mid" : format_of(command.output);
-    OptionValues values = command.options.values();
-    if (!command.pattern.seed.empty()) values.push_back({"seed", std::to_string(seed_of(command.pattern))});
-    scores().check(format, values);
-    std::vector<Document> documents;
-    for (const std::string& name : command.patterns) {
-        PatternOptions one = command.pattern;
-        one.pattern = name;
-        documents.push_back(load(one, quiet));
-    }
+void make_score(const PlayCommand& command, const std::string& format, const std::vector<Document>& documents,
+                const OptionValues& values, bool quiet) {
     if (command.output.empty()) {
         Progress progress(quiet);
         fmt::print("{}", describe_score(documents, values, progress.monitor()));
@@ -54,14 +46,57 @@ void run(const PlayCommand& command, bool quiet) {
     make(*work, command.output, quiet);
 }
 
+/// The seed of a pattern is that of the player, too.
+void add_seed(const PatternOptions& options, const SharedWork* link, OptionValues& values) {
+    if (has_option(values, "seed")) return;
+    if (!options.seed.empty()) {
+        values.push_back({"seed", std::to_string(seed_of(options))});
+    } else if (link) {
+        for (auto setting = link->settings.rbegin(); setting != link->settings.rend(); ++setting) {
+            if (setting->name == "seed") return values.push_back({"seed", setting->text});
+        }
+    }
+}
+
+void run(const PlayCommand& command, bool quiet) {
+    const std::string format = command.output.empty() ? "mid" : format_of(command.output);
+    const OptionValues given = command.options.values();
+    if (!command.pattern.seed.empty()) seed_of(command.pattern);            // refuses what is not a number
+    if (!is_link(command.patterns.front())) scores().check(format, given);  // before the patterns are read
+    OptionValues shared;  // options of the link, if the first pattern is one
+    OptionValues values = given;
+    std::vector<Document> documents;
+    for (const std::string& name : command.patterns) {
+        PatternOptions one = command.pattern;
+        one.pattern = name;
+        const auto link = read_link_argument(name);
+        const SharedWork* work = link ? &*link : nullptr;
+        documents.push_back(load(one, work, quiet));
+        if (work) {
+            const Assignment assigned = blaming_link(work->play, given, [&] {
+                return assign(scores(), documents.back(), options_with(work->play, given, one));
+            });
+            documents.back() = assigned.document;
+            if (documents.size() == 1) values = assigned.options;
+        }
+        if (documents.size() == 1) {
+            add_seed(one, work, values);
+            if (work) shared = work->play;
+        }
+    }
+    blaming_link(shared, given, [&] { make_score(command, format, documents, values, quiet); });
+}
+
 }  // namespace
 
 void add_play(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("play", "Play a curve: MIDI, MusicXML, LilyPond, sound, a page that plays");
     auto options = std::make_shared<PlayCommand>();
     command
-        ->add_option("PATTERN", options->patterns,
-                     "pattern files, names of bundled patterns, or -; several become parts of one score")
+        ->add_option(
+            "PATTERN", options->patterns,
+            "pattern files, names of bundled patterns, links of the studio, or -; several become parts of one "
+            "score")
         ->required();
     add_override_options(*command, options->pattern);
     command
@@ -73,7 +108,9 @@ void add_play(CLI::App& app, bool& quiet) {
     options->options.add(*command, scores().options());
     command->footer(
         "Each horizontal run of the curve is a note: its height determines the pitch in the scale, its length the "
-        "duration.\n\n"
+        "duration. A link of the studio brings its own values, and its options if it is the first pattern; options "
+        "of the "
+        "command line replace them.\n\n"
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"

@@ -11,6 +11,7 @@
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -40,6 +41,20 @@ const Interpreter& interpreter_of(const Json& request) {
     if (name == "draw") return prints();
     if (name == "play") return scores();
     throw BadRequest("'interpreter' has to be 'draw' or 'play'");
+}
+
+/// The options of a request, sorted by what they set. As in the program, the seed of the pattern is that of the
+/// player, too.
+Assignment assignment_of(const Json& request, const Interpreter& interpreter) {
+    Assignment assigned = assign(interpreter, document_of(request), options_of(request));
+    if (&interpreter != &scores()) return assigned;
+    const auto& settings = assigned.document.overrides().settings;
+    const auto seed = std::find_if(settings.rbegin(), settings.rend(),
+                                   [](const Setting& setting) { return setting.key == "seed"; });
+    const bool is_given = std::any_of(assigned.options.begin(), assigned.options.end(),
+                                      [](const OptionValue& value) { return value.name == "seed"; });
+    if (seed != settings.rend() && !is_given) assigned.options.push_back({"seed", seed->value});
+    return assigned;
 }
 
 Json answer_patterns() {
@@ -119,7 +134,7 @@ Json answer_help() {
 Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes) {
     const Interpreter& interpreter = interpreter_of(request);
     const std::string format = text_of(request, "format");
-    const Assignment assigned = assign(interpreter, document_of(request), options_of(request));
+    const Assignment assigned = assignment_of(request, interpreter);
     MemoryDestination memory;
     const std::string name = output_name(assigned.document, format);
     const Made made = interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
@@ -162,7 +177,7 @@ void append_double(std::string& bytes, Number number) {
 }
 
 Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes) {
-    const Assignment assigned = assign(scores(), document_of(request), options_of(request));
+    const Assignment assigned = assignment_of(request, scores());
     const NoteList list = list_notes(std::span(&assigned.document, 1), assigned.options, monitor);
     for (const Note& note : list.notes) {
         append_double(bytes, note.onset);
@@ -202,6 +217,8 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "show") return answer_show(request, file);
     if (what == "grid") return answer_grid(request, monitor);
     if (what == "command") return answer_command(request);
+    if (what == "link") return answer_link(request);
+    if (what == "read_link") return answer_read_link(request);
     throw BadRequest("unknown request '" + what + "'");
 }
 

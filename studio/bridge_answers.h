@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -26,6 +27,9 @@ std::string text_of(const Json& request, const std::string& name, const std::str
 double number_of(const Json& request, const std::string& name, double otherwise);
 bool flag_of(const Json& request, const std::string& name);
 
+/// Pairs of texts: `[["size", "A3"], …]`; none if there is no such member.
+std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);
+
 /// The options of a request: `options`.
 OptionValues options_of(const Json& request);
 /// The compiled pattern of a request, which is kept for the next ones. @throws PatternError
@@ -44,5 +48,7 @@ Json answer_import(const Json& request, const std::string& file);
 Json answer_show(const Json& request, const std::string& file);
 Json answer_grid(const Json& request, const Monitor& monitor);
 Json answer_command(const Json& request);
+Json answer_link(const Json& request);
+Json answer_read_link(const Json& request);
 
 }  // namespace sikku

@@ -52,9 +52,6 @@ bool flag_of(const Json& request, const std::string& name) {
     return request.contains(name) && request[name].is_boolean() && request[name].get<bool>();
 }
 
-namespace {
-
-/// Pairs of texts: `[["size", "A3"], …]`.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name) {
     std::vector<std::pair<std::string, std::string>> pairs;
     if (!request.contains(name)) return pairs;
@@ -66,8 +63,6 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, c
     }
     return pairs;
 }
-
-}  // namespace
 
 OptionValues options_of(const Json& request) {
     OptionValues values;

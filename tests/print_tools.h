@@ -21,7 +21,7 @@
 namespace sikku {
 
 /// A picture as pdftoppm writes it.
-struct Pixels {
+struct PixelGrid {
     int width = 0;
     int height = 0;
     std::string bytes;
@@ -33,9 +33,9 @@ struct Pixels {
         return {byte(0), byte(1), byte(2), 255};
     }
 };
-inline Pixels read_ppm(const std::filesystem::path& path) {
+inline PixelGrid read_ppm(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
-    Pixels pixels;
+    PixelGrid pixels;
     std::string magic;
     int most = 0;
     stream >> magic >> pixels.width >> pixels.height >> most;
@@ -47,7 +47,7 @@ inline Pixels read_ppm(const std::filesystem::path& path) {
 }
 
 /// The first page of a PDF.
-inline Pixels render_pdf(const std::filesystem::path& pdf, int dpi) {
+inline PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi) {
     const std::string stem = pdf.string() + ".page";
     const ToolOutcome outcome =
         run("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");

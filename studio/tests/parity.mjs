@@ -148,6 +148,16 @@ for (let i = 0; i < (is_quick ? 60 : 200); ++i) {
     await compare_pattern({ name: `${name}.lsys`, text: damage(text), settings: [] }, false);
 }
 
+// Links, and what is read from them; damaged ones, too.
+for (const { name, text } of patterns) {
+    const pattern = { name: `${name}.lsys`, text, variant: "", settings: [["derivation length", "3"], ["seed", "7"]] };
+    const shared = { pattern, draw: [["size", "A3"], ["dots", ""]], play: [["tempo", "90"]], page: { panel: "map" } };
+    const { link } = JSON.parse((await compare({ do: "link", shared })).json);
+    await compare({ do: "read_link", link });
+    await compare({ do: "read_link", link: `https://example.org/#${link}` });
+    for (let i = 0; i < 3; ++i) await compare({ do: "read_link", link: damage(link) });
+}
+
 // Grids, and systems of other programs.
 for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3"]) {
     for (const symmetry of ["none", "C2", "C4", "mirror-x", "D4"]) {
@@ -189,6 +199,19 @@ for (const { name, text } of patterns.filter((_, i) => !is_quick || i % 4 === 0)
     same({ do: "make", interpreter: "play", format: "mid", pattern }, () => written("play", "mid"));
     same({ do: "measure", pattern }, () => sikku("-q", "measure", name, "--json"));
     same({ do: "kolam", pattern }, () => sikku("-q", "kolam", name, "--json"));
+}
+// What the program makes from links.
+for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) === 0)) {
+    const pattern = { name: `${name}.lsys`, text, variant: "", settings: [["seed", "7"]] };
+    const [draw, play] = [[["size", "A5"], ["rotate", "17"], ["stroke", "0.4mm navy"]], [["humanise", "0.5"]]];
+    const { link } = JSON.parse(web(JSON.stringify({ do: "link", shared: { pattern, draw, play } })).json);
+    const written = (command, format) => {
+        const file = join(folder, `link.${format}`);
+        sikku("-q", command, `#${link}`, "-o", file);
+        return readFileSync(file);
+    };
+    same({ do: "make", interpreter: "draw", format: "svg", options: draw, pattern }, () => written("draw", "svg"));
+    same({ do: "make", interpreter: "play", format: "mid", options: play, pattern }, () => written("play", "mid"));
 }
 
 // The commands that the page shows write what the page saves.

@@ -160,8 +160,8 @@ TEST_F(Draw, FilledSplinesCoverTheSamePixelsInEveryFormat) {
         EXPECT_TRUE(run("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'").ok);
         return read_ppm(ppm);
     };
-    const Pixels page = pixels("svg.png");
-    const Pixels picture = pixels("print.png");
+    const PixelGrid page = pixels("svg.png");
+    const PixelGrid picture = pixels("print.png");
     ASSERT_EQ(picture.width, 100);
     ASSERT_EQ(page.width, 100);
     double difference = 0;

@@ -309,7 +309,7 @@ TEST_F(Icc, OneBitIsALuminanceOfAHalf) {
         const std::string picture = folder_.file("bits.ppm");
         const ToolOutcome outcome = run("oiiotool '" + path.string() + "' --ch 0,0,0 -d uint8 -o '" + picture + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
-        const Pixels found = read_ppm(picture);
+        const PixelGrid found = read_ppm(picture);
         ASSERT_EQ(found.width, 259);
         for (int i = 0; i < 259 * 40; ++i) {
             ASSERT_EQ(found.at(i % 259, i / 259).red, i * 7 % 256 < 128 ? 0 : 255) << channels << ' ' << i;

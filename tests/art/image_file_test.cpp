@@ -87,7 +87,7 @@ TEST(ImageFile, ThePixelsComeBack) {
         const auto ppm = folder / (format + ".ppm");
         const ToolOutcome outcome = run("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
-        const Pixels back = read_ppm(ppm);
+        const PixelGrid back = read_ppm(ppm);
         EXPECT_EQ(back.width, 70);
         EXPECT_EQ(back.height, 200);
         EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), back.bytes.begin(), back.bytes.end(),

@@ -176,7 +176,7 @@ TEST_F(Pdf, OthersDrawItAsItIsMeant) {
         sink.end_stroke(false);
     });
     EXPECT_EQ(complaints(path), "");
-    const Pixels pixels = render_pdf(path, 254);  // 10 pixels a millimetre
+    const PixelGrid pixels = render_pdf(path, 254);  // 10 pixels a millimetre
     ASSERT_NEAR(pixels.width, 1000, 1);
     ASSERT_NEAR(pixels.height, 600, 1);
     const Colour white{255, 255, 255, 255};
@@ -218,8 +218,8 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     write_print(svg, print, write_svg, draw);
     const auto from_svg = folder_ / "svg.pdf";
     ASSERT_TRUE(run("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
-    const Pixels one = render_pdf(pdf, 150);
-    const Pixels other = render_pdf(from_svg, 150);
+    const PixelGrid one = render_pdf(pdf, 150);
+    const PixelGrid other = render_pdf(from_svg, 150);
     ASSERT_EQ(one.width, other.width);
     ASSERT_EQ(one.height, other.height);
     double difference = 0.0;

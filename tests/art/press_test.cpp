@@ -190,7 +190,7 @@ protected:
     }
 
     /// One plate as Ghostscript separates it, 127 pixels an inch; 255 is no ink.
-    std::optional<Pixels> plate(const std::filesystem::path& pdf, const std::string& name) {
+    std::optional<PixelGrid> plate(const std::filesystem::path& pdf, const std::string& name) {
         const std::string stem = (folder_ / "plates").string();
         if (!std::filesystem::exists(stem + ".tif")) {
             const ToolOutcome outcome =
@@ -261,7 +261,7 @@ TEST_F(PressPdf, TheGroundReachesTheEdgeOfTheBleedAndTheDrawingStaysWhereItWas) 
     print.press = {.bleed = 3.0};
     const auto path = write(print, draw_sampler);
     for (const int dpi : {72, 254}) {
-        const Pixels pixels = render_pdf(path, dpi);
+        const PixelGrid pixels = render_pdf(path, dpi);
         ASSERT_NEAR(pixels.width, 106.0 / 25.4 * dpi, 1.0);
         ASSERT_NEAR(pixels.height, 66.0 / 25.4 * dpi, 1.0);
         // The last pixel may be covered in part.
@@ -269,7 +269,7 @@ TEST_F(PressPdf, TheGroundReachesTheEdgeOfTheBleedAndTheDrawingStaysWhereItWas) 
             for (const int y : {0, pixels.height - 2}) EXPECT_TRUE(near(pixels.at(x, y), kaavi)) << x << ' ' << y;
         }
     }
-    const Pixels pixels = render_pdf(path, 254);
+    const PixelGrid pixels = render_pdf(path, 254);
     EXPECT_TRUE(near(pixels.at(730, 530), {255, 0, 0, 255})) << "the line at (70, 10) of a sheet of 60 mm";
     EXPECT_TRUE(near(pixels.at(135, 130), black)) << "and the dot at (10, 50)";
 }
@@ -287,7 +287,7 @@ TEST_F(PressPdf, MarksLieOutsideOfTheTrimAndNothingElseDoes) {
         sink.lines(Points{{120, 30}});
         sink.end_stroke(false);
     });
-    const Pixels pixels = render_pdf(path, 508);  // 20 pixels a millimetre; the sheet begins at 8 mm
+    const PixelGrid pixels = render_pdf(path, 508);  // 20 pixels a millimetre; the sheet begins at 8 mm
     ASSERT_NEAR(pixels.width, 116 * 20, 1);
     ASSERT_NEAR(pixels.height, 76 * 20, 1);
     const auto at = [&](double x, double y) {
@@ -362,9 +362,9 @@ TEST_F(PressPdf, SpotColoursLookAsTheColoursTheyAre) {
     NEEDS("pdftoppm");
     Print print = plain_print();
     print.style.palette[2].alpha = 128;
-    const Pixels before = render_pdf(write(print, draw_sampler), 100);
+    const PixelGrid before = render_pdf(write(print, draw_sampler), 100);
     print.press.spots = parse_spots(std::vector<std::string>{"R=red", "B=blue", "K=black", "W=white"});
-    const Pixels after = render_pdf(write(print, draw_sampler), 100);
+    const PixelGrid after = render_pdf(write(print, draw_sampler), 100);
     ASSERT_EQ(before.bytes.size(), after.bytes.size());
     for (std::size_t i = 0; i < before.bytes.size(); ++i) {
         const int difference =
@@ -390,7 +390,7 @@ TEST_F(PressPdf, SpotColoursHavePlatesOfTheirOwn) {
     const auto magenta = plate(path, "Magenta");
     ASSERT_TRUE(earth && rice && sea && cyan && magenta);
     // 5 pixels a millimetre; the sheet begins at 8 mm.
-    const auto ink = [](const Pixels& pixels, double x, double y) {
+    const auto ink = [](const PixelGrid& pixels, double x, double y) {
         return 255 - pixels.at(static_cast<int>((x + 8) * 5), static_cast<int>((y + 8) * 5)).red;
     };
     EXPECT_EQ(ink(*earth, -2.5, -2.5), 255) << "the ground with its bleed";
@@ -406,7 +406,7 @@ TEST_F(PressPdf, SpotColoursHavePlatesOfTheirOwn) {
     EXPECT_NEAR(ink(*sea, 25, 40), 128, 2) << "a translucent square";
     EXPECT_NEAR(ink(*earth, 25, 40), 127, 2);
     EXPECT_EQ(ink(*sea, 5, 5), 0);
-    for (const Pixels* one : {&*earth, &*rice, &*sea, &*cyan, &*magenta}) {
+    for (const PixelGrid* one : {&*earth, &*rice, &*sea, &*cyan, &*magenta}) {
         int darkest = 0;
         for (const double y : {-0.2, 0.0}) darkest = std::max(darkest, ink(*one, -5.5, y));
         EXPECT_GT(darkest, 100) << "every plate has the marks";
@@ -430,7 +430,7 @@ TEST_F(PressPdf, PartsOfASheetLieInsideAndTheGroundOfTheSheetAround) {
     const std::string text = plain_text(path);
     EXPECT_EQ(count(text, "/Type /OCG"), 9u) << "two grounds, the marks, and six layers of the drawing";
     EXPECT_EQ(count(text, "/Separation /Kaavi"), 1u);
-    const Pixels pixels = render_pdf(path, 254);  // the sheet begins at 8 mm
+    const PixelGrid pixels = render_pdf(path, 254);  // the sheet begins at 8 mm
     EXPECT_TRUE(near(pixels.at(52, 52), kaavi));
     EXPECT_TRUE(near(pixels.at(48, 48), white));
     EXPECT_TRUE(near(pixels.at(183, 283), white)) << "the ground of the part, in its corner";
@@ -484,7 +484,7 @@ protected:
         return folder_ / name;
     }
     /// 3 channels, by another program.
-    Pixels pixels(const std::filesystem::path& file, const std::string& channels = "0,0,0") {
+    PixelGrid pixels(const std::filesystem::path& file, const std::string& channels = "0,0,0") {
         const std::string picture = (folder_ / "pixels.ppm").string();
         const ToolOutcome outcome = run("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
                                         channels + " -d uint8 -o '" + picture + "'");
@@ -498,7 +498,7 @@ protected:
 TEST_F(PressDraw, PicturesAndSvgShowTheBleed) {
     NEEDS("oiiotool");
     for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
-        const Pixels bled = pixels(draw(name, {.bleed = 3.0}, "ground: #b3452c\nstroke: 1mm white\n"), "0,1,2");
+        const PixelGrid bled = pixels(draw(name, {.bleed = 3.0}, "ground: #b3452c\nstroke: 1mm white\n"), "0,1,2");
         EXPECT_EQ(bled.width, 460);
         EXPECT_EQ(bled.height, 260);
         for (const int x : {0, 459}) {
@@ -520,8 +520,8 @@ TEST_F(PressDraw, OneBitIsBlackWhereHalfIsCovered) {
     EXPECT_TRUE(says(told, "Bits/Sample: 1\n"));
     EXPECT_TRUE(says(told, "Photometric Interpretation: min-is-black"));
     EXPECT_TRUE(says(told, "600, 600 pixels/inch"));
-    const Pixels bits = pixels(file);
-    const Pixels grey = pixels(draw("grey.tif", {}, "ground: white\nstroke: 1.234mm black\n", 600.0));
+    const PixelGrid bits = pixels(file);
+    const PixelGrid grey = pixels(draw("grey.tif", {}, "ground: white\nstroke: 1.234mm black\n", 600.0));
     ASSERT_EQ(bits.bytes.size(), grey.bytes.size());
     int dark = 0;
     int between = 0;
@@ -534,14 +534,14 @@ TEST_F(PressDraw, OneBitIsBlackWhereHalfIsCovered) {
     EXPECT_GT(dark, 3 * 1000);
     EXPECT_GT(between, 3 * 100);
     // A white line on earth is the other way round.
-    const Pixels light = pixels(draw("light.tif", {.bits = 1}, "ground: #b3452c\nstroke: 1mm white\n", 600.0));
+    const PixelGrid light = pixels(draw("light.tif", {.bits = 1}, "ground: #b3452c\nstroke: 1mm white\n", 600.0));
     EXPECT_EQ(light.at(0, 0), black);
     EXPECT_EQ(light.at(light.width / 2, light.height / 2), white);
 }
 
 TEST_F(PressDraw, OneBitWithoutGroundIsOnPaper) {
     NEEDS("oiiotool");
-    const Pixels bits = pixels(draw("a.tif", {.bits = 1}, "ground: none\n", 600.0));
+    const PixelGrid bits = pixels(draw("a.tif", {.bits = 1}, "ground: none\n", 600.0));
     EXPECT_EQ(bits.at(0, 0), white);
     EXPECT_EQ(bits.at(bits.width / 2, bits.height / 2), black);
 }

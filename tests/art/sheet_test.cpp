@@ -53,13 +53,13 @@ protected:
         return draw_sheet(cells, options_, folder_ / name);
     }
 
-    Pixels svg_pixels(const std::string& name) {
+    PixelGrid svg_pixels(const std::string& name) {
         const auto pdf = folder_ / (name + ".pdf");
         const ToolOutcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + folder_.file(name) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return render_pdf(pdf, static_cast<int>(options_.dpi));
     }
-    Pixels image_pixels(const std::string& name) {
+    PixelGrid image_pixels(const std::string& name) {
         const std::string ppm = folder_.file(name + ".ppm");
         const ToolOutcome outcome = run("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
@@ -68,7 +68,7 @@ protected:
     int at(double millimetres) const { return static_cast<int>(millimetres * options_.dpi / 25.4); }
 
     /// Just within the four corners of each window its ground is seen, and just outside that of the sheet.
-    void expect_grounds(const Pixels& pixels, const std::vector<SheetCell>& cells, const SheetLayout& layout) {
+    void expect_grounds(const PixelGrid& pixels, const std::vector<SheetCell>& cells, const SheetLayout& layout) {
         ASSERT_EQ(layout.windows.size(), cells.size());
         const Colour sheet = options_.ground.value_or(Colour{255, 255, 255, 255});
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -222,7 +222,7 @@ TEST_F(Sheets, PicturesPdfAndSvgShowTheSame) {
         GTEST_SKIP() << "no rsvg-convert, no pdftoppm or no oiiotool on this machine";
     }
     const auto cells = four();
-    std::vector<Pixels> pictures;
+    std::vector<PixelGrid> pictures;
     for (const std::string name : {"sheet.png", "sheet.tif", "sheet.svg", "sheet.pdf"}) {
         const SheetLayout layout = write(cells, name);
         if (name.ends_with("svg")) {
@@ -235,9 +235,9 @@ TEST_F(Sheets, PicturesPdfAndSvgShowTheSame) {
         SCOPED_TRACE(name);
         expect_grounds(pictures.back(), cells, layout);
     }
-    const Pixels& first = pictures.front();
+    const PixelGrid& first = pictures.front();
     EXPECT_EQ(pictures[1].bytes, first.bytes);
-    for (const Pixels& other : pictures) {
+    for (const PixelGrid& other : pictures) {
         ASSERT_NEAR(other.width, first.width, 1);
         ASSERT_NEAR(other.height, first.height, 1);
         double difference = 0;
@@ -306,7 +306,7 @@ TEST_F(Sheets, WhatIsLargerThanItsCellIsCutOff) {
     for (const std::string name : {"sheet.svg", "sheet.pdf", "sheet.png"}) {
         const SheetLayout layout = write(cells, name);
         if (!has_program("rsvg-convert") || !has_program("pdftoppm") || !has_program("oiiotool")) continue;
-        const Pixels pixels = name.ends_with("svg")   ? svg_pixels(name)
+        const PixelGrid pixels = name.ends_with("svg")   ? svg_pixels(name)
                               : name.ends_with("pdf") ? render_pdf(folder_ / name, 150)
                                                       : image_pixels(name);
         const Window& window = layout.windows[1];
@@ -368,7 +368,7 @@ TEST_F(Sheets, OfGenerationsFillThePageAndKeepDotsAndBorders) {
         std::ofstream(folder_ / name) << draw(document, "svg", values);
         return svg_pixels(name);
     };
-    const auto share = [](const Pixels& pixels, Colour colour) {
+    const auto share = [](const PixelGrid& pixels, Colour colour) {
         std::int64_t found = 0;
         for (int y = 0; y < pixels.height; ++y) {
             for (int x = 0; x < pixels.width; ++x) found += near(pixels.at(x, y), colour) ? 1 : 0;
@@ -376,12 +376,12 @@ TEST_F(Sheets, OfGenerationsFillThePageAndKeepDotsAndBorders) {
         return static_cast<double>(found) / pixels.width / pixels.height;
     };
     const Colour ground{0x8c, 0x3b, 0x2a, 255}, white{0xff, 0xff, 0xff, 255};
-    const Pixels plain = drawn("plain.svg", {});
+    const PixelGrid plain = drawn("plain.svg", {});
     EXPECT_GT(share(plain, ground), 0.45);
     EXPECT_LT(share(plain, white), 1e-3);
-    const Pixels dotted = drawn("dotted.svg", {{"dots", "5mm white"}});
+    const PixelGrid dotted = drawn("dotted.svg", {{"dots", "5mm white"}});
     EXPECT_GT(share(dotted, white), 2e-3);
-    const Pixels framed = drawn("framed.svg", {{"border", "kaavi"}});
+    const PixelGrid framed = drawn("framed.svg", {{"border", "kaavi"}});
     EXPECT_LT(share(framed, ground), share(plain, ground));
 }
 

@@ -480,7 +480,7 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
     const auto pdf = folder_ / "print.pdf";
     const ToolOutcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + path.string() + "'");
     ASSERT_TRUE(outcome.ok) << outcome.text;
-    const Pixels pixels = render_pdf(pdf, 254);  // 10 pixels a millimetre
+    const PixelGrid pixels = render_pdf(pdf, 254);  // 10 pixels a millimetre
     ASSERT_NEAR(pixels.width, 1000, 1);
     ASSERT_NEAR(pixels.height, 600, 1);
     const Colour red{255, 0, 0, 255};

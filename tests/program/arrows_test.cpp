@@ -79,6 +79,7 @@ const std::vector<Room>& rooms() {
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing", "tbb"},
         {"art", "engine engine/* art/*", ""},
         {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet", "tbb json toml posix"},
+        {"art/link", "engine/* art/gallery", "zlib json"},
         {"music/scale", "engine/*", ""},
         {"music/score", "engine/* music/scale", "posix"},
         {"music/melody", "engine/* music/scale music/score", ""},

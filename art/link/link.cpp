@@ -1,0 +1,327 @@
+#include "art/link/link.h"
+
+#include "art/gallery/json.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <new>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view word = "sikku";
+constexpr std::string_view prefix = "sikku1.";  // with the version of what follows
+constexpr std::size_t longest_name = 255;       // bytes of a file's name
+constexpr std::size_t most_pairs = 1000;        // settings, or options of one command
+constexpr std::size_t block_bytes = std::size_t{1} << 16;
+
+// --- base64url --------------------------------------------------------------------------------------------------
+
+constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+constexpr std::uint8_t not_a_digit = 64;
+
+constexpr std::array<std::uint8_t, 256> digits = [] {
+    std::array<std::uint8_t, 256> table{};
+    for (std::uint8_t& digit : table) digit = not_a_digit;
+    for (std::size_t i = 0; i < alphabet.size(); ++i) {
+        table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::uint8_t>(i);
+    }
+    return table;
+}();
+
+std::string to_base64url(std::string_view bytes) {
+    std::string text;
+    text.reserve(bytes.size() / 3 * 4 + 4);
+    for (std::size_t at = 0; at < bytes.size(); at += 3) {
+        const std::size_t count = std::min<std::size_t>(bytes.size() - at, 3);
+        std::uint32_t group = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            group = group << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
+        }
+        for (std::size_t i = 0; i <= count; ++i) text += alphabet[group >> (18 - 6 * i) & 63U];
+    }
+    return text;
+}
+
+[[noreturn]] void refuse_damaged() {
+    throw LinkError("the link is damaged or incomplete");
+}
+
+std::string from_base64url(std::string_view text) {
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t group = 0;
+    int bits = 0;
+    for (const char letter : text) {
+        const std::uint8_t digit = digits[static_cast<unsigned char>(letter)];
+        if (digit == not_a_digit)
+            throw LinkError("the link is damaged: it contains a character that links do not have");
+        group = (group << 6 | digit) & 0xFFFFFFU;
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes += static_cast<char>(group >> bits & 255U);
+    }
+    // One text for each sequence of bytes: no single digit at the end, no bits after the last byte.
+    if (text.size() % 4 == 1 || (group & ((1U << bits) - 1)) != 0) refuse_damaged();
+    return bytes;
+}
+
+/// Decodes `%2D`, as programs that handle addresses may write it.
+std::string percent_decoded(std::string_view text) {
+    const auto value = [](char letter) {
+        if (letter >= '0' && letter <= '9') return letter - '0';
+        const char small = static_cast<char>(letter | 0x20);
+        return small >= 'a' && small <= 'f' ? small - 'a' + 10 : -1;
+    };
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] != '%') {
+            decoded += text[at];
+            continue;
+        }
+        const int high = at + 2 < text.size() ? value(text[at + 1]) : -1;
+        const int low = at + 2 < text.size() ? value(text[at + 2]) : -1;
+        if (high < 0 || low < 0) throw LinkError("the link is damaged: '%' without two hexadecimal digits");
+        decoded += static_cast<char>(high * 16 + low);
+        at += 2;
+    }
+    return decoded;
+}
+
+// --- compression ------------------------------------------------------------------------------------------------
+
+constexpr int raw_window_bits = -15;  // deflate without header and checksum
+
+// zlib does not write to its input.
+Bytef* input_of(std::string_view bytes) {
+    return const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
+}
+
+std::string compressed(std::string_view bytes) {
+    z_stream stream{};
+    constexpr int best_level = 9;
+    constexpr int most_memory = 9;
+    if (deflateInit2(&stream, best_level, Z_DEFLATED, raw_window_bits, most_memory, Z_DEFAULT_STRATEGY) != Z_OK) {
+        throw std::bad_alloc();
+    }
+    std::string packed;
+    std::string block(block_bytes, '\0');
+    stream.next_in = input_of(bytes);
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    int state = Z_OK;
+    while (state == Z_OK) {
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_out = static_cast<uInt>(block.size());
+        state = deflate(&stream, Z_FINISH);
+        packed.append(block, 0, block.size() - stream.avail_out);
+    }
+    deflateEnd(&stream);
+    if (state != Z_STREAM_END) throw std::bad_alloc();
+    return packed;
+}
+
+std::string decompressed(std::string_view packed) {
+    struct Inflater : z_stream {
+        Inflater() : z_stream{} {
+            if (inflateInit2(this, raw_window_bits) != Z_OK) throw std::bad_alloc();
+        }
+        ~Inflater() { inflateEnd(this); }
+        Inflater(const Inflater&) = delete;
+        Inflater& operator=(const Inflater&) = delete;
+    };
+    Inflater stream;
+    std::string bytes;
+    std::string block(block_bytes, '\0');
+    stream.next_in = input_of(packed);
+    stream.avail_in = static_cast<uInt>(packed.size());
+    int state = Z_OK;
+    while (state == Z_OK) {
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_out = static_cast<uInt>(block.size());
+        state = inflate(&stream, Z_NO_FLUSH);
+        bytes.append(block, 0, block.size() - stream.avail_out);
+        if (bytes.size() > most_link_bytes) throw LinkError("the link contains more than 64 MB");
+    }
+    if (state != Z_STREAM_END || stream.avail_in != 0) refuse_damaged();
+    return bytes;
+}
+
+// --- JSON -------------------------------------------------------------------------------------------------------
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw LinkError("the link is damaged: " + what);
+}
+
+/// A file name without folders, control characters and direction overrides: messages and outputs quote it.
+bool is_file_name(std::string_view name) {
+    return !name.empty() && name.size() <= longest_name && name != "." && name != ".." &&
+           name.find('/') == std::string_view::npos && printable(name, longest_name) == name;
+}
+
+Json json_of(const OptionValues& values) {
+    Json list = Json::array();
+    for (const OptionValue& value : values) list.push_back(Json::array({value.name, value.text}));
+    return list;
+}
+
+Json json_of(const SharedWork& work, bool is_complete) {
+    Json pattern = {{"name", work.name}, {"text", work.text}};
+    if (is_complete || !work.variant.empty()) pattern["variant"] = work.variant;
+    if (is_complete || !work.settings.empty()) pattern["settings"] = json_of(work.settings);
+    Json shared = {{"pattern", std::move(pattern)}};
+    if (is_complete || !work.draw.empty()) shared["draw"] = json_of(work.draw);
+    if (is_complete || !work.play.empty()) shared["play"] = json_of(work.play);
+    if (is_complete || !work.page.empty()) {
+        Json page = Json::object();
+        for (const auto& [name, text] : work.page) page[name] = text;
+        shared["page"] = std::move(page);
+    }
+    return shared;
+}
+
+std::string text_of_json(const Json& json) {
+    try {
+        return json.dump();
+    } catch (const Json::exception&) {
+        throw LinkError("a link cannot contain invalid UTF-8");
+    }
+}
+
+/// @throws LinkError if the value is not an object, or has other members
+void require_object(const Json& value, const char* name, std::initializer_list<std::string_view> known) {
+    if (!value.is_object()) refuse(fmt::format("'{}' has to be an object", name));
+    for (const auto& [key, member] : value.items()) {
+        if (std::find(known.begin(), known.end(), key) == known.end()) {
+            refuse(fmt::format("'{}' has a member that is not known", name));
+        }
+    }
+}
+
+std::string text_of(const Json& value, const char* name) {
+    if (!value.is_string()) refuse(fmt::format("'{}' has to be a text", name));
+    return value.get<std::string>();
+}
+
+OptionValues pairs_of(const Json& object, const char* name) {
+    OptionValues values;
+    const auto found = object.find(name);
+    if (found == object.end()) return values;
+    if (!found->is_array() || found->size() > most_pairs) {
+        refuse(fmt::format("'{}' has to be a list of at most {} pairs", name, most_pairs));
+    }
+    for (const Json& pair : *found) {
+        if (!pair.is_array() || pair.size() != 2)
+            refuse(fmt::format("'{}' has to be a list of pairs of texts", name));
+        values.push_back({text_of(pair[0], name), text_of(pair[1], name)});
+    }
+    return values;
+}
+
+SharedWork work_of(const Json& json) {
+    require_object(json, "link", {"pattern", "draw", "play", "page"});
+    const auto pattern = json.find("pattern");
+    if (pattern == json.end()) refuse("it has no 'pattern'");
+    require_object(*pattern, "pattern", {"name", "text", "variant", "settings"});
+    if (!pattern->contains("name") || !pattern->contains("text")) refuse("'pattern' needs 'name' and 'text'");
+    SharedWork work;
+    work.name = text_of(pattern->at("name"), "name");
+    if (!is_file_name(work.name)) refuse("'name' has to be the name of a file");
+    work.text = text_of(pattern->at("text"), "text");
+    if (pattern->contains("variant")) work.variant = text_of(pattern->at("variant"), "variant");
+    work.settings = pairs_of(*pattern, "settings");
+    work.draw = pairs_of(json, "draw");
+    work.play = pairs_of(json, "play");
+    if (const auto page = json.find("page"); page != json.end()) {
+        if (!page->is_object()) refuse("'page' has to be an object");
+        for (const auto& [name, value] : page->items()) work.page[name] = text_of(value, "page");
+    }
+    return work;
+}
+
+// --- addresses --------------------------------------------------------------------------------------------------
+
+bool is_address(std::string_view text) {
+    const std::string start = lower_case(text.substr(0, 8));
+    return start.starts_with("https://") || start.starts_with("http://") || start.starts_with("file://");
+}
+
+std::string_view without_space(std::string_view text) {
+    constexpr std::string_view space = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(space);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(space) - first + 1);
+}
+
+/// What follows the first `#`; the whole text without `#`.
+std::string_view fragment_of(std::string_view text) {
+    const std::size_t at = text.find('#');
+    return at == std::string_view::npos ? text : text.substr(at + 1);
+}
+
+/// `sikku`, a number and a dot.
+bool has_version(std::string_view fragment) {
+    if (!fragment.starts_with(word)) return false;
+    const std::size_t end = fragment.find_first_not_of("0123456789", word.size());
+    return end != std::string_view::npos && end > word.size() && fragment[end] == '.';
+}
+
+}  // namespace
+
+std::string shared_json(const SharedWork& work) {
+    return text_of_json(json_of(work, true));
+}
+
+std::string link_of(const SharedWork& work) {
+    if (!is_file_name(work.name)) {
+        throw LinkError("a link needs the name of a file, without folders and control characters");
+    }
+    for (const OptionValues* values : {&work.settings, &work.draw, &work.play}) {
+        if (values->size() > most_pairs) {
+            throw LinkError(fmt::format("a link contains at most {} values or options", most_pairs));
+        }
+    }
+    const std::string json = text_of_json(json_of(work, false));
+    if (json.size() > most_link_bytes) throw LinkError("a link contains at most 64 MB");
+    return std::string(prefix) + to_base64url(compressed(json));
+}
+
+bool is_link(std::string_view text) {
+    text = without_space(text);
+    if (is_address(text)) return true;
+    const bool is_file = text.find('#') == std::string_view::npos && text.ends_with(".lsys");
+    return !is_file && has_version(fragment_of(text));
+}
+
+SharedWork read_link(std::string_view link) {
+    if (link.size() > most_link_bytes) throw LinkError("a link has at most 64 MB");
+    link = without_space(link);
+    if (is_address(link) && link.find('#') == std::string_view::npos) {
+        throw LinkError("this address contains no pattern: it has no part after '#'");
+    }
+    const std::string fragment = percent_decoded(fragment_of(link));
+    if (!fragment.starts_with(prefix)) {
+        throw LinkError(has_version(fragment)
+                            ? "this link was made by a newer version of Sikku"
+                            : fmt::format("this link contains no pattern: expected '#{}…'", prefix));
+    }
+    const std::string json = decompressed(from_base64url(std::string_view(fragment).substr(prefix.size())));
+    try {
+        return work_of(read_json(json));
+    } catch (const JsonError& error) {
+        refuse(printable(error.what()));
+    }
+}
+
+}  // namespace sikku

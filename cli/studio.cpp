@@ -1,0 +1,213 @@
+// cli/studio.cpp: `sikku studio`: opens the page of the studio, or writes it with patterns in it.
+#include "art/gallery/process.h"
+#include "cli/command.h"
+#include "cli/link_argument.h"
+#include "cli/studio_page.h"
+#include "engine/base/input_file.h"
+#include "engine/base/installation.h"
+#include "engine/base/output.h"
+#include "engine/language/pattern.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+
+extern char** environ;  // NOLINT(readability-redundant-declaration): not every C library declares it
+
+namespace sikku {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_page_bytes = std::size_t{256} << 20;
+constexpr std::size_t longest_address = 8000;  // characters that terminals, shells and browsers handle
+
+struct StudioCommand {
+    std::vector<std::string> patterns;
+    std::string output;
+};
+
+/// The built page, beside the program as after installation. @throws std::runtime_error if it has not been built
+fs::path find_page() {
+    std::error_code error;
+    const fs::path beside = binary_folder();
+    if (!beside.empty()) {
+        auto page = (beside / SIKKU_STUDIO_RELATIVE).lexically_normal();
+        if (fs::is_regular_file(page, error)) return page;
+    }
+    if (fs::is_regular_file(SIKKU_STUDIO_INSTALLED, error)) return SIKKU_STUDIO_INSTALLED;
+    throw std::runtime_error("the page of the studio has not been built; `./demo --studio` builds it");
+}
+
+/// A pattern as a work without values, or the work of a link. Errors in patterns are for the studio to show.
+SharedWork read_work(const std::string& pattern) {
+    if (auto link = read_link_argument(pattern)) return std::move(*link);
+    NamedText text = read_pattern_text(pattern);
+    if (text.text.size() > most_pattern_bytes) throw UsageError(pattern + ": a pattern file is at most 64 MB");
+    SharedWork work;
+    work.name = pattern == "-" ? "pattern.lsys" : fs::path(text.name).filename().string();
+    work.text = std::move(text.text);
+    return work;
+}
+
+void write_file(const fs::path& target, const std::string& text) {
+    const auto output = file_system().open(target);
+    output->write(text);
+    output->commit();
+}
+
+void write_page(const fs::path& page, const std::vector<SharedWork>& works, const fs::path& target) {
+    const std::string name = page.string();
+    const std::string text = read_file(page, name, most_page_bytes, stop_monitor());
+    std::string written;
+    try {
+        written = page_with(text, works);
+    } catch (const PageError& error) {
+        throw std::runtime_error(fmt::format("{}: {}", name, error.what()));
+    } catch (const LinkError& error) {
+        throw UsageError(error.what());
+    }
+    write_file(target, written);
+}
+
+/// The folder for files that can be made again, which is created.
+fs::path cache_folder() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    fs::path folder;
+    if (cache && *cache == '/') {
+        folder = cache;
+    } else if (home && *home == '/') {
+        folder = fs::path(home) / ".cache";
+    } else {
+        throw std::runtime_error("there is no folder for the page: HOME is not set; -o FILE writes it");
+    }
+    folder /= "sikku";
+    fs::create_directories(folder);
+    return folder;
+}
+
+/// Writes a page that leads to `address`: programs that open files drop the fragment of an address, and the studio
+/// shows what a link contains before it runs it. Returns the address of that page.
+std::string write_redirection(const std::string& address) {
+    const fs::path target = cache_folder() / "link.html";
+    write_file(target, fmt::format("<!doctype html><meta charset=\"utf-8\"><title>Sikku studio</title>"
+                                   "<meta http-equiv=\"refresh\" content=\"0;url={}\">\n",
+                                   xml_escaped(address)));
+    return file_address(target.string());
+}
+
+bool has_display() {
+    const auto is_set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value != '\0';
+    };
+    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+
+/// Starts xdg-open in a session of its own. False if it cannot be started or fails at once; it may run as long as the
+/// browser.
+bool open_in_browser(const std::string& address) {
+    constexpr auto patience = std::chrono::seconds(3);
+    constexpr auto pause = std::chrono::milliseconds(20);
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    if (posix_spawn_file_actions_init(&actions) != 0 || posix_spawnattr_init(&attributes) != 0) {
+        throw std::bad_alloc();
+    }
+    for (const int descriptor : {0, 1, 2}) {
+        posix_spawn_file_actions_addopen(&actions, descriptor, "/dev/null", O_RDWR, 0);
+    }
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+    std::string program = "xdg-open";
+    std::string argument = address;
+    char* arguments[] = {program.data(), argument.data(), nullptr};
+    pid_t process = -1;
+    const int error = posix_spawnp(&process, program.c_str(), &actions, &attributes, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    if (error != 0) return false;
+    for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {
+        int status = 0;
+        const pid_t ended = ::waitpid(process, &status, WNOHANG);
+        if (ended == process) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        if (interrupted()) throw Interrupted();
+        std::this_thread::sleep_for(pause);
+    }
+    return true;
+}
+
+/// The address of the page with a single work in its fragment, or empty if it is too long.
+std::string address_with(const fs::path& page, const std::vector<SharedWork>& works) {
+    if (works.empty()) return file_address(page.string());
+    if (works.size() > 1) return {};
+    try {
+        std::string address = file_address(page.string()) + '#' + link_of(works.front());
+        return address.size() <= longest_address ? address : std::string();
+    } catch (const LinkError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+void run(const StudioCommand& command, bool quiet) {
+    std::vector<SharedWork> works;
+    works.reserve(command.patterns.size());
+    for (const std::string& pattern : command.patterns) works.push_back(read_work(pattern));
+    const fs::path page = find_page();
+    if (!command.output.empty()) {
+        const std::string extension = lower_case(fs::path(command.output).extension().string());
+        if (extension != ".html" && extension != ".htm") {
+            throw UsageError(fmt::format("-o {}: the page of the studio is an .html file", command.output));
+        }
+        return write_page(page, works, command.output);
+    }
+    const bool opens = has_display() && is_in_path("xdg-open");
+    const bool is_one_link = works.size() == 1 && is_link(command.patterns.front());
+    std::string address = address_with(page, works);
+    if (opens && is_one_link && !address.empty()) {
+        address = write_redirection(address);
+    } else if (address.empty() || (opens && !works.empty())) {
+        const fs::path copy = cache_folder() / "sikku-studio.html";
+        write_page(page, works, copy);
+        address = file_address(copy.string());
+    }
+    if (opens && open_in_browser(address)) {
+        tell_unless(quiet, "opened {}\n", address);
+    } else {
+        fmt::print("{}\n", address);
+    }
+}
+
+}  // namespace
+
+void add_studio(CLI::App& app, bool& quiet) {
+    auto* command =
+        app.add_subcommand("studio", "Open the studio, a page to see and hear patterns while they are written");
+    auto options = std::make_shared<StudioCommand>();
+    command->add_option("PATTERN", options->patterns,
+                        "pattern files, names of bundled patterns, links of the studio, or -, to open in the studio");
+    command
+        ->add_option("-o,--output", options->output, "write the page with the patterns in it, instead of opening it")
+        ->type_name("FILE.html");
+    command->footer(
+        "The studio is one page that needs neither a server nor the internet; `./demo --studio` builds it. It is "
+        "opened "
+        "with xdg-open; without a display or xdg-open, its address is printed. Work in the studio is kept by the "
+        "browser, not in the pattern files.\n\n"
+        "Examples:\n"
+        "  sikku studio\n"
+        "  sikku studio snake-kolam my.lsys\n"
+        "  sikku studio *.lsys -o my-patterns.html");
+    command->callback([options, &quiet] { run(*options, quiet); });
+}
+
+}  // namespace sikku
