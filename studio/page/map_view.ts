@@ -5,7 +5,7 @@ import { RequestFailed, type Studio, type Work } from "./context";
 import { decimalsOf } from "./camera";
 import { exactOf, exactText, readExact } from "./decimal";
 import { eased, flight, followed, rung, type Zoom } from "./flight";
-import { bitmapOf, isAbort, TileLoader, type Bitmap, type Subject } from "./pictures";
+import { bitmapAtOnce, isAbort, TileLoader, type Bitmap, type Subject } from "./pictures";
 import type { Opened, Pixels } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf, styleOf, type Laid } from "./sheet";
 import { levelScale, seenTiles, tileBox, tileGrid, type TileGrid } from "./tiles";
@@ -428,7 +428,7 @@ export class MapView {
         const start = performance.now();
         try {
             const answer = await this.requestOverview<Pixels>(request);
-            const overview = made(await bitmapOf(answer));
+            const overview = made(bitmapAtOnce(answer));
             if (number < this.shown) return overview.bitmap.close(); // a later one was quicker
             this.shown = number;
             this.note(performance.now() - start, overview.ratio / Math.min(1, this.ratio));

@@ -19,6 +19,17 @@ export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap>
     return { source, width, height, bytes: width * height * 4, close: () => source.close() };
 }
 
+/// The same at once: for pictures that are waited for.
+export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
+    const { width, height } = json;
+    const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
+    const source = document.createElement("canvas");
+    source.width = width;
+    source.height = height;
+    source.getContext("2d")!.putImageData(new ImageData(values, width, height), 0, 0);
+    return { source, width, height, bytes: width * height * 4, close: () => { source.width = source.height = 0; } };
+}
+
 export function isAbort(error: unknown): boolean {
     return error instanceof DOMException && error.name === "AbortError";
 }
