@@ -5,7 +5,7 @@ import type { DotGrid } from "./bench/dot_grid";
 import { crossingsText, gridText, parseCrossings, parseGrid } from "./bench/dot_grid";
 import { changeText, counted, gapText, neighbour } from "./bench/gap_names";
 import { Kolam } from "./bench/kolam";
-import { kolamTitle, readKolam, withEditsOf } from "./bench/kolam_text";
+import { kolamTitle, readKolam, withDots, withEditsOf } from "./bench/kolam_text";
 import { Side, type Chances, type Look } from "./bench/side";
 import { singleLineNear, type Symmetry } from "./bench/symmetry";
 import type { MakePanel, Panel, Studio } from "./context";
@@ -106,7 +106,8 @@ class BenchPanel implements Panel {
         if (!found) return false;
         if (gridText(found.grid) !== gridText(this.kolam.grid)) this.cursor = -1;
         this.kolam.set(found.grid, found.states);
-        if (this.kolam.count > 1) this.look = { ...this.look, isColoured: found.isColoured };
+        const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
+        this.look = { ...this.look, isColoured, hasDots: found.hasDots };
         this.made = "";
         this.text = text;
         ++this.asked;
@@ -130,7 +131,7 @@ class BenchPanel implements Panel {
     }
 
     private setLook(look: Look): void {
-        const isOther = look.isColoured !== this.look.isColoured;
+        const isOther = look.isColoured !== this.look.isColoured || look.hasDots !== this.look.hasDots;
         this.look = look;
         if (isOther) this.commit();
         else this.update();
@@ -218,8 +219,9 @@ class BenchPanel implements Panel {
         );
     }
 
-    private store(made: string, merge: string): void {
+    private store(bare: string, merge: string): void {
         const { store } = this.studio;
+        const made = withDots(bare, this.look.hasDots);
         const { pattern } = store.work;
         const isOurs = pattern.text === this.text || readKolam(pattern.text) !== null;
         this.text = isOurs ? withEditsOf(pattern.text, this.made, made) : made;

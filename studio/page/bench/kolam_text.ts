@@ -2,10 +2,24 @@
 import type { DotGrid } from "./dot_grid";
 import { gridText, parseCrossings, parseGrid } from "./dot_grid";
 
+const dots_line = "dots: 0.2 step #fffaf0";
+
+/// The text with the dots drawn, or as it is.
+export function withDots(text: string, hasDots: boolean): string {
+    return hasDots ? `${text.trimEnd()}\n${dots_line}\n` : text;
+}
+
 export const kolamTitle = (grid: DotGrid): string => `Kolam on ${gridText(grid)} dots`;
 
+export interface ReadKolam {
+    grid: DotGrid;
+    states: Uint8Array;
+    isColoured: boolean;
+    hasDots: boolean;
+}
+
 /// The grid and its crossings, if the text is one that the bench has made.
-export function readKolam(text: string): { grid: DotGrid; states: Uint8Array; isColoured: boolean } | null {
+export function readKolam(text: string): ReadKolam | null {
     const title = /^title:.*?\bon ([\dx-]+) dots/m.exec(text);
     const crossings = /^\/\/ crossings:([\d ]*)$/m.exec(text);
     if (!title || !crossings) return null;
@@ -13,7 +27,8 @@ export function readKolam(text: string): { grid: DotGrid; states: Uint8Array; is
         const grid = parseGrid(title[1]);
         const states = parseCrossings(grid, crossings[1]);
         const palette = /^palette:(.*)$/m.exec(text)?.[1].trim().split(/\s+/) ?? [];
-        return states && { grid, states, isColoured: palette.length > 2 };
+        const hasDots = /^dots:(?!\s*none)/m.test(text);
+        return states && { grid, states, isColoured: palette.length > 2, hasDots };
     } catch {
         return null; // the title was edited
     }
@@ -39,7 +54,7 @@ export function withEditsOf(old: string, made: string, fresh: string): string {
     let text = fresh;
     for (const [key, line] of otherKeys(old)) {
         const own = now.get(key);
-        if (line === was.get(key) || line === own) continue;
+        if (line === was.get(key) || line === own || line === dots_line) continue;
         if (key === "palette" && was.get(key) !== own) continue; // the number of lines has changed
         text = own === undefined ? `${text.trimEnd()}\n${line}\n` : text.replace(own, () => line);
     }

@@ -69,6 +69,7 @@ export class Side {
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
     private readonly boxes = new Map<keyof Look, HTMLInputElement>();
     private kolam: Kolam | null = null;
+    private counted: unknown = null; // the lines that were counted last
     private chances: Chances = { density: 0.7, seed: 1 };
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
 
@@ -208,10 +209,14 @@ export class Side {
     update(kolam: Kolam, chances: Chances, look: Look): void {
         Object.assign(this, { kolam, chances, look });
         const { grid, count } = kolam;
-        this.count.textContent = counted(count, "line");
-        this.count.classList.toggle("single", count === 1);
-        const gaps = `${kolam.crossings} of ${counted(grid.gaps.length, "gap")} crossed`;
-        this.certificate.textContent = `${counted(grid.dots.length, "dot")}, ${gaps}.`;
+        if (kolam.lines !== this.counted) {
+            this.counted = kolam.lines;
+            this.count.textContent = counted(count, "line");
+            this.count.classList.toggle("single", count === 1);
+            // Until the libraries have examined it.
+            const gaps = `${kolam.crossings} of ${counted(grid.gaps.length, "gap")} crossed`;
+            this.certificate.textContent = `${counted(grid.dots.length, "dot")}, ${gaps}.`;
+        }
         this.rows.textContent = String(grid.rows.length);
         this.columns.textContent = String(Math.max(...grid.rows));
         this.gridField.value = gridText(grid);
