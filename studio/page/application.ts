@@ -6,6 +6,7 @@ import { byId, element } from "./elements";
 import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
 import type { History } from "./store";
 
+const patience = 400; // milliseconds before the status bar says that the libraries are working
 const fact_seconds = 12; // that a line of the status bar stays
 
 type OpenedListener = (facts: Opened, work: Work) => void;
@@ -17,6 +18,7 @@ export class Application implements Studio {
     opened: { facts: Opened; work: Work } | null = null;
 
     private saying = 0;
+    private waiting = 0;
     private readonly listeners = new Set<OpenedListener>();
     private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
     private readonly marked = new Set<(place: Place | null) => void>();
@@ -47,13 +49,17 @@ export class Application implements Studio {
     /// Reads the work's pattern; the panels draw it again if it has no errors.
     async open(): Promise<void> {
         const { work } = this.store;
+        clearTimeout(this.waiting);
+        this.waiting = window.setTimeout(() => { byId("facts").textContent = "Working…"; }, patience);
         try {
             const { json } = await this.engine.request<Opened>({ do: "open", pattern: work.pattern }, { key: "open" });
+            if (work === this.store.work) clearTimeout(this.waiting);
             this.opened = { facts: json, work };
             for (const listener of this.failed) listener(null, json.warnings);
             for (const listener of this.listeners) listener(json, work);
         } catch (error) {
             if (!(error instanceof RequestFailed)) return; // replaced by a later text
+            clearTimeout(this.waiting);
             for (const listener of this.failed) listener(error.failure, error.failure.diagnostics ?? []);
         }
     }

@@ -23,6 +23,8 @@ const groups: [string, Interpreter, RegExp][] = [
     ["Model", "draw", /^(obj|glb|gltf)$/],
     ["Score", "play", /./],
 ];
+// Pictures other than PNG and sound files need libraries that the page does without.
+const by_the_program = new Set(["tif", "jpg", "exr", "wav", "flac"]);
 const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true };
 const types: Record<string, string> = {
     svg: "image/svg+xml",
@@ -72,6 +74,11 @@ function choicesOf(application: Application): Choice[] {
         ...rows.filter((row) => row.group === "Other"),
         { interpreter: "draw", format: pattern_format, group: "Pattern" },
     ];
+}
+
+// "glTF" stays; "sound" gets a capital.
+function nameOf({ label, extension }: FormatHelp): string {
+    return /^[a-z ]+$/.test(label) ? capital(label) : label || extension.toUpperCase();
 }
 
 class Export {
@@ -150,7 +157,7 @@ class Export {
                         "label",
                         { class: "format", title: each.format.label },
                         radio,
-                        element("span", {}, capital(each.format.label || each.format.extension)),
+                        element("span", {}, nameOf(each.format)),
                         element("small", {}, `.${each.format.extension}`),
                     );
                 });
@@ -229,8 +236,13 @@ class Export {
             options: this.optionsNow(),
             pattern: store.work.pattern,
         };
+        void this.showCommand(request);
+        if (by_the_program.has(format.extension)) {
+            this.save.textContent = "Save";
+            this.showRemarks([{ is_warning: false, text: "Only the program writes this format: copy the command below." }]);
+            return;
+        }
         try {
-            void this.showCommand(request);
             const { json, bytes } = await engine.request<Made>(
                 { do: "make", ...request },
                 { key: "export", seconds: 60 },
@@ -246,7 +258,8 @@ class Export {
             if (!(error instanceof RequestFailed)) return;
             this.save.textContent = "Save";
             const { option, message } = error.failure;
-            this.showRemarks([{ is_warning: true, text: option ? `${option}: ${message}` : message }]);
+            const text = option && !message.startsWith(option) ? `${option}: ${message}` : message;
+            this.showRemarks([{ is_warning: true, text }]);
         }
     }
 
