@@ -13,6 +13,7 @@ import { Transport } from "../sound/transport";
 
 const interval = 25; // milliseconds between two looks ahead
 const most_prepared = 60; // keys rendered before the first note
+const audition_notes = 5;
 const prepare_seconds = 1.5; // that the first note waits for them at most
 
 export interface Voice extends VoiceSettings {
@@ -122,8 +123,30 @@ export class Player {
         Object.assign(this.voices[voice], change);
         this.voices[voice].timbre = this.voices[voice].chosen || this.instrumentOf(voice);
         this.applyVoices();
-        if ("chosen" in change && this.context) this.prepareAhead(true);
+        if ("chosen" in change) {
+            if (this.transport.playing) void this.prepareAhead(true);
+            else void this.audition(voice);
+        }
         this.onChange();
+    }
+
+    /// A few notes of a voice in its timbre.
+    private async audition(voice: number): Promise<void> {
+        const { melody } = this;
+        this.open();
+        const { context, renderer, output } = this;
+        if (!melody || !context || !renderer || !output) return;
+        const keys: number[] = [];
+        for (let i = firstFrom(melody, this.place()); i < melody.count && keys.length < audition_notes; ++i) {
+            if (melody.voice[i] === voice) keys.push(melody.key[i]);
+        }
+        const timbre = timbreNamed(this.voices[voice].timbre);
+        await context.resume();
+        await renderer.prepare(keys.map((key) => [timbre, key] as const));
+        if (this.transport.playing || timbre.name !== this.voices[voice].timbre) return;
+        output.silence();
+        const seconds = timbre.attack > 0.1 ? 0.5 : 0.22;
+        keys.forEach((key, i) => output.strike(voice, key, 90, context.currentTime + 0.05 + i * seconds, seconds));
     }
 
     isHeard(voice: number): boolean {
@@ -209,7 +232,6 @@ export class Player {
         }
         await Promise.race([this.prepareAhead(true), patience(prepare_seconds)]);
         this.isStarting = false;
-        this.transport.ahead = 0.2;
         this.transport.play();
         this.timer.start(interval);
         this.onChange();

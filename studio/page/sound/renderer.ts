@@ -70,7 +70,7 @@ export class Renderer {
     }
 
     /// Renders all of these, each once.
-    prepare(wanted: Iterable<[Timbre, number]>): Promise<void> {
+    prepare(wanted: Iterable<readonly [Timbre, number]>): Promise<void> {
         const seen = new Set<string>();
         const all: Promise<void>[] = [];
         for (const [timbre, key] of wanted) {

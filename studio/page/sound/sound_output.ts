@@ -167,8 +167,15 @@ export class SoundOutput implements NoteSink {
     }
 
     private fade(sounding: Sounding, time: number, tau: number): void {
-        sounding.envelope.gain.cancelScheduledValues(time);
-        sounding.envelope.gain.setTargetAtTime(0, time, tau);
+        const { gain } = sounding.envelope;
+        if (gain.cancelAndHoldAtTime) {
+            gain.cancelAndHoldAtTime(time); // amid an attack, too
+        } else {
+            const now = gain.value;
+            gain.cancelScheduledValues(time);
+            gain.setValueAtTime(now, time);
+        }
+        gain.setTargetAtTime(0, time, tau);
         sounding.source.stop(time + 9 * tau);
         sounding.vibrato?.stop(time + 9 * tau);
     }
