@@ -7,13 +7,18 @@ native=$(readlink -f "$1")
 studio/build.sh
 node --test studio/tests/*.test.mjs
 node studio/tests/parity.mjs "$native" ${2:+"$2"}
+page=build/studio/sikku-studio.html
 if command -v chromium > /dev/null; then
-    node studio/tests/page.mjs build/studio/sikku-studio.html
+    node studio/tests/page.mjs $page
+    node studio/tests/views.mjs $page
+    node studio/tests/play_and_bench.mjs $page
+    # Every timbre is rendered and measured.
+    [ "${2:-}" = --quick ] || node studio/tests/sound_in_browser.mjs
 else
     echo "skipped: the page in Chromium (it is not installed)"
 fi
 if command -v firefox-esr > /dev/null; then
-    node studio/tests/firefox.mjs build/studio/sikku-studio.html
+    node studio/tests/firefox.mjs $page
 else
     echo "skipped: the page in Firefox (it is not installed)"
 fi
