@@ -307,8 +307,8 @@ TEST_F(Sheets, WhatIsLargerThanItsCellIsCutOff) {
         const SheetLayout layout = write(cells, name);
         if (!has_program("rsvg-convert") || !has_program("pdftoppm") || !has_program("oiiotool")) continue;
         const PixelGrid pixels = name.ends_with("svg")   ? svg_pixels(name)
-                              : name.ends_with("pdf") ? render_pdf(folder_ / name, 150)
-                                                      : image_pixels(name);
+                                 : name.ends_with("pdf") ? render_pdf(folder_ / name, 150)
+                                                         : image_pixels(name);
         const Window& window = layout.windows[1];
         for (double x = 1.0; x < 119.0; x += 0.1) {
             if (x > window.left - 0.3 && x < window.left + window.width + 0.3) continue;
