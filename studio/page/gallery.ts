@@ -1,6 +1,7 @@
 // The bundled patterns as starting points, with their pictures, drawn as they come into sight.
 import { type MakePanel, RequestFailed, type Studio } from "./context";
 import { button, element } from "./elements";
+import { given_kind, openGiven } from "./given";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
 import type { PatternEntry } from "./protocol";
@@ -36,13 +37,11 @@ class Card {
                 element("small", {}, facts),
             ),
         );
-        this.element.addEventListener("click", () =>
-            openPattern(
-                studio,
-                { name: `${entry.name}.lsys`, text: entry.text, variant: "", settings: [] },
-                entry.is_spatial ? "space" : entry.is_melody ? "play" : "map",
-            ),
-        );
+        this.element.addEventListener("click", () => {
+            if (entry.kind === given_kind && openGiven(studio, entry.name)) return;
+            const panel = entry.is_spatial ? "space" : entry.is_melody ? "play" : "map";
+            openPattern(studio, { name: `${entry.name}.lsys`, text: entry.text }, panel);
+        });
     }
 
     matches(words: string[], kind: string): boolean {

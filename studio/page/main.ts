@@ -7,14 +7,13 @@ import { Editor } from "./editor";
 import { button, byId, element } from "./elements";
 import { startEngine } from "./engine";
 import { makeGalleryPanel } from "./gallery";
+import { givenEntries, openGiven } from "./given";
 import { applyTheme, makeLayout } from "./layout";
 import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
-import { openPattern } from "./opening";
 import { Panels } from "./panels";
-import { titleOf } from "./pattern_text";
 import { makePlayPanel } from "./play";
-import type { Help, PatternEntry, Patterns } from "./protocol";
+import type { Help, Patterns } from "./protocol";
 import { restoreScales } from "./scales";
 import { watchLinks } from "./share";
 import { makeSpacePanel } from "./space";
@@ -43,20 +42,6 @@ const first: Work = {
     panel: "map",
 };
 
-// Patterns that the program wrote into the page: `sikku studio PATTERN…`. The first is open; all are in the gallery.
-function embedded(): PatternEntry[] {
-    const list = JSON.parse(byId("sikku-patterns").textContent ?? "[]") as { name: string; text: string }[];
-    return list.map(({ name, text }) => ({
-        name: name.replace(/\.lsys$/, ""),
-        kind: "yours",
-        title: titleOf({ name, text }),
-        source: "",
-        text,
-        is_melody: false,
-        is_spatial: false,
-    }));
-}
-
 async function main(): Promise<void> {
     applyTheme();
     makeLayout();
@@ -66,16 +51,16 @@ async function main(): Promise<void> {
     restoreScales(engine);
     new Editor(application);
     new Controls(application);
-    const [given] = embedded();
-    if (given && !store.history.some(({ work }) => work.pattern.name === `${given.name}.lsys`)) {
-        openPattern(application, { name: `${given.name}.lsys`, text: given.text, variant: "", settings: [] });
+    const given = givenEntries();
+    if (given[0] && !store.history.some(({ work }) => work.pattern.text === given[0]!.text)) {
+        openGiven(application, given[0].name);
     }
     const opening = application.open();
     const [patterns, help] = await Promise.all([
         engine.request<Patterns>({ do: "patterns" }),
         engine.request<Help>({ do: "help" }),
     ]);
-    application.patterns = [...embedded(), ...patterns.json.patterns];
+    application.patterns = [...given, ...patterns.json.patterns];
     application.help = help.json;
     new Panels(application, [
         makeMapPanel,

@@ -423,7 +423,11 @@ for (const colorScheme of ["light", "dark"]) {
 }
 
 test("patterns that the program wrote into the page are open and in the gallery", async () => {
-    const own = JSON.stringify([{ name: "own.lsys", text: "title: My </script> own\naxiom: F\nF --> F+F\n" }]);
+    const own = JSON.stringify([{
+        name: "own.lsys",
+        text: "title: My </script> own\naxiom: F\nF --> F+F\n",
+        settings: [["derivation length", "3"]],
+    }]);
     const folder = mkdtempSync(join(tmpdir(), "sikku-studio-"));
     const file = join(folder, "own.html");
     const page_text = readFileSync(fileURLToPath(address), "utf8");
@@ -433,6 +437,7 @@ test("patterns that the program wrote into the page are open and in the gallery"
     const page = await openStudio({ at: pathToFileURL(file).href });
     await page.locator("#work-title", { hasText: "My </script> own" }).waitFor();
     await page.getByRole("tab", { name: "Gallery" }).click();
+    await page.locator(".cost", { hasText: "8 segments" }).waitFor();
     await page.getByRole("button", { name: "yours", exact: true }).click();
     await page.locator(".gallery-count", { hasText: "1 of 108" }).waitFor();
     await page.context().close();
