@@ -228,6 +228,7 @@ class BenchPanel implements Panel {
         this.made = made;
         const fresh = { name: "kolam.lsys", variant: "", settings: [] };
         store.change({ pattern: { ...pattern, ...(isOurs ? {} : fresh), text: this.text }, place: null }, merge);
+        if (!isOurs) this.studio.say("The kolam is now the pattern. Undo brings the other one back.");
         void this.examine();
     }
 

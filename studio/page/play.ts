@@ -137,7 +137,8 @@ class PlayPanel implements Panel {
 
     private press(event: KeyboardEvent): void {
         const isChord = event.ctrlKey || event.metaKey || event.altKey;
-        if (!this.isShown || event.key !== " " || event.defaultPrevented || isChord) return;
+        const isMeant = this.isShown || this.player.transport.playing; // music goes on behind the other views
+        if (!isMeant || event.key !== " " || event.defaultPrevented || isChord) return;
         const { target } = event;
         if (target instanceof HTMLElement && (target.isContentEditable || target.closest(own_space))) return;
         event.preventDefault();

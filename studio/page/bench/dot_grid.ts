@@ -30,8 +30,9 @@ export interface DotGrid {
     dotAt(x: number, y: number): number; // -1: none
 }
 
-export const most_side = 40;
-const most_dots = 2500;
+const most_gaps = 1000; // that a pattern lists, so that it can be read again
+
+const tooLarge = (): Error => new Error(`A grid on the bench has at most ${most_gaps} gaps, such as 22 x 22 dots.`);
 
 /// Throws an Error with a message for the user.
 export function makeGrid(rows: number[]): DotGrid {
@@ -42,8 +43,7 @@ export function makeGrid(rows: number[]): DotGrid {
         throw new Error("Rows must all have odd numbers of dots, or all even ones: they are centred.");
     }
     const count = rows.reduce((sum, row) => sum + row, 0);
-    if (count > most_dots || rows.length > 3 * most_side)
-        throw new Error(`A grid on the bench has at most ${most_dots} dots.`);
+    if (count > most_gaps) throw tooLarge();
     const dots: Point[] = [];
     const begins: number[] = [];
     rows.forEach((length, row) => {
@@ -71,6 +71,7 @@ export function makeGrid(rows: number[]): DotGrid {
             if (below >= 0) add(dot, below, 3);
         }
     });
+    if (gaps.length > most_gaps) throw tooLarge();
     return { rows, dots, gaps, gapAt, dotAt };
 }
 
@@ -80,7 +81,7 @@ export function parseGrid(text: string): DotGrid {
     const sides = /^(\d+)x(\d+)$/.exec(clean);
     if (sides) {
         const [rows, columns] = [Number(sides[1]), Number(sides[2])];
-        return makeGrid(rows > 0 && rows <= most_dots ? Array<number>(rows).fill(columns) : []);
+        return makeGrid(rows > 0 && rows <= most_gaps ? Array<number>(rows).fill(columns) : []);
     }
     return makeGrid(/^\d+([-,]\d+)*$/.test(clean) ? clean.split(/[-,]/).map(Number) : []);
 }

@@ -22,7 +22,7 @@ const lead = 0.06; // seconds from pressing the key to the first note
 const clocks = 24; // in a quarter, as MIDI has it
 
 export class Transport {
-    ahead = 0.2; // seconds that notes are handed over before they sound
+    ahead = 0.25; // seconds that notes are handed over before they sound
     playing = false;
     onEnd: () => void = () => {};
 
