@@ -3,7 +3,7 @@ import type { MakePanel, Studio, Work } from "./context";
 import { button, element } from "./elements";
 import { between, eyeText, readEye, type Eye } from "./eye";
 import { Growth, type Grown } from "./growth";
-import { isStill } from "./map_view";
+import { isStill } from "./map_motion";
 import { addOrbit } from "./orbit";
 import { isAbort } from "./pictures";
 import type { Opened } from "./protocol";

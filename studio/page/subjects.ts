@@ -1,0 +1,25 @@
+// Short names for what pictures show: a pattern and how it is drawn.
+
+const mostCharacters = 16e6; // of patterns whose pictures are known by name
+
+export class Subjects {
+    private readonly names = new Map<string, string>();
+    private count = 0;
+    private characters = 0;
+
+    /// Equal subjects have equal names, as long as they are known.
+    nameOf(kind: string, ...subject: unknown[]): string {
+        const text = JSON.stringify([kind, ...subject]);
+        const known = this.names.get(text);
+        if (known !== undefined) return known;
+        const name = `${kind}-${++this.count}`;
+        this.names.set(text, name);
+        this.characters += text.length;
+        for (const [oldest] of this.names) {
+            if (this.characters < mostCharacters || oldest === text) break;
+            this.names.delete(oldest);
+            this.characters -= oldest.length;
+        }
+        return name;
+    }
+}
