@@ -7,8 +7,7 @@ import { readInk, Surface } from "./surface";
 import { voiceColour } from "./voice_colours";
 
 const room = 28; // pixels around the curve
-const chunk = 2000; // notes between two looks at the time
-const budget = 7; // milliseconds of a frame for long paths
+const most_traced = 6000; // notes that a frame adds to a layer: browsers paint later than they are told to
 const fine_scale = 4; // pixels in a step below which a glass shows what sounds
 const glass_scale = 15;
 const glass_notes = 500; // before and after what sounds
@@ -89,9 +88,8 @@ export class CurveView {
         const { context } = surface;
         context.clearRect(0, 0, surface.width, surface.height);
         if (!melody || !faint || !done) return false;
-        const until = performance.now() + budget;
-        this.drawFaint(melody, faint, until);
-        this.drawDone(melody, done, tick, until);
+        this.drawFaint(melody, faint);
+        this.drawDone(melody, done, tick);
         surface.put(faint);
         surface.put(done);
         this.drawSounding(melody, tick, this.scale);
@@ -99,19 +97,18 @@ export class CurveView {
         return this.faintCount < melody.count || this.isBehind(melody, tick);
     }
 
-    private drawFaint(melody: Melody, layer: CanvasRenderingContext2D, until: number): void {
+    private drawFaint(melody: Melody, layer: CanvasRenderingContext2D): void {
+        if (this.faintCount === melody.count) return;
         layer.strokeStyle = this.ink.strong;
         layer.globalAlpha = this.ink.isDark ? 0.62 : 0.5;
         layer.lineWidth = Math.min(2, this.thickness * 0.55);
         layer.lineCap = "round";
         layer.lineJoin = "round";
-        while (this.faintCount < melody.count && performance.now() < until) {
-            const end = Math.min(melody.count, this.faintCount + chunk);
-            layer.beginPath();
-            for (let i = this.faintCount; i < end; ++i) this.trace(melody, layer, i, 1);
-            layer.stroke();
-            this.faintCount = end;
-        }
+        const end = Math.min(melody.count, this.faintCount + most_traced);
+        layer.beginPath();
+        for (let i = this.faintCount; i < end; ++i) this.trace(melody, layer, i, 1);
+        layer.stroke();
+        this.faintCount = end;
     }
 
     /// The run that leads to the note, and the note's piece up to a share of it.
@@ -138,7 +135,7 @@ export class CurveView {
         return this.doneCount < melody.count && this.ended(melody, this.doneCount, tick);
     }
 
-    private drawDone(melody: Melody, layer: CanvasRenderingContext2D, tick: number, until: number): void {
+    private drawDone(melody: Melody, layer: CanvasRenderingContext2D, tick: number): void {
         if (this.doneCount > 0 && !this.ended(melody, this.doneCount - 1, tick)) {
             layer.clearRect(0, 0, this.surface.width, this.surface.height); // back to an earlier place
             this.doneCount = 0;
@@ -146,22 +143,18 @@ export class CurveView {
         layer.lineCap = "round";
         layer.lineJoin = "round";
         layer.lineWidth = this.thickness;
-        while (this.isBehind(melody, tick) && performance.now() < until) {
-            const begin = this.doneCount;
-            while (this.doneCount < begin + chunk && this.isBehind(melody, tick)) ++this.doneCount;
-            for (let voice = 0; voice < melody.voices; ++voice) {
-                layer.strokeStyle = voiceColour(voice, this.ink.isDark);
-                layer.globalAlpha = this.muted(voice) ? 0.18 : 0.85;
-                layer.beginPath();
-                let isEmpty = true;
-                for (let at = begin; at < this.doneCount; ++at) {
-                    const i = this.byEnd[at];
-                    if (melody.voice[i] !== voice) continue;
-                    this.trace(melody, layer, i, 1);
-                    isEmpty = false;
-                }
-                if (!isEmpty) layer.stroke();
+        const begin = this.doneCount;
+        while (this.doneCount < begin + most_traced && this.isBehind(melody, tick)) ++this.doneCount;
+        if (this.doneCount === begin) return;
+        for (let voice = 0; voice < melody.voices; ++voice) {
+            layer.strokeStyle = voiceColour(voice, this.ink.isDark);
+            layer.globalAlpha = this.muted(voice) ? 0.18 : 0.85;
+            layer.beginPath();
+            for (let at = begin; at < this.doneCount; ++at) {
+                const i = this.byEnd[at];
+                if (melody.voice[i] === voice) this.trace(melody, layer, i, 1);
             }
+            layer.stroke();
         }
     }
 
