@@ -42,6 +42,7 @@ class Variations {
     private readonly axes: { across: AxisChoice | null; down: AxisChoice | null } = { across: null, down: null };
     private base: { facts: Opened; work: Work } | null = null; // what is varied
     private adopted: Work["pattern"] | null = null; // that this panel put into the work
+    private isStale = false; // drawn with other options
     private first = 0; // index of the first candidate
     private tried = 0;
     private search: AbortController | null = null;
@@ -75,6 +76,9 @@ class Variations {
             this.settings, this.sheet);
         this.sheet.addEventListener("keydown", (event) => this.move(event));
         studio.onOpened((facts, work) => this.opened(facts, work));
+        studio.store.subscribe((work, before) => {
+            if (work.draw !== before.draw) this.setDraw(work.draw);
+        });
     }
 
     show(): void {
@@ -83,6 +87,8 @@ class Variations {
         if (!opened) return;
         if (!this.base || (opened.work.pattern !== this.base.work.pattern && opened.work.pattern !== this.adopted)) {
             this.setBase(opened.facts, opened.work);
+        } else if (this.isStale || this.search?.signal.aborted) {
+            void this.run();
         }
     }
 
@@ -115,6 +121,15 @@ class Variations {
         }
         for (const name of work.locked ?? []) this.kept.add(name);
         this.restart();
+    }
+
+    // The same variants, drawn in another way.
+    private setDraw(draw: Work["draw"]): void {
+        if (!this.base) return;
+        this.base = { ...this.base, work: { ...this.base.work, draw } };
+        clearTimeout(this.timer);
+        if (this.isShown) this.timer = window.setTimeout(() => void this.run(), 250);
+        else this.isStale = true;
     }
 
     // The variant that was taken becomes what is varied.
@@ -240,6 +255,7 @@ class Variations {
     private async run(): Promise<void> {
         this.search?.abort();
         const search = this.search = new AbortController();
+        this.isStale = false;
         const base = this.base;
         if (!base || !this.isShown) return;
         const { pattern, draw } = base.work;
@@ -330,7 +346,7 @@ class Variations {
         const made = Array.from({ length: cells }, (_, index) => {
             const cell = element("button", { type: "button", class: "card variant waits", disabled: true, tabindex: index === 0 ? 0 : -1 },
                 element("canvas", { class: "picture", width: 1, height: 1, "aria-hidden": "true" }),
-                element("span", { class: "caption" }, "\u00a0"));
+                element("span", { class: "caption", "aria-hidden": "true" }, "\u00a0"), element("span", { class: "unseen" }, "Not drawn yet"));
             cell.addEventListener("click", () => this.take(cell));
             return cell;
         });
@@ -368,7 +384,7 @@ class Variations {
             caption.textContent = variant.label;
         }
         cell.title = variant.label;
-        cell.setAttribute("aria-label", `Take ${variant.label}`);
+        cell.querySelector(".unseen")!.textContent = `Take ${variant.label}`;
         cell.disabled = false;
         cell.classList.remove("waits");
     }
