@@ -239,7 +239,8 @@ class Export {
         void this.showCommand(request);
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
-            this.showRemarks([{ is_warning: false, text: "Only the program writes this format: copy the command below." }]);
+            const text = "Only the program writes this format: copy the command below.";
+            this.showRemarks([{ is_warning: false, text }]);
             return;
         }
         try {
