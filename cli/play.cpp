@@ -49,13 +49,15 @@ void make_score(const PlayCommand& command, const std::string& format, const std
 /// The seed of a pattern is that of the player, too.
 void add_seed(const PatternOptions& options, const SharedWork* link, OptionValues& values) {
     if (has_option(values, "seed")) return;
+    std::string seed;
     if (!options.seed.empty()) {
-        values.push_back({"seed", std::to_string(seed_of(options))});
+        seed = std::to_string(seed_of(options));
     } else if (link) {
-        for (auto setting = link->settings.rbegin(); setting != link->settings.rend(); ++setting) {
-            if (setting->name == "seed") return values.push_back({"seed", setting->text});
+        for (const OptionValue& setting : link->settings) {
+            if (setting.name == "seed") seed = setting.text;
         }
     }
+    if (!seed.empty()) values.push_back({"seed", seed});
 }
 
 void run(const PlayCommand& command, bool quiet) {
