@@ -259,7 +259,7 @@ const programs: [number, string][] = [
     [71, "clarinet"], [72, "flute"], [75, "bansuri"], [79, "flute"], [80, "square"], [81, "lead"], [85, "choir"],
     [86, "lead"], [88, "pad"], [91, "choir"], [92, "strings"], [93, "bell"], [94, "pad"], [96, "air"], [97, "pad"],
     [98, "celesta"], [99, "air"], [100, "electric-piano"], [101, "pad"], [104, "sitar"], [105, "banjo"],
-    [107, "koto"], [108, "kalimba"], [109, "oboe"], [110, "violin"], [111, "oboe"], [112, "celesta"],
+    [106, "koto"], [108, "kalimba"], [109, "oboe"], [110, "violin"], [111, "oboe"], [112, "celesta"],
     [113, "bell"], [114, "steel-drum"], [115, "xylophone"], [116, "mridangam"], [119, "air"],
 ];
 
