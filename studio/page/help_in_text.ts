@@ -4,6 +4,7 @@ import { type Extension, StateEffect, StateField } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, showTooltip, type Tooltip } from "@codemirror/view";
 import type { Application } from "./application";
 import { element } from "./elements";
+import { capital } from "./numbers_shown";
 import { kindOf } from "./pattern_language";
 import type { KeyHelp } from "./protocol";
 
@@ -109,7 +110,7 @@ function explainSymbol(application: Application, symbol: string, start: number) 
         application.opened?.facts.productions.filter((each) => each.predecessor.startsWith(symbol)) ?? [];
     if (!row && productions.length === 0) return null;
     const dom = element("div", { class: "help-card" }, element("strong", { class: "mono" }, symbol));
-    if (row) dom.append(element("p", {}, row.help));
+    if (row) dom.append(element("p", {}, capital(row.help)));
     for (const each of productions.slice(0, 4)) {
         const successor = each.successor.length > 60 ? `${each.successor.slice(0, 60)}…` : each.successor;
         dom.append(element("p", { class: "mono" }, `${each.predecessor} --> ${successor}  (line ${each.line})`));
