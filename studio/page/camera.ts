@@ -2,9 +2,16 @@
 import { exactOf, exactText, numberOf, readExact, type Exact } from "./decimal";
 
 /// The middle of the view in turtle steps, y up, and turtle steps in a CSS pixel.
-export interface Camera { readonly x: Exact; readonly y: Exact; readonly scale: number }
+export interface Camera {
+    readonly x: Exact;
+    readonly y: Exact;
+    readonly scale: number;
+}
 
-export interface Size { readonly width: number; readonly height: number }
+export interface Size {
+    readonly width: number;
+    readonly height: number;
+}
 
 export const finestScale = 2 ** -40;
 export const coarsestScale = 1e200;
@@ -23,7 +30,11 @@ export function pointAt(camera: Camera, size: Size, left: number, top: number): 
 
 /// The camera under which that point lies under that pixel.
 export function cameraWith(
-    point: { x: Exact; y: Exact }, size: Size, left: number, top: number, scale: number,
+    point: { x: Exact; y: Exact },
+    size: Size,
+    left: number,
+    top: number,
+    scale: number,
 ): Camera {
     const kept = limited(scale);
     return {
@@ -71,5 +82,6 @@ export function windowOf(camera: Camera, size: Size): [string, string, string, s
     const across = exactOf((size.width / 2) * camera.scale);
     const up = exactOf((size.height / 2) * camera.scale);
     return [camera.x - across, camera.y - up, camera.x + across, camera.y + up].map((value) =>
-        exactText(value, decimalsOf(camera.scale) + 6)) as [string, string, string, string];
+        exactText(value, decimalsOf(camera.scale) + 6),
+    ) as [string, string, string, string];
 }

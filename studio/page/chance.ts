@@ -9,7 +9,8 @@ export class Chance {
     }
 
     /// At least 0, below 1.
-    share(): number { // mulberry32
+    share(): number {
+        // mulberry32
         this.state = (this.state + 0x6d2b79f5) >>> 0;
         let mixed = this.state;
         mixed = Math.imul(mixed ^ (mixed >>> 15), mixed | 1);
@@ -18,9 +19,13 @@ export class Chance {
     }
 
     /// A whole number from 0, below `count`.
-    below(count: number): number { return Math.floor(this.share() * count); }
+    below(count: number): number {
+        return Math.floor(this.share() * count);
+    }
 
-    one<Item>(items: readonly Item[]): Item { return items[this.below(items.length)]!; }
+    one<Item>(items: readonly Item[]): Item {
+        return items[this.below(items.length)]!;
+    }
 }
 
 /// A number of 53 bits from a text: cyrb53. Equal texts have equal numbers, different ones almost surely do not.

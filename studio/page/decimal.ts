@@ -11,7 +11,10 @@ const largestExponent = 5000;
 
 /// Reads a number such as `-12.5` or `3e18`; what is beyond 64 places is cut off. Null for anything else.
 export function readExact(text: string): Exact | null {
-    const clean = text.trim().replace(/\u2212/g, "-").replace(/[\s_\u202f\u2009]/g, "");
+    const clean = text
+        .trim()
+        .replace(/\u2212/g, "-")
+        .replace(/[\s_\u202f\u2009]/g, "");
     if (clean.length > longestText) return null;
     const match = /^([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d{1,5}))?$/.exec(clean);
     if (!match) return null;

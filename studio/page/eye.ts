@@ -10,7 +10,10 @@ const usualDistance = 4;
 
 /// `AZIMUTH ELEVATION [perspective [DISTANCE]]`, or `front`, `side`, `top`; null for anything else.
 export function readEye(text: string): Eye | null {
-    const words = text.trim().toLowerCase().split(/[\s,]+/);
+    const words = text
+        .trim()
+        .toLowerCase()
+        .split(/[\s,]+/);
     const named: Record<string, [number, number]> = { front: [0, 0], side: [90, 0], top: [0, 90] };
     const start = named[words[0] ?? ""];
     const [azimuth, elevation] = start ?? [Number(words[0] || NaN), Number(words[1] || NaN)];
@@ -25,8 +28,11 @@ export function readEye(text: string): Eye | null {
 /// For the option `view`.
 export function eyeText({ azimuth, elevation, distance }: Eye): string {
     const angles = `${rounded(between(azimuth))},${rounded(elevation)}`;
-    return distance === null ? angles
-        : distance === usualDistance ? `${angles},perspective` : `${angles},perspective,${rounded(distance)}`;
+    return distance === null
+        ? angles
+        : distance === usualDistance
+          ? `${angles},perspective`
+          : `${angles},perspective,${rounded(distance)}`;
 }
 
 function rounded(value: number): number {
@@ -44,20 +50,24 @@ export type Matrix = Float32Array; // 4 x 4, by columns
 
 /// From the drawing towards that direction.
 export function towards(azimuth: number, elevation: number): Vector {
-    const [a, e] = [azimuth * Math.PI / 180, elevation * Math.PI / 180];
+    const [a, e] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
     return [Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)];
 }
 
 /// To the right and up, as seen from there.
 export function axes(azimuth: number, elevation: number): { right: Vector; up: Vector; back: Vector } {
-    const a = azimuth * Math.PI / 180;
+    const a = (azimuth * Math.PI) / 180;
     const right: Vector = [Math.cos(a), 0, -Math.sin(a)];
     const back = towards(azimuth, elevation);
     return { right, up: cross(back, right), back };
 }
 
 export function cross(one: Vector, other: Vector): Vector {
-    return [one[1] * other[2] - one[2] * other[1], one[2] * other[0] - one[0] * other[2], one[0] * other[1] - one[1] * other[0]];
+    return [
+        one[1] * other[2] - one[2] * other[1],
+        one[2] * other[0] - one[0] * other[2],
+        one[0] * other[1] - one[1] * other[0],
+    ];
 }
 
 export function dot(one: Vector, other: Vector): number {
@@ -67,12 +77,18 @@ export function dot(one: Vector, other: Vector): number {
 /// A box around `middle`, seen along `axes`: half its width and height fill the picture. With a distance of the eye,
 /// in perspective, lengths at the middle stay as they are.
 export function seenBy(
-    frame: ReturnType<typeof axes>, middle: Vector, half: { across: number; up: number; deep: number }, distance: number | null,
+    frame: ReturnType<typeof axes>,
+    middle: Vector,
+    half: { across: number; up: number; deep: number },
+    distance: number | null,
 ): Matrix {
     const { right, up, back } = frame;
     const view = [right, up, back].map((axis) => [...axis, -dot(axis, middle)]);
     const matrix = new Float32Array(16);
-    const set = (row: number, values: number[]) => values.forEach((value, column) => { matrix[column * 4 + row] = value; });
+    const set = (row: number, values: number[]) =>
+        values.forEach((value, column) => {
+            matrix[column * 4 + row] = value;
+        });
     const scaled = (row: number[], factor: number) => row.map((value) => value * factor);
     set(0, scaled(view[0]!, 1 / half.across));
     set(1, scaled(view[1]!, 1 / half.up));
@@ -85,9 +101,12 @@ export function seenBy(
     const near = Math.max(distance - half.deep, distance / 200);
     const far = distance + half.deep;
     const sum = (near + far) / (far - near);
-    const product = 2 * near * far / (far - near);
-    const away = scaled(view[2]!, -1).map((value, index) => index === 3 ? value + distance : value); // from the eye
-    set(2, away.map((value, index) => (value * sum - (index === 3 ? product : 0)) / distance));
+    const product = (2 * near * far) / (far - near);
+    const away = scaled(view[2]!, -1).map((value, index) => (index === 3 ? value + distance : value)); // from the eye
+    set(
+        2,
+        away.map((value, index) => (value * sum - (index === 3 ? product : 0)) / distance),
+    );
     set(3, scaled(away, 1 / distance));
     return matrix;
 }

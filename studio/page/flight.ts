@@ -42,7 +42,12 @@ export interface Zoom {
 }
 
 /// The camera after so many milliseconds of a zoom, and whether it has arrived.
-export function followed(camera: Camera, zoom: Zoom, size: Size, milliseconds: number): { camera: Camera; isThere: boolean } {
+export function followed(
+    camera: Camera,
+    zoom: Zoom,
+    size: Size,
+    milliseconds: number,
+): { camera: Camera; isThere: boolean } {
     const octaves = Math.log2(zoom.target / camera.scale);
     const isThere = Math.abs(octaves) < 0.004;
     const scale = isThere ? zoom.target : camera.scale * 2 ** (octaves * (1 - Math.exp(-milliseconds / 65)));

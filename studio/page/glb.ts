@@ -18,7 +18,9 @@ export interface Model {
 }
 
 export class BadModel extends Error {
-    constructor(what: string) { super(`the model cannot be read: ${what}`); }
+    constructor(what: string) {
+        super(`the model cannot be read: ${what}`);
+    }
 }
 
 const mostParts = 4096;
@@ -84,7 +86,13 @@ export function readModel(bytes: Uint8Array): Model {
         }
         triangles += corners.length / 3;
         const material = materials[whole(primitive["material"], "a material")] ?? fail("a material is missing");
-        return { positions, normals, corners, colour: colourOf(material), isTwoSided: material["doubleSided"] === true };
+        return {
+            positions,
+            normals,
+            corners,
+            colour: colourOf(material),
+            isTwoSided: material["doubleSided"] === true,
+        };
     });
     if (triangles === 0) fail("no triangles");
     return { parts, low, high, triangles, bytes: binary.byteLength };
@@ -93,8 +101,10 @@ export function readModel(bytes: Uint8Array): Model {
 function colourOf(material: Json): ModelPart["colour"] {
     const surface = (material["pbrMetallicRoughness"] ?? {}) as Json;
     const factor = surface["baseColorFactor"] ?? [1, 1, 1, 1];
-    const isColour = Array.isArray(factor) && factor.length === 4
-        && factor.every((value) => typeof value === "number" && value >= 0 && value <= 1);
+    const isColour =
+        Array.isArray(factor) &&
+        factor.length === 4 &&
+        factor.every((value) => typeof value === "number" && value >= 0 && value <= 1);
     if (!isColour) fail("a colour that is none");
     return factor as ModelPart["colour"];
 }

@@ -16,7 +16,10 @@ export class Growth {
     private readonly models = new Map<string, Grown>(); // the last used last
     private used = 0;
 
-    constructor(private readonly engine: Engine, private readonly stage: Stage) {}
+    constructor(
+        private readonly engine: Engine,
+        private readonly stage: Stage,
+    ) {}
 
     /// What models of the work depend on, derivation length apart.
     static subject(work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
@@ -45,12 +48,16 @@ export class Growth {
         const kept = this.kept(work, n);
         if (kept) return kept;
         const { pattern, options: settings, name } = Growth.subject(work);
-        const numbered = { ...pattern, settings: [...pattern.settings!, ["derivation length", String(n)] as [string, string]] };
+        const numbered = {
+            ...pattern,
+            settings: [...pattern.settings!, ["derivation length", String(n)] as [string, string]],
+        };
         let model: Grown;
         try {
             const { bytes } = await this.engine.request<Made>(
                 { do: "make", interpreter: "draw", format: "glb", options: settings, pattern: numbered },
-                { key: options.key, lane: options.isAhead ? "back" : "front" });
+                { key: options.key, lane: options.isAhead ? "back" : "front" },
+            );
             model = this.stage.add(readModel(bytes));
         } catch (error) {
             if (isAbort(error) || !(error instanceof RequestFailed) || !isEmpty(error)) throw error;

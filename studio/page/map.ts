@@ -19,10 +19,17 @@ const icons = {
 };
 
 export const makeMapPanel: MakePanel = (studio) => {
-    const hint = element("p", { class: "unseen", id: "map-hint" },
-        "Arrow keys move the view, plus and minus zoom, 0 shows the whole page, f fits the drawing into the view.");
+    const hint = element(
+        "p",
+        { class: "unseen", id: "map-hint" },
+        "Arrow keys move the view, plus and minus zoom, 0 shows the whole page, f fits the drawing into the view.",
+    );
     const canvas = element("canvas", {
-        class: "map-canvas", tabindex: 0, role: "img", "aria-label": "Picture", "aria-describedby": "map-hint",
+        class: "map-canvas",
+        tabindex: 0,
+        role: "img",
+        "aria-label": "Picture",
+        "aria-describedby": "map-hint",
     });
     const problem = element("p", { class: "note map-problem", role: "status", hidden: true });
     let pointer: { left: number; top: number } | null = null;
@@ -31,11 +38,17 @@ export const makeMapPanel: MakePanel = (studio) => {
     const place = makePlaceBar(view, studio.store);
     const toDrawing = button("Fit the drawing (F)", () => view.showDrawing(), { icon: icons.drawing });
     const toPage = button("Whole page (0)", () => view.showPage(), { icon: icons.page });
-    const tools = element("div", { class: "map-tools", role: "toolbar", "aria-label": "View", "aria-orientation": "vertical" },
-        element("div", { class: "map-pair" },
+    const tools = element(
+        "div",
+        { class: "map-tools", role: "toolbar", "aria-label": "View", "aria-orientation": "vertical" },
+        element(
+            "div",
+            { class: "map-pair" },
             button("Zoom in (+)", () => view.zoomBy(2), { icon: icons.closer }),
-            button("Zoom out (−)", () => view.zoomBy(0.5), { icon: icons.farther })),
-        element("div", { class: "map-pair" }, toDrawing, toPage));
+            button("Zoom out (−)", () => view.zoomBy(0.5), { icon: icons.farther }),
+        ),
+        element("div", { class: "map-pair" }, toDrawing, toPage),
+    );
     const panel = element("div", { class: "map" }, canvas, hint, problem, tools, place.element);
 
     addGestures(view, (at) => {
@@ -72,8 +85,10 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
     async function measure(facts: Opened): Promise<void> {
         const pattern = studio.opened!.work.pattern;
         try {
-            const { json } = await studio.engine.request<{ closed?: boolean }>({ do: "measure", pattern },
-                { key: "map-measure", lane: "back", seconds: 3 });
+            const { json } = await studio.engine.request<{ closed?: boolean }>(
+                { do: "measure", pattern },
+                { key: "map-measure", lane: "back", seconds: 3 },
+            );
             measured = { facts, isClosed: json.closed === true };
         } catch {
             measured = { facts, isClosed: false }; // too long to be measured, or not of lines
@@ -101,6 +116,8 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
 
 function placeText({ camera, size }: MapView): string {
     const decimals = decimalsOf(camera.scale);
-    return `a part ${stepsText(camera.scale * size.width)} wide around x ${exactText(camera.x, decimals)}, `
-        + `y ${exactText(camera.y, decimals)}`;
+    return (
+        `a part ${stepsText(camera.scale * size.width)} wide around x ${exactText(camera.x, decimals)}, ` +
+        `y ${exactText(camera.y, decimals)}`
+    );
 }

@@ -3,7 +3,10 @@ import type { MapView } from "./map_view";
 
 const least = 4; // pixels that a drag is longer than a click
 
-interface Finger { left: number; top: number }
+interface Finger {
+    left: number;
+    top: number;
+}
 
 /// @param onPointer  where the pointer is, in CSS pixels of the view; null when it has left
 export function addGestures(view: MapView, onPointer: (at: Finger | null) => void): void {
@@ -34,7 +37,11 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
             view.panBy(now.left - before.left, now.top - before.top);
         } else if (fingers.size === 2) {
             const other = [...fingers].find(([id]) => id !== event.pointerId)![1];
-            view.pinch(middle(before, other), middle(now, other), distance(now, other) / Math.max(1, distance(before, other)));
+            view.pinch(
+                middle(before, other),
+                middle(now, other),
+                distance(now, other) / Math.max(1, distance(before, other)),
+            );
         }
     });
     const release = (event: PointerEvent) => {
@@ -48,15 +55,24 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
         const { left, top } = at(event);
         view.zoomBy(event.shiftKey ? 0.5 : 2, left, top);
     });
-    canvas.addEventListener("wheel", (event) => {
-        event.preventDefault();
-        const { left, top } = at(event);
-        const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? 400 : 1;
-        const distance = Math.max(-400, Math.min(400, event.deltaY * unit));
-        // With the control key, browsers report the pinch of a touchpad.
-        const octaves = -distance / (event.ctrlKey ? 60 : 220);
-        view.zoomBy(2 ** octaves, left, top, event.ctrlKey);
-    }, { passive: false });
+    canvas.addEventListener(
+        "wheel",
+        (event) => {
+            event.preventDefault();
+            const { left, top } = at(event);
+            const unit =
+                event.deltaMode === WheelEvent.DOM_DELTA_LINE
+                    ? 33
+                    : event.deltaMode === WheelEvent.DOM_DELTA_PAGE
+                      ? 400
+                      : 1;
+            const distance = Math.max(-400, Math.min(400, event.deltaY * unit));
+            // With the control key, browsers report the pinch of a touchpad.
+            const octaves = -distance / (event.ctrlKey ? 60 : 220);
+            view.zoomBy(2 ** octaves, left, top, event.ctrlKey);
+        },
+        { passive: false },
+    );
 
     canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;

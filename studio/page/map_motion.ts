@@ -2,14 +2,21 @@
 import { cameraWith, panned, pointAt, type Camera, type Size } from "./camera";
 import { eased, flight, followed, rung, type Zoom } from "./flight";
 
-interface Journey { at(share: number): Camera; start: number; milliseconds: number; arrive: () => void }
+interface Journey {
+    at(share: number): Camera;
+    start: number;
+    milliseconds: number;
+    arrive: () => void;
+}
 
 export class Motion {
     camera: Camera = { x: 0n, y: 0n, scale: 0.1 };
     private zoom: Zoom | null = null;
     private journey: Journey | null = null;
 
-    get isMoving(): boolean { return this.zoom !== null || this.journey !== null; }
+    get isMoving(): boolean {
+        return this.zoom !== null || this.journey !== null;
+    }
 
     stop(): void {
         this.zoom = null;
@@ -21,7 +28,9 @@ export class Motion {
         this.camera = camera;
     }
 
-    pan(right: number, down: number): void { this.jump(panned(this.camera, right, down)); }
+    pan(right: number, down: number): void {
+        this.jump(panned(this.camera, right, down));
+    }
 
     /// Zooms in by a factor around a pixel of the view. A zoom under way goes on from where it is heading.
     zoomBy(factor: number, size: Size, left: number, top: number, bounded: (scale: number) => number): void {

@@ -21,13 +21,27 @@ export interface Layer {
     readonly pieces: readonly { bitmap: Bitmap; box: Edges }[];
 }
 
-export interface Edges { readonly left: number; readonly top: number; readonly right: number; readonly bottom: number }
+export interface Edges {
+    readonly left: number;
+    readonly top: number;
+    readonly right: number;
+    readonly bottom: number;
+}
 
 /// A magnifying glass over a page: how much, and how far it is moved in CSS pixels.
-export interface Loupe { readonly zoom: number; readonly right: number; readonly down: number }
+export interface Loupe {
+    readonly zoom: number;
+    readonly right: number;
+    readonly down: number;
+}
 
 // In pixels of the canvas.
-interface Box { readonly left: number; readonly top: number; readonly width: number; readonly height: number }
+interface Box {
+    readonly left: number;
+    readonly top: number;
+    readonly width: number;
+    readonly height: number;
+}
 
 export class Painter {
     ratio = 1; // pixels of the canvas in a CSS pixel
@@ -56,7 +70,10 @@ export class Painter {
     private sheet(overview: Overview, { left, top, width, height }: Box, shade: number): void {
         const { context, ratio } = this;
         const darker = isDark() ? 2 : 1;
-        for (const [blur, down, alpha] of [[28, 10, 0.2], [3, 1, 0.22]] as const) {
+        for (const [blur, down, alpha] of [
+            [28, 10, 0.2],
+            [3, 1, 0.22],
+        ] as const) {
             context.save();
             context.shadowColor = `rgba(${isDark() ? "0, 0, 0" : "60, 32, 12"}, ${alpha * darker * shade})`;
             context.shadowBlur = blur * ratio;
@@ -96,7 +113,10 @@ export class Painter {
         const left = Math.round(edges.left * this.ratio);
         const top = Math.round(edges.top * this.ratio);
         const box = {
-            left, top, width: Math.round(edges.right * this.ratio) - left, height: Math.round(edges.bottom * this.ratio) - top,
+            left,
+            top,
+            width: Math.round(edges.right * this.ratio) - left,
+            height: Math.round(edges.bottom * this.ratio) - top,
         };
         if (box.width < 1 || box.height < 1) return;
         if (isTransparent) {
@@ -134,7 +154,16 @@ export class Painter {
         const down = bitmap.height / box.height;
         const from = { left: (left - box.left) * across, top: (top - box.top) * down };
         this.context.drawImage(
-            bitmap.source, from.left, from.top, width * across, height * down, left, top, width, height);
+            bitmap.source,
+            from.left,
+            from.top,
+            width * across,
+            height * down,
+            left,
+            top,
+            width,
+            height,
+        );
     }
 
     // What shows through where there is no ground.

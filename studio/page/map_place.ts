@@ -46,10 +46,19 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
     const x = element("span", { class: "number" });
     const y = element("span", { class: "number" });
     const whose = element("span", { class: "map-whose" });
-    const toggle = element("button", {
-        type: "button", class: "map-chip map-coordinates", "aria-expanded": "false", "aria-haspopup": "dialog",
-        title: "Exact coordinates: go to a place",
-    }, whose, x, y);
+    const toggle = element(
+        "button",
+        {
+            type: "button",
+            class: "map-chip map-coordinates",
+            "aria-expanded": "false",
+            "aria-haspopup": "dialog",
+            title: "Exact coordinates: go to a place",
+        },
+        whose,
+        x,
+        y,
+    );
     const form = makeForm(view, () => open(false));
     toggle.setAttribute("aria-controls", form.element.id);
     const whole = element("div", { class: "map-place" }, form.element, bar, sheet, toggle);
@@ -100,20 +109,36 @@ function makeForm(view: MapView, close: () => void) {
     const y = field("map-y", "Centre y, in steps");
     const scale = field("map-steps", "Steps in a pixel");
     const wrong = element("p", { class: "note error", role: "alert", hidden: true });
-    const form = element("form", { class: "map-form", id: "map-form", hidden: true, "aria-label": "Go to a place" },
-        x.row, y.row, scale.row, wrong,
-        element("div", { class: "toolbar" },
-            element("button", { type: "submit", class: "button primary" }, "Go there"), button("Close", close, { kind: "quiet" })));
+    const form = element(
+        "form",
+        { class: "map-form", id: "map-form", hidden: true, "aria-label": "Go to a place" },
+        x.row,
+        y.row,
+        scale.row,
+        wrong,
+        element(
+            "div",
+            { class: "toolbar" },
+            element("button", { type: "submit", class: "button primary" }, "Go there"),
+            button("Close", close, { kind: "quiet" }),
+        ),
+    );
     form.addEventListener("submit", (event) => {
         event.preventDefault();
         const to = { x: readExact(x.input.value), y: readExact(y.input.value), scale: Number(scale.input.value) };
-        const faults = [[x, to.x === null], [y, to.y === null], [scale, !(to.scale > 0 && Number.isFinite(to.scale))]] as const;
+        const faults = [
+            [x, to.x === null],
+            [y, to.y === null],
+            [scale, !(to.scale > 0 && Number.isFinite(to.scale))],
+        ] as const;
         for (const [each, isWrong] of faults) each.input.setAttribute("aria-invalid", String(isWrong));
         const fault = faults.find(([, isWrong]) => isWrong);
         wrong.hidden = !fault;
         if (fault || to.x === null || to.y === null) {
-            wrong.textContent = fault?.[0] === scale ? "The scale is a number above 0, such as 0.5 or 2e6."
-                : "A coordinate is a decimal number, such as -12.5; it may have any number of digits.";
+            wrong.textContent =
+                fault?.[0] === scale
+                    ? "The scale is a number above 0, such as 0.5 or 2e6."
+                    : "A coordinate is a decimal number, such as -12.5; it may have any number of digits.";
             fault?.[0].input.focus();
             return;
         }

@@ -3,14 +3,15 @@
 import { decimalsOf, fitting, limited, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { exactOf, exactText, readExact } from "./decimal";
+import { layersOf } from "./layers";
 import { Motion } from "./map_motion";
-import { Painter, type Layer, type Loupe, type Overview } from "./map_painter";
+import { Painter, type Loupe, type Overview } from "./map_painter";
 import { Overviews } from "./overviews";
 import { TileLoader, type Subject } from "./pictures";
 import type { Opened } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
-import { levelScale, seenTiles, tileBox, tileGrid, type TileGrid } from "./tiles";
+import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
 
 const restAfter = 140; // milliseconds without motion until pictures at exactly this scale are made
 const keepAfter = 300; // … until the work learns what is looked at
@@ -48,17 +49,25 @@ export class MapView {
 
     /// @param onChange  after every frame
     constructor(
-        private readonly studio: Studio, readonly canvas: HTMLCanvasElement, private readonly onChange: () => void,
+        private readonly studio: Studio,
+        readonly canvas: HTMLCanvasElement,
+        private readonly onChange: () => void,
     ) {
         this.painter = new Painter(canvas);
-        this.overviews = new Overviews(studio.engine, (...taken) => this.take(...taken), (error) => this.fail(error));
+        this.overviews = new Overviews(
+            studio.engine,
+            (...taken) => this.take(...taken),
+            (error) => this.fail(error),
+        );
         this.tiles = new TileLoader(studio.engine, () => this.draw());
         this.work = studio.store.work;
         this.setWork(this.work);
         if (studio.opened) this.setFacts(studio.opened.facts, studio.opened.work);
     }
 
-    get camera(): Camera { return this.motion.camera; }
+    get camera(): Camera {
+        return this.motion.camera;
+    }
 
     // --- what is to be seen
 
@@ -116,7 +125,9 @@ export class MapView {
     private async measure(facts: Opened, work: Work): Promise<void> {
         try {
             const { json } = await this.studio.engine.request<{ box?: (string | number)[] }>(
-                { do: "measure", pattern: work.pattern }, { key: "map-extent", seconds: 3 });
+                { do: "measure", pattern: work.pattern },
+                { key: "map-extent", seconds: 3 },
+            );
             const box = json.box?.map((side) => exactText(readExact(String(side)) ?? 0n));
             if (box?.length !== 4 || this.facts?.facts !== facts) return;
             this.setFacts({ ...facts, extent: box as [string, string, string, string] }, work);
@@ -149,7 +160,9 @@ export class MapView {
     }
 
     /// True if less than the whole page is seen.
-    get isMagnified(): boolean { return this.mode === "page" && this.loupe.zoom > 1; }
+    get isMagnified(): boolean {
+        return this.mode === "page" && this.loupe.zoom > 1;
+    }
 
     private get isTiled(): boolean {
         const facts = this.known;
@@ -188,7 +201,9 @@ export class MapView {
 
     // --- moving about
 
-    private get laid(): Laid { return laidOut(sheetOf(this.work.draw), this.size); }
+    private get laid(): Laid {
+        return laidOut(sheetOf(this.work.draw), this.size);
+    }
 
     private get pageCamera(): Camera | null {
         const facts = this.known;
@@ -324,11 +339,19 @@ export class MapView {
         const camera = this.pageCamera;
         const used = ratio * Math.min(1, widest / (Math.max(laid.width, laid.height) * ratio));
         const pixels = (length: number) => Math.max(16, Math.round(length * used));
-        void this.overviews.ask(`${name} ${ratio} ${laid.width}`, {
-            do: "pixels", width: pixels(laid.width), height: pixels(laid.height), ratio: used,
-            options: pageOptions(work.draw), pattern: work.pattern,
-        }, Math.min(1, this.ratio), (bitmap) =>
-            ({ kind: "page", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }));
+        void this.overviews.ask(
+            `${name} ${ratio} ${laid.width}`,
+            {
+                do: "pixels",
+                width: pixels(laid.width),
+                height: pixels(laid.height),
+                ratio: used,
+                options: pageOptions(work.draw),
+                pattern: work.pattern,
+            },
+            Math.min(1, this.ratio),
+            (bitmap) => ({ kind: "page", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }),
+        );
     }
 
     private refreshPlane(): void {
@@ -348,11 +371,20 @@ export class MapView {
         const pixels = (length: number) => Math.max(16, Math.round(length * (1 + 2 * around) * ratio));
         const [across, down] = [pixels(this.size.width), pixels(this.size.height)];
         const size = { width: across / ratio, height: down / ratio };
-        void this.overviews.ask(`${name} ${ratio} ${camera.x} ${camera.y} ${camera.scale} ${across}`, {
-            do: "pixels", width: across, height: down, window: windowOf(camera, size), ratio,
-            options: planeOptions(work.draw), pattern: work.pattern,
-        }, Math.min(1, this.ratio), (bitmap) =>
-            ({ kind: "plane", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }));
+        void this.overviews.ask(
+            `${name} ${ratio} ${camera.x} ${camera.y} ${camera.scale} ${across}`,
+            {
+                do: "pixels",
+                width: across,
+                height: down,
+                window: windowOf(camera, size),
+                ratio,
+                options: planeOptions(work.draw),
+                pattern: work.pattern,
+            },
+            Math.min(1, this.ratio),
+            (bitmap) => ({ kind: "plane", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }),
+        );
     }
 
     private take(overview: Overview, warnings: string[]): void {
@@ -382,30 +414,11 @@ export class MapView {
         const isMoving = this.motion.isMoving || now - this.moved < restAfter - 30;
         const scale = isMoving ? levelScale(this.camera.scale) : this.camera.scale;
         const subject: Subject = {
-            name: this.planeName, pattern: this.work.pattern, options: planeOptions(this.work.draw),
+            name: this.planeName,
+            pattern: this.work.pattern,
+            options: planeOptions(this.work.draw),
         };
         this.tiles.want(subject, seenTiles(this.camera, this.size, this.grid, scale), this.grid, this.ratio);
-    }
-
-    // Tiles that are there, the best last; none below a layer that covers all.
-    private layers(): Layer[] {
-        const layers: Layer[] = [];
-        const scales = this.tiles.scalesOf(this.planeName)
-            .map((scale) => ({ scale, away: Math.log2(scale / this.camera.scale) }))
-            .filter(({ away }) => away > -2.6 && away < 12)
-            .sort((one, other) => badness(one.away) - badness(other.away));
-        for (const { scale } of scales) {
-            const seen = seenTiles(this.camera, this.size, this.grid, scale, 160);
-            const pieces = seen.flatMap((tile) => {
-                const bitmap = this.tiles.picture(this.planeName, tile);
-                return bitmap ? [{ bitmap, box: tileBox(tile, this.camera, this.size, this.grid) }] : [];
-            });
-            if (pieces.length === 0) continue;
-            const isWhole = pieces.length === seen.length;
-            layers.unshift({ isWhole, pieces });
-            if (isWhole || layers.length >= 6) break;
-        }
-        return layers;
     }
 
     // --- frames
@@ -438,8 +451,9 @@ export class MapView {
         }
         const isOfPage = overview.kind === "page" && overview.camera !== null;
         const entering = isOfPage ? Math.min(1, Math.max(0, (now - this.entered) / enteringTime)) : 1;
+        const layers = layersOf(this.tiles, this.planeName, this.camera, this.size, this.grid);
         const isCurrent = overview.name === (overview.kind === "plane" ? this.planeName : this.pageName);
-        painter.plane(overview, this.camera, this.size, isCurrent && entering >= 1 ? this.layers() : [], entering);
+        painter.plane(overview, this.camera, this.size, isCurrent && entering >= 1 ? layers : [], entering);
     }
 
     // For tests.
@@ -449,15 +463,12 @@ export class MapView {
     }
 }
 
-// Finer tiles are better than coarser ones of the same distance.
-function badness(away: number): number {
-    return away > 0 ? away : -away * 0.9;
-}
-
 // True if a picture of the plane shows all of the view at its scale.
 function covers(overview: Overview, camera: Camera, size: Size): boolean {
     if (!overview.camera || Math.abs(overview.camera.scale / camera.scale - 1) > 1e-6) return false;
     const middle = pixelOf(overview.camera, overview.size, camera.x, camera.y);
-    return Math.abs(middle.left - overview.size.width / 2) <= (overview.size.width - size.width) / 2 + 0.5
-        && Math.abs(middle.top - overview.size.height / 2) <= (overview.size.height - size.height) / 2 + 0.5;
+    return (
+        Math.abs(middle.left - overview.size.width / 2) <= (overview.size.width - size.width) / 2 + 0.5 &&
+        Math.abs(middle.top - overview.size.height / 2) <= (overview.size.height - size.height) / 2 + 0.5
+    );
 }

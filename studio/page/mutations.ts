@@ -2,7 +2,10 @@
 import { Chance } from "./chance";
 
 /// Where a production stands: as the libraries report it.
-export interface ProductionPlace { line: number; successor: string }
+export interface ProductionPlace {
+    line: number;
+    successor: string;
+}
 
 const brackets = new Set(["[", "]", "{", "}"]);
 const closing: Readonly<Record<string, string>> = { "[": "]", "{": "}" };
@@ -18,8 +21,9 @@ export function modulesOf(word: string, names: readonly string[] = []): string[]
             ++at;
             continue;
         }
-        const name = byLength.find((each) => rest.startsWith(each))
-            ?? (rest.startsWith("@") ? rest.slice(0, 2) : String.fromCodePoint(rest.codePointAt(0)!));
+        const name =
+            byLength.find((each) => rest.startsWith(each)) ??
+            (rest.startsWith("@") ? rest.slice(0, 2) : String.fromCodePoint(rest.codePointAt(0)!));
         let end = at + name.length;
         if (word[end] === "(") {
             let depth = 0;
@@ -45,7 +49,7 @@ export function isBalanced(modules: readonly string[]): boolean {
     return open.length === 0;
 }
 
-/// Modules that stand in these successors, brackets apart, each as often as it does; what turns has its opposite beside it.
+/// Modules of these successors, brackets apart, each as often as it occurs; what turns has its opposite beside it.
 export function alphabetOf(successors: readonly string[], names: readonly string[] = []): string[] {
     const modules = successors.flatMap((word) => modulesOf(word, names)).filter((module) => !brackets.has(module));
     if (modules.includes("+") || modules.includes("-")) modules.push("+", "-");
@@ -74,11 +78,16 @@ function plainPlaces(modules: readonly string[]): number[] {
 }
 
 const edits: readonly { edit: Edit; weight: number }[] = [
-    { // swap neighbours
+    {
+        // swap neighbours
         weight: 4,
         edit: (modules, _, chance) => {
-            const places = plainPlaces(modules).filter((index) =>
-                index + 1 < modules.length && !brackets.has(modules[index + 1]!) && modules[index] !== modules[index + 1]);
+            const places = plainPlaces(modules).filter(
+                (index) =>
+                    index + 1 < modules.length &&
+                    !brackets.has(modules[index + 1]!) &&
+                    modules[index] !== modules[index + 1],
+            );
             if (places.length === 0) return null;
             const at = chance.one(places);
             const made = [...modules];
@@ -86,7 +95,8 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             return made;
         },
     },
-    { // insert
+    {
+        // insert
         weight: 4,
         edit: (modules, alphabet, chance) => {
             if (alphabet.length === 0) return null;
@@ -95,14 +105,16 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             return made;
         },
     },
-    { // delete
+    {
+        // delete
         weight: 3,
         edit: (modules, _, chance) => {
             const places = plainPlaces(modules);
             return places.length < 2 ? null : spliced(modules, chance.one(places), 1);
         },
     },
-    { // replace
+    {
+        // replace
         weight: 4,
         edit: (modules, alphabet, chance) => {
             const places = plainPlaces(modules);
@@ -110,7 +122,8 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             return spliced(modules, chance.one(places), 1, chance.one(alphabet));
         },
     },
-    { // turn the other way
+    {
+        // turn the other way
         weight: 3,
         edit: (modules, _, chance) => {
             const opposite: Record<string, string> = { "+": "-", "-": "+", "&": "^", "^": "&", "\\": "/", "/": "\\" };
@@ -120,7 +133,8 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             return spliced(modules, at, 1, opposite[modules[at]!]!);
         },
     },
-    { // repeat a stretch
+    {
+        // repeat a stretch
         weight: 2,
         edit: (modules, _, chance) => {
             const choices = stretches(modules, 4).filter(([from, to]) => to - from > 1);
@@ -129,17 +143,20 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             return spliced(modules, to, 0, ...modules.slice(from, to));
         },
     },
-    { // write a stretch backwards
+    {
+        // write a stretch backwards
         weight: 2,
         edit: (modules, _, chance) => {
-            const choices = stretches(modules, 6)
-                .filter(([from, to]) => to - from > 2 && !modules.slice(from, to).some((module) => brackets.has(module)));
+            const choices = stretches(modules, 6).filter(
+                ([from, to]) => to - from > 2 && !modules.slice(from, to).some((module) => brackets.has(module)),
+            );
             if (choices.length === 0) return null;
             const [from, to] = chance.one(choices);
             return spliced(modules, from, to - from, ...modules.slice(from, to).reverse());
         },
     },
-    { // branch, where there are branches already
+    {
+        // branch, where there are branches already
         weight: 2,
         edit: (modules, _, chance) => {
             if (!modules.includes("[")) return null;
@@ -153,7 +170,10 @@ const edits: readonly { edit: Edit; weight: number }[] = [
 
 /// A successor with one to three edits, other than it was; null if none was found.
 export function mutated(
-    successor: string, alphabet: readonly string[], chance: Chance, names: readonly string[] = [],
+    successor: string,
+    alphabet: readonly string[],
+    chance: Chance,
+    names: readonly string[] = [],
 ): string | null {
     const start = modulesOf(successor, names);
     if (!isBalanced(start)) return null;

@@ -46,19 +46,29 @@ export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit): void {
     canvas.addEventListener("pointercancel", release);
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("dblclick", () => orbit.reset());
-    canvas.addEventListener("wheel", (event) => {
-        event.preventDefault();
-        const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
-        orbit.zoom(2 ** (-Math.max(-400, Math.min(400, event.deltaY * unit)) / (event.ctrlKey ? 60 : 300)));
-    }, { passive: false });
+    canvas.addEventListener(
+        "wheel",
+        (event) => {
+            event.preventDefault();
+            const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
+            orbit.zoom(2 ** (-Math.max(-400, Math.min(400, event.deltaY * unit)) / (event.ctrlKey ? 60 : 300)));
+        },
+        { passive: false },
+    );
     canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const step = event.shiftKey ? 15 : 5;
         const act: Record<string, () => void> = {
-            ArrowLeft: () => orbit.turn(-step, 0), ArrowRight: () => orbit.turn(step, 0),
-            ArrowUp: () => orbit.turn(0, step), ArrowDown: () => orbit.turn(0, -step),
-            "+": () => orbit.zoom(1.25), "=": () => orbit.zoom(1.25), "-": () => orbit.zoom(0.8), _: () => orbit.zoom(0.8),
-            0: () => orbit.reset(), Home: () => orbit.reset(),
+            ArrowLeft: () => orbit.turn(-step, 0),
+            ArrowRight: () => orbit.turn(step, 0),
+            ArrowUp: () => orbit.turn(0, step),
+            ArrowDown: () => orbit.turn(0, -step),
+            "+": () => orbit.zoom(1.25),
+            "=": () => orbit.zoom(1.25),
+            "-": () => orbit.zoom(0.8),
+            _: () => orbit.zoom(0.8),
+            0: () => orbit.reset(),
+            Home: () => orbit.reset(),
         };
         const chosen = act[event.key];
         if (!chosen) return;

@@ -38,7 +38,10 @@ export class Overviews {
             this.shown = number;
             this.learn(performance.now() - start, overview.ratio / fullRatio);
             if (this.asked === what) this.asked = "";
-            this.take(overview, answer.json.remarks.flatMap(({ is_warning, text }) => (is_warning ? [text] : [])));
+            this.take(
+                overview,
+                answer.json.remarks.flatMap(({ is_warning, text }) => (is_warning ? [text] : [])),
+            );
         } catch (error) {
             if (this.asked === what) this.asked = "";
             if (isAbort(error)) return;

@@ -27,7 +27,15 @@ export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
     source.width = width;
     source.height = height;
     source.getContext("2d")!.putImageData(new ImageData(values, width, height), 0, 0);
-    return { source, width, height, bytes: width * height * 4, close: () => { source.width = source.height = 0; } };
+    return {
+        source,
+        width,
+        height,
+        bytes: width * height * 4,
+        close: () => {
+            source.width = source.height = 0;
+        },
+    };
 }
 
 export function isAbort(error: unknown): boolean {
@@ -35,7 +43,11 @@ export function isAbort(error: unknown): boolean {
 }
 
 /// What a tile shows: a pattern and how it is drawn, with a name of its own.
-export interface Subject { readonly name: string; readonly pattern: PatternRequest; readonly options: Options }
+export interface Subject {
+    readonly name: string;
+    readonly pattern: PatternRequest;
+    readonly options: Options;
+}
 
 const mostBytes = 192 * 1024 * 1024;
 const patience = 400; // milliseconds that a tile may go on for after it has left the view
@@ -49,7 +61,10 @@ export class TileLoader {
     private wanted: { subject: Subject; tiles: Tile[]; grid: TileGrid; ratio: number } | null = null;
     private count = 0;
 
-    constructor(private readonly engine: Engine, private readonly onTile: () => void) {}
+    constructor(
+        private readonly engine: Engine,
+        private readonly onTile: () => void,
+    ) {}
 
     /// The tile's picture, if it is there.
     picture(subject: string, tile: Tile): Bitmap | undefined {
@@ -73,7 +88,9 @@ export class TileLoader {
     }
 
     /// True while a wanted tile is missing.
-    get isBusy(): boolean { return this.running.size > 0; }
+    get isBusy(): boolean {
+        return this.running.size > 0;
+    }
 
     private next(): void {
         const wanted = this.wanted;
@@ -92,10 +109,18 @@ export class TileLoader {
         const { subject, grid, ratio } = wanted;
         this.running.set(name, { stop, since: performance.now(), subject: subject.name });
         try {
-            const answer = await this.engine.request<Pixels>({
-                do: "pixels", width: grid.side, height: grid.side, window: tileWindow(tile, grid), ratio,
-                options: subject.options, pattern: subject.pattern,
-            }, { lane: "back", signal: stop.signal, seconds: 10 });
+            const answer = await this.engine.request<Pixels>(
+                {
+                    do: "pixels",
+                    width: grid.side,
+                    height: grid.side,
+                    window: tileWindow(tile, grid),
+                    ratio,
+                    options: subject.options,
+                    pattern: subject.pattern,
+                },
+                { lane: "back", signal: stop.signal, seconds: 10 },
+            );
             this.cache.add(name, await bitmapOf(answer));
             this.note(subject.name, tile.scale);
             this.onTile();

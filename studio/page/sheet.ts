@@ -4,11 +4,24 @@ import type { Camera, Size } from "./camera";
 import { exactOf, numberOf, readExact } from "./decimal";
 
 /// Millimetres.
-export interface Sheet { readonly width: number; readonly height: number; readonly margin: number; readonly name: string }
+export interface Sheet {
+    readonly width: number;
+    readonly height: number;
+    readonly margin: number;
+    readonly name: string;
+}
 
 const named: Readonly<Record<string, readonly [number, number]>> = {
-    a0: [841, 1189], a1: [594, 841], a2: [420, 594], a3: [297, 420], a4: [210, 297], a5: [148, 210], a6: [105, 148],
-    letter: [215.9, 279.4], legal: [215.9, 355.6], tabloid: [279.4, 431.8],
+    a0: [841, 1189],
+    a1: [594, 841],
+    a2: [420, 594],
+    a3: [297, 420],
+    a4: [210, 297],
+    a5: [148, 210],
+    a6: [105, 148],
+    letter: [215.9, 279.4],
+    legal: [215.9, 355.6],
+    tabloid: [279.4, 431.8],
 };
 const millimetres: Readonly<Record<string, number>> = { mm: 1, cm: 10, in: 25.4, pt: 25.4 / 72, px: 25.4 / 300 };
 
@@ -52,7 +65,12 @@ function round(value: number): number {
 }
 
 /// Where the sheet lies in a view: CSS pixels.
-export interface Laid { readonly left: number; readonly top: number; readonly width: number; readonly height: number }
+export interface Laid {
+    readonly left: number;
+    readonly top: number;
+    readonly width: number;
+    readonly height: number;
+}
 
 export function laidOut(sheet: Sheet, size: Size): Laid {
     const narrow = Math.min(size.width, size.height) < 480;
@@ -60,7 +78,10 @@ export function laidOut(sheet: Sheet, size: Size): Laid {
     const beside = narrow ? 16 : 62; // the buttons lie there
     const below = narrow ? 48 : 64; // for what is written below the sheet
     const right = narrow ? 60 : beside;
-    const room = { width: Math.max(40, size.width - beside - right), height: Math.max(40, size.height - around - below) };
+    const room = {
+        width: Math.max(40, size.width - beside - right),
+        height: Math.max(40, size.height - around - below),
+    };
     const factor = Math.min(room.width / sheet.width, room.height / sheet.height);
     const width = sheet.width * factor;
     const height = sheet.height * factor;
@@ -94,8 +115,10 @@ export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opene
     const share = Number.parseFloat(facts.keys.find((key) => key.name === "scale factor")?.value ?? "100") / 100;
     const fixed = optionOf(options, "step");
     const border = optionOf(options, "border") === undefined ? 0 : Math.min(sheet.width, sheet.height) * borderShare;
-    const fit = (room: number, extent: number) => (room - 2 * (sheet.margin + border) - inMillimetres) / (extent + inSteps);
-    const step = fixed !== undefined ? lengthOf(fixed) : Math.min(fit(sheet.width, across), fit(sheet.height, up)) * share;
+    const fit = (room: number, extent: number) =>
+        (room - 2 * (sheet.margin + border) - inMillimetres) / (extent + inSteps);
+    const step =
+        fixed !== undefined ? lengthOf(fixed) : Math.min(fit(sheet.width, across), fit(sheet.height, up)) * share;
     if (!step || !(step > 0)) return null;
     const scale = sheet.width / laid.width / step;
     const right = laid.left + laid.width / 2 - size.width / 2;
@@ -112,13 +135,37 @@ export function planeOptions(options: Options): Options {
 
 /// True if the drawing is read whole for any part of it.
 export function isComposed(facts: Opened, options: Options): boolean {
-    return optionOf(options, "dots") !== undefined || optionOf(options, "colour-by") !== undefined
-        || facts.keys.some((key) => key.name === "dots" && key.value !== "none");
+    return (
+        optionOf(options, "dots") !== undefined ||
+        optionOf(options, "colour-by") !== undefined ||
+        facts.keys.some((key) => key.name === "dots" && key.value !== "none")
+    );
 }
 
 /// Options of pictures: not those of animations, of plotters and of the press, which pictures refuse.
-const notOfPictures = new Set(["animate", "frames", "frame-time", "hold", "tile", "overlap", "bleed", "marks", "spot", "cmyk",
-    "bits", "screen", "icc", "compression", "dpi", "window", "pens", "hpgl-paper", "profile", "gcode-start", "gcode-end"]);
+const notOfPictures = new Set([
+    "animate",
+    "frames",
+    "frame-time",
+    "hold",
+    "tile",
+    "overlap",
+    "bleed",
+    "marks",
+    "spot",
+    "cmyk",
+    "bits",
+    "screen",
+    "icc",
+    "compression",
+    "dpi",
+    "window",
+    "pens",
+    "hpgl-paper",
+    "profile",
+    "gcode-start",
+    "gcode-end",
+]);
 
 export function pageOptions(options: Options): Options {
     return options.filter(([name]) => !notOfPictures.has(name));

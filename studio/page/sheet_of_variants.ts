@@ -6,7 +6,11 @@ import { isAbort } from "./pictures";
 import type { Options, Pixels } from "./protocol";
 import type { Variant } from "./variants";
 
-export interface Filter { readonly name: string; readonly label: string; readonly help: string }
+export interface Filter {
+    readonly name: string;
+    readonly label: string;
+    readonly help: string;
+}
 
 export const filters: readonly Filter[] = [
     { name: "closed", label: "Closed", help: "Only lines that end where they begin" },
@@ -15,10 +19,20 @@ export const filters: readonly Filter[] = [
     { name: "kolam", label: "Kolam", help: "Only kolams: every dot encircled, every line closed, nothing drawn twice" },
 ];
 
-interface Examined { kolam: boolean; lines: number; open_lines: number; meetings: number; reused_edges: number }
+interface Examined {
+    kolam: boolean;
+    lines: number;
+    open_lines: number;
+    meetings: number;
+    reused_edges: number;
+}
 
 /// A variant that has been found, with its picture as RGBA bytes.
-export interface Found { readonly index: number; readonly variant: Variant; readonly picture: ImageData }
+export interface Found {
+    readonly index: number;
+    readonly variant: Variant;
+    readonly picture: ImageData;
+}
 
 export interface Search {
     /// The variants to try for an index, the first that is valid is taken; null after the last.
@@ -40,7 +54,18 @@ const budget = "3000000"; // nodes: so that a sheet takes a second
 const seconds = 2;
 
 export function thumbnailOptions(draw: Work["draw"]): Options {
-    const own = new Set(["size", "margin", "landscape", "fit", "step", "window", "border", "budget", "dot-spacing", "generations"]);
+    const own = new Set([
+        "size",
+        "margin",
+        "landscape",
+        "fit",
+        "step",
+        "window",
+        "border",
+        "budget",
+        "dot-spacing",
+        "generations",
+    ]);
     return [...draw.filter(([name]) => !own.has(name)), ["size", "100x100mm"], ["margin", "6mm"], ["budget", budget]];
 }
 
@@ -75,8 +100,13 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
     }
     // One lane of work for each worker; the first is what the user waits for.
     async function work(lane: "front" | "back"): Promise<void> {
-        while (!isOver && !search.signal.aborted && valid.length < search.count && next < search.most
-            && performance.now() - start < search.milliseconds) {
+        while (
+            !isOver &&
+            !search.signal.aborted &&
+            valid.length < search.count &&
+            next < search.most &&
+            performance.now() - start < search.milliseconds
+        ) {
             const index = next++;
             if (search.candidates(index) === null) {
                 isOver = true;
@@ -92,14 +122,24 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
 }
 
 async function drawn(
-    engine: Engine, { pattern }: Variant, search: Search, options: Options, lane: "front" | "back",
+    engine: Engine,
+    { pattern }: Variant,
+    search: Search,
+    options: Options,
+    lane: "front" | "back",
 ): Promise<ImageData | null> {
     const settings = { lane, seconds, signal: search.signal };
     try {
         if (!(await passes(engine, pattern, search.filters, settings))) return null;
         const { json, bytes } = await engine.request<Pixels>(
-            { do: "pixels", width: search.side, height: search.side, ratio: search.ratio, options, pattern }, settings);
-        const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, json.width * json.height * 4);
+            { do: "pixels", width: search.side, height: search.side, ratio: search.ratio, options, pattern },
+            settings,
+        );
+        const values = new Uint8ClampedArray(
+            bytes.buffer as ArrayBuffer,
+            bytes.byteOffset,
+            json.width * json.height * 4,
+        );
         return new ImageData(values, json.width, json.height);
     } catch (error) {
         if (isAbort(error) || error instanceof RequestFailed) return null; // not a valid variant
@@ -108,18 +148,24 @@ async function drawn(
 }
 
 async function passes(
-    engine: Engine, pattern: Variant["pattern"], wanted: ReadonlySet<string>, settings: Parameters<Engine["request"]>[1],
+    engine: Engine,
+    pattern: Variant["pattern"],
+    wanted: ReadonlySet<string>,
+    settings: Parameters<Engine["request"]>[1],
 ): Promise<boolean> {
     if (wanted.size === 0) return true;
-    if (wanted.has("closed")) { // measured without deriving
+    if (wanted.has("closed")) {
+        // measured without deriving
         const { json } = await engine.request<{ closed: boolean | null }>({ do: "measure", pattern }, settings);
         if (json.closed !== true) return false;
         if (wanted.size === 1) return true;
     }
     const { json } = await engine.request<Examined>({ do: "kolam", pattern }, settings);
-    return (!wanted.has("single") || json.lines === 1)
-        && (!wanted.has("avoiding") || (json.meetings === 0 && json.reused_edges === 0))
-        && (!wanted.has("kolam") || json.kolam);
+    return (
+        (!wanted.has("single") || json.lines === 1) &&
+        (!wanted.has("avoiding") || (json.meetings === 0 && json.reused_edges === 0)) &&
+        (!wanted.has("kolam") || json.kolam)
+    );
 }
 
 // FNV-1a of every third pixel.

@@ -3,8 +3,10 @@ import type { MakePanel, Studio, Work } from "./context";
 import { button, element } from "./elements";
 import { between, eyeText, readEye, type Eye } from "./eye";
 import { Growth, type Grown } from "./growth";
+import { boundedLight, makeLamp, usualLight } from "./lamp";
 import { isStill } from "./map_motion";
 import { addOrbit } from "./orbit";
+import { Pace } from "./pace";
 import { isAbort } from "./pictures";
 import type { Opened } from "./protocol";
 import { styleOf } from "./sheet";
@@ -14,31 +16,6 @@ const mostSegments = 150_000; // a model of more would take hundreds of megabyte
 const growing = 700; // milliseconds for each derivation length
 const turning = 380; // milliseconds in which one model turns into the next
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
-const usualLight = { azimuth: -38, elevation: 46 };
-
-/// How finely motion is drawn, so that it stays smooth on slow graphics.
-class Pace {
-    quality = 1;
-    private learned = 1; // for the next motion
-    private last = 0;
-    private slow = 0;
-
-    frame(now: number): void {
-        const passed = now - this.last;
-        this.last = now;
-        if (passed > 2500) return; // the first of a motion
-        this.quality = this.learned;
-        this.slow = passed > 26 ? this.slow + 1 : Math.max(0, this.slow - 0.25);
-        if (this.slow < 3 || this.learned <= 0.36) return;
-        this.slow = 0;
-        this.quality = this.learned = this.learned * 0.7;
-    }
-
-    rest(): void {
-        this.quality = 1;
-        this.last = -1e9;
-    }
-}
 
 const icons = {
     play: "M5 3.2v9.6l8-4.8z",
@@ -52,20 +29,33 @@ export const makeSpacePanel: MakePanel = (studio) => {
     let view: SpaceView | null = null;
     let hasFailed = false;
     return {
-        name: "space", label: "Space", element: panel,
+        name: "space",
+        label: "Space",
+        element: panel,
         show() {
             if (!view && !hasFailed) {
                 view = SpaceView.make(studio, panel);
                 hasFailed = view === null;
                 if (hasFailed) {
-                    panel.append(element("div", { class: "empty" }, element("p", {},
-                        "This browser offers no WebGL2, which draws models. Prints of drawings in space work without it; "
-                        + "so do models as OBJ and GLB files.")));
+                    panel.append(
+                        element(
+                            "div",
+                            { class: "empty" },
+                            element(
+                                "p",
+                                {},
+                                "This browser offers no WebGL2, which draws models. Prints of drawings in space work " +
+                                    "without it; so do models as OBJ and GLB files.",
+                            ),
+                        ),
+                    );
                 }
             }
             view?.show();
         },
-        hide() { view?.hide(); },
+        hide() {
+            view?.hide();
+        },
     };
 };
 
@@ -79,6 +69,10 @@ class SpaceView {
     private readonly turn: HTMLButtonElement;
     private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
     private readonly use: HTMLButtonElement;
+    private readonly lamp = makeLamp((light) => {
+        this.light = light;
+        this.draw();
+    });
     private readonly useLength: HTMLButtonElement;
 
     private isShown = false;
@@ -106,7 +100,11 @@ class SpaceView {
 
     static make(studio: Studio, panel: HTMLElement): SpaceView | null {
         const canvas = element("canvas", {
-            class: "space-canvas", tabindex: 0, role: "img", "aria-label": "Model", "aria-describedby": "space-hint",
+            class: "space-canvas",
+            tabindex: 0,
+            role: "img",
+            "aria-label": "Model",
+            "aria-describedby": "space-hint",
         });
         try {
             const stage = Stage.on(canvas);
@@ -118,7 +116,9 @@ class SpaceView {
     }
 
     private constructor(
-        private readonly studio: Studio, panel: HTMLElement, private readonly canvas: HTMLCanvasElement,
+        private readonly studio: Studio,
+        panel: HTMLElement,
+        private readonly canvas: HTMLCanvasElement,
         private readonly stage: Stage,
     ) {
         this.growth = new Growth(studio.engine, stage);
@@ -128,9 +128,19 @@ class SpaceView {
         this.use = button("Use this view for prints", () => this.useView());
         this.useLength = button("Use this n", () => this.studio.store.setting("derivation length", String(this.n)));
         this.useLength.hidden = true;
-        panel.append(canvas, element("p", { class: "unseen", id: "space-hint" },
-            "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right mouse button or "
-            + "with Alt moves the light."), this.note, this.facts, this.makeTools(), this.makeLight());
+        panel.append(
+            canvas,
+            element(
+                "p",
+                { class: "unseen", id: "space-hint" },
+                "Arrow keys turn the drawing, plus and minus zoom, 0 resets the view. Dragging with the right " +
+                    "mouse button or with Alt moves the light.",
+            ),
+            this.note,
+            this.facts,
+            this.makeTools(),
+            this.lamp.element,
+        );
         this.wire();
     }
 
@@ -140,46 +150,36 @@ class SpaceView {
             this.eye = { ...this.eye, distance: this.perspective.checked ? 4 : null };
             this.draw();
         });
-        return element("div", { class: "space-tools" },
-            element("div", { class: "space-growth" }, this.play,
-                element("label", { for: "space-n" }, "Growth"), this.slider, this.count, this.useLength),
-            element("div", { class: "toolbar" }, this.turn, reset,
-                element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"), this.use));
+        return element(
+            "div",
+            { class: "space-tools" },
+            element(
+                "div",
+                { class: "space-growth" },
+                this.play,
+                element("label", { for: "space-n" }, "Growth"),
+                this.slider,
+                this.count,
+                this.useLength,
+            ),
+            element(
+                "div",
+                { class: "toolbar" },
+                this.turn,
+                reset,
+                element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"),
+                this.use,
+            ),
+        );
     }
-
-    private makeLight(): HTMLElement {
-        const row = (id: string, label: string, least: number, most: number, value: number, act: (value: number) => void) => {
-            const input = element("input", { type: "range", id, min: least, max: most, step: 1, value });
-            input.addEventListener("input", () => {
-                act(Number(input.value));
-                this.draw();
-            });
-            return { input, row: element("div", { class: "field" }, element("label", { for: id }, label), input) };
-        };
-        const around = row("space-light-around", "Direction", -180, 180, usualLight.azimuth,
-            (azimuth) => { this.light = { ...this.light, azimuth }; });
-        const height = row("space-light-height", "Height", 5, 90, usualLight.elevation,
-            (elevation) => { this.light = { ...this.light, elevation }; });
-        this.showLight = () => {
-            for (const [{ input }, value] of [[around, this.light.azimuth], [height, this.light.elevation]] as const) {
-                input.value = String(Math.round(value));
-                const [least, most] = [Number(input.min), Number(input.max)];
-                input.style.setProperty("--at", `${(100 * (value - least)) / (most - least)}%`);
-            }
-        };
-        this.showLight();
-        return element("details", { class: "space-light" }, element("summary", {}, "Light"),
-            element("div", { class: "space-light-fields" }, around.row, height.row));
-    }
-
-    private showLight: () => void = () => {};
 
     private wire(): void {
         const { canvas, studio } = this;
         addOrbit(canvas, {
             turn: (right, up) => {
                 this.eye = {
-                    ...this.eye, azimuth: between(this.eye.azimuth + right),
+                    ...this.eye,
+                    azimuth: between(this.eye.azimuth + right),
                     elevation: Math.max(-90, Math.min(90, this.eye.elevation + up)),
                 };
                 this.draw();
@@ -197,7 +197,7 @@ class SpaceView {
             },
             light: (right, up) => {
                 const { azimuth, elevation } = this.light;
-                this.light = { azimuth: between(azimuth + right), elevation: Math.max(5, Math.min(90, elevation + up)) };
+                this.light = boundedLight({ azimuth: azimuth + right, elevation: elevation + up });
                 this.draw();
             },
             reset: () => this.reset(),
@@ -214,6 +214,10 @@ class SpaceView {
         new ResizeObserver(() => this.draw()).observe(canvas);
         new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
         studio.onOpened((facts, work) => this.open(facts, work));
+        studio.store.subscribe((work, before) => {
+            if (this.opened && work.draw !== before.draw && work.pattern === before.pattern)
+                this.open(this.opened, work);
+        });
     }
 
     show(): void {
@@ -263,14 +267,19 @@ class SpaceView {
         const facts = this.opened;
         if (!facts) return "";
         if (this.isSpline) {
-            return "Models have straight lines, and this pattern draws a spline. With the line set to straight it has a model, "
-                + "if its symbols draw steps.";
+            return (
+                "Models have straight lines, and this pattern draws a spline. With the line set to straight " +
+                "it has a model, if its symbols draw steps."
+            );
         }
         const segments = Number(facts.cost.segments);
-        if (!facts.cost.is_derivable) return "This drawing is too large for a model. A smaller derivation length has one.";
+        if (!facts.cost.is_derivable)
+            return "This drawing is too large for a model. A smaller derivation length has one.";
         if (!(segments > mostSegments)) return "";
-        return `This drawing has ${segments.toLocaleString("en")} segments; models are shown up to `
-            + `${mostSegments.toLocaleString("en")}. A smaller derivation length has one.`;
+        return (
+            `This drawing has ${segments.toLocaleString("en")} segments; models are shown up to ` +
+            `${mostSegments.toLocaleString("en")}. A smaller derivation length has one.`
+        );
     }
 
     private seek(n: number): void {
@@ -313,18 +322,25 @@ class SpaceView {
             if (this.whole === null) this.half = 0;
             this.whole = model;
         }
-        this.facts.textContent = model === "empty" ? "Nothing yet"
-            : `${model.triangles.toLocaleString("en").replaceAll(",", "\u202f")} triangles`;
+        this.facts.textContent =
+            model === "empty"
+                ? "Nothing yet"
+                : `${model.triangles.toLocaleString("en").replaceAll(",", "\u202f")} triangles`;
         this.describe();
         this.draw();
     }
 
     private describe(): void {
         const facts = this.opened;
-        this.canvas.setAttribute("aria-label", [
-            `Model of ${facts?.title || "the drawing"}`, `derivation length ${this.n}`,
-            `seen from ${Math.round(between(this.eye.azimuth))} degrees around, ${Math.round(this.eye.elevation)} degrees up`,
-        ].join(", "));
+        this.canvas.setAttribute(
+            "aria-label",
+            [
+                `Model of ${facts?.title || "the drawing"}`,
+                `derivation length ${this.n}`,
+                `seen from ${Math.round(between(this.eye.azimuth))} degrees around`,
+                `${Math.round(this.eye.elevation)} degrees up`,
+            ].join(", "),
+        );
     }
 
     // --- motion
@@ -422,22 +438,31 @@ class SpaceView {
             canvas.height = height;
         }
         this.perspective.checked = this.eye.distance !== null;
-        this.showLight();
+        this.lamp.show(this.light);
         const current = this.model;
         const frame = this.whole ?? (current !== "empty" ? current : null);
         if (!frame) return;
         // The controls cover the bottom of the picture.
         const covered = Math.min(height / 3, 78 * ratio);
-        if (this.half === 0) this.half = fittingHalf(frame, this.eye, width, height - covered * 1.6) * Math.min(width, height)
-            / Math.min(width, height - covered * 1.6);
+        if (this.half === 0)
+            this.half =
+                (fittingHalf(frame, this.eye, width, height - covered * 1.6) * Math.min(width, height)) /
+                Math.min(width, height - covered * 1.6);
         const share = this.before ? Math.min(1, (now - this.before.since) / turning) : 1;
         const models = [
-            ...(this.before && this.before.model !== "empty" ? [{ model: this.before.model, presence: 1 - share }] : []),
+            ...(this.before && this.before.model !== "empty"
+                ? [{ model: this.before.model, presence: 1 - share }]
+                : []),
             ...(current && current !== "empty" ? [{ model: current, presence: share }] : []),
         ];
         this.stage.draw({
-            models, frame, eye: this.eye, half: this.half, zoom: this.zoom,
-            shift: [this.shift[0], this.shift[1] + covered / height], light: this.light,
+            models,
+            frame,
+            eye: this.eye,
+            half: this.half,
+            zoom: this.zoom,
+            shift: [this.shift[0], this.shift[1] + covered / height],
+            light: this.light,
             isDark: document.documentElement.dataset["theme"] === "dark",
         });
     }

@@ -45,7 +45,8 @@ float grain(vec2 place) { // for one model that turns into another
 }
 vec3 shown(vec3 linear) {
     vec3 bounded = linear / (1.0 + max(linear - 0.8, 0.0) * 0.6);
-    return mix(1.055 * pow(bounded, vec3(1.0 / 2.4)) - 0.055, bounded * 12.92, vec3(lessThan(bounded, vec3(0.0031308))));
+    vec3 dark = vec3(lessThan(bounded, vec3(0.0031308)));
+    return mix(1.055 * pow(bounded, vec3(1.0 / 2.4)) - 0.055, bounded * 12.92, dark);
 }`;
 
 export const modelFragment = `${shared}${shade}

@@ -1,7 +1,14 @@
 // Draws models with WebGL2: light, shadows and a pool of light on the ground.
 import { axes, seenBy, towards, type Eye, type Matrix, type Vector } from "./eye";
 import type { Model } from "./glb";
-import { groundFragment, groundVertex, modelFragment, modelVertex, shadowFragment, shadowVertex } from "./space_shaders";
+import {
+    groundFragment,
+    groundVertex,
+    modelFragment,
+    modelVertex,
+    shadowFragment,
+    shadowVertex,
+} from "./space_shaders";
 
 /// A model on the graphics processor.
 export interface Staged {
@@ -28,7 +35,10 @@ export interface Scene {
 const shadowSide = 2048;
 const stride = 20; // bytes of a corner: position, normal, colour
 
-interface Program { program: WebGLProgram; at: (name: string) => WebGLUniformLocation | null }
+interface Program {
+    program: WebGLProgram;
+    at: (name: string) => WebGLUniformLocation | null;
+}
 
 export class Stage {
     private readonly model: Program;
@@ -73,7 +83,10 @@ export class Stage {
     private compile(vertex: string, fragment: string): Program {
         const { gl } = this;
         const program = gl.createProgram()!;
-        for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
+        for (const [kind, source] of [
+            [gl.VERTEX_SHADER, vertex],
+            [gl.FRAGMENT_SHADER, fragment],
+        ] as const) {
             const shader = gl.createShader(kind)!;
             gl.shaderSource(shader, source);
             gl.compileShader(shader);
@@ -129,7 +142,12 @@ export class Stage {
         gl.vertexAttribPointer(2, 4, gl.UNSIGNED_BYTE, true, stride, 16);
         gl.bindVertexArray(null);
         return {
-            low: model.low, high: model.high, triangles: model.triangles, corners, array, buffers,
+            low: model.low,
+            high: model.high,
+            triangles: model.triangles,
+            corners,
+            array,
+            buffers,
             bytes: packed.byteLength + order.byteLength,
         };
     }
@@ -148,7 +166,7 @@ export class Stage {
         const smaller = Math.min(width, height);
         const half = scene.half / scene.zoom;
         const frame = axes(scene.eye.azimuth, scene.eye.elevation);
-        const seen = { across: half * width / smaller, up: half * height / smaller, deep: radius * 4 };
+        const seen = { across: (half * width) / smaller, up: (half * height) / smaller, deep: radius * 4 };
         const aim = moved(middle, frame, -scene.shift[0] * seen.across, -scene.shift[1] * seen.up);
         const eye = seenBy(frame, aim, seen, scene.eye.distance === null ? null : scene.eye.distance * radius);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -184,7 +202,12 @@ export class Stage {
     private shine(scene: Scene, middle: Vector, radius: number): Matrix {
         const { gl } = this;
         const { azimuth, elevation } = scene.light;
-        const sun = seenBy(axes(azimuth, elevation), middle, { across: radius * 1.02, up: radius * 1.02, deep: radius * 2.2 }, null);
+        const sun = seenBy(
+            axes(azimuth, elevation),
+            middle,
+            { across: radius * 1.02, up: radius * 1.02, deep: radius * 2.2 },
+            null,
+        );
         const shown = scene.models.filter(({ presence }) => presence >= 0.5);
         const what = JSON.stringify([azimuth, elevation, scene.frame, shown.map(({ model }) => this.numberOf(model))]);
         if (what === this.shadowed) return sun;
@@ -267,15 +290,18 @@ export function radiusOf({ low, high }: { low: Vector; high: Vector }): number {
 
 /// Half the shorter side of a picture that shows the frame from all around at that elevation.
 export function fittingHalf(
-    { low, high }: { low: Vector; high: Vector }, { elevation, distance }: Eye, width: number, height: number,
+    { low, high }: { low: Vector; high: Vector },
+    { elevation, distance }: Eye,
+    width: number,
+    height: number,
 ): number {
     const around = Math.hypot(high[0] - low[0], high[2] - low[2]) / 2;
     const tall = (high[1] - low[1]) / 2;
-    const tilt = Math.abs(elevation) * Math.PI / 180;
+    const tilt = (Math.abs(elevation) * Math.PI) / 180;
     const up = tall * Math.cos(tilt) + around * Math.sin(tilt);
     const smaller = Math.min(width, height);
     const nearer = distance === null ? 1 : 1 + 0.5 / distance;
-    return 1.08 * nearer * Math.max(around * smaller / width, up * smaller / height) || 1;
+    return 1.08 * nearer * Math.max((around * smaller) / width, (up * smaller) / height) || 1;
 }
 
 function moved(point: Vector, { right, up }: ReturnType<typeof axes>, across: number, along: number): Vector {

@@ -2,7 +2,11 @@
 import { exactOf, exactText, wholes, type Exact } from "./decimal";
 import { decimalsOf, pixelOf, pointAt, type Camera, type Size } from "./camera";
 
-export interface Tile { readonly scale: number; readonly column: bigint; readonly row: bigint } // rows upwards
+export interface Tile {
+    readonly scale: number;
+    readonly column: bigint;
+    readonly row: bigint;
+} // rows upwards
 
 export interface TileGrid {
     readonly side: number; // pixels of the picture
@@ -74,10 +78,16 @@ export class PictureCache<Picture extends { bytes: number; close(): void }> {
 
     constructor(private readonly most: number) {}
 
-    get bytes(): number { return this.used; }
-    get count(): number { return this.pictures.size; }
+    get bytes(): number {
+        return this.used;
+    }
+    get count(): number {
+        return this.pictures.size;
+    }
 
-    has(name: string): boolean { return this.pictures.has(name); }
+    has(name: string): boolean {
+        return this.pictures.has(name);
+    }
 
     /// Uses it.
     get(name: string): Picture | undefined {
@@ -99,7 +109,9 @@ export class PictureCache<Picture extends { bytes: number; close(): void }> {
         }
     }
 
-    names(): IterableIterator<string> { return this.pictures.keys(); }
+    names(): IterableIterator<string> {
+        return this.pictures.keys();
+    }
 
     private remove(name: string): void {
         const picture = this.pictures.get(name);

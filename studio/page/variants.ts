@@ -13,7 +13,11 @@ export interface Variant {
 }
 
 /// What one text has in place of another, with a little of what lies around it.
-export interface ChangedPart { readonly before: string; readonly changed: string; readonly after: string }
+export interface ChangedPart {
+    readonly before: string;
+    readonly changed: string;
+    readonly after: string;
+}
 
 export function changedPart(old: string, now: string): ChangedPart {
     const shorter = Math.min(old.length, now.length);
@@ -23,7 +27,8 @@ export function changedPart(old: string, now: string): ChangedPart {
     while (end < shorter - same && old[old.length - 1 - end] === now[now.length - 1 - end]) ++end;
     const before = now.slice(0, same);
     return {
-        before: before.length > 4 ? `…${before.slice(-3)}` : before, changed: now.slice(same, now.length - end),
+        before: before.length > 4 ? `…${before.slice(-3)}` : before,
+        changed: now.slice(same, now.length - end),
         after: now.slice(now.length - end),
     };
 }
@@ -38,11 +43,18 @@ export interface Parameter {
 
 export function parametersOf(facts: Opened): Parameter[] {
     const list: Parameter[] = [{ name: "derivation length", label: "n", kind: "n", value: facts.n }];
-    const angle = facts.keys.find(({ name }) => name === "angle increment") ?? facts.keys.find(({ name }) => name === "angle factor");
+    const angle =
+        facts.keys.find(({ name }) => name === "angle increment") ??
+        facts.keys.find(({ name }) => name === "angle factor");
     if (angle?.name === "angle factor") {
         list.push({ name: "angle factor", label: "angle 360/", kind: "angle", value: angle.value });
     } else {
-        list.push({ name: "angle increment", label: "angle", kind: "angle", value: String(degreesOf(angle?.value ?? "90")) });
+        list.push({
+            name: "angle increment",
+            label: "angle",
+            kind: "angle",
+            value: String(degreesOf(angle?.value ?? "90")),
+        });
     }
     if (facts.is_random) list.push({ name: "seed", label: "seed", kind: "seed", value: facts.seed });
     for (const { name, value } of facts.defines) {
@@ -53,14 +65,17 @@ export function parametersOf(facts: Opened): Parameter[] {
 
 export function productionsOf(facts: Opened): Parameter[] {
     return facts.productions.map(({ predecessor, successor }, index) => ({
-        name: `production ${index}`, label: `${predecessor} → ${successor}`, kind: "production" as const, value: successor,
+        name: `production ${index}`,
+        label: `${predecessor} → ${successor}`,
+        kind: "production" as const,
+        value: successor,
     }));
 }
 
 /// `25.7`, or `360/7`.
 export function degreesOf(text: string): number {
     const [above, below] = text.split("/").map(Number);
-    return below === undefined ? above ?? NaN : (above ?? NaN) / below;
+    return below === undefined ? (above ?? NaN) : (above ?? NaN) / below;
 }
 
 export function withSetting(pattern: Pattern, name: string, value: string): Pattern {
@@ -74,7 +89,10 @@ export function seedVariant(pattern: Pattern, first: bigint, index: number): Var
 }
 
 /// An axis of a sheet: a parameter with its values.
-export interface Axis { readonly parameter: Parameter; readonly values: readonly string[] }
+export interface Axis {
+    readonly parameter: Parameter;
+    readonly values: readonly string[];
+}
 
 /// Values that lie about the present one; whole numbers where nothing else has a meaning.
 export function rangeOf(parameter: Parameter, most: string): { from: number; to: number } {
@@ -118,14 +136,19 @@ export function sheetVariants(pattern: Pattern, across: Axis, down: Axis, column
         return valuesOf(axis.parameter, value + (next - value) * share, value, 1)[0]!;
     };
     const others = [0.25, 0.5].flatMap((share) => [
-        made(between(across, column, share), y), made(x, between(down, row, share)),
+        made(between(across, column, share), y),
+        made(x, between(down, row, share)),
     ]);
     return [made(x, y), ...others.filter(({ label }) => label !== made(x, y).label)];
 }
 
 /// Edited productions, and other values of what is not kept. The same seed and index give the same variant.
 export function mutantOf(
-    pattern: Pattern, facts: Opened, kept: ReadonlySet<string>, seed: number, index: number,
+    pattern: Pattern,
+    facts: Opened,
+    kept: ReadonlySet<string>,
+    seed: number,
+    index: number,
 ): Variant | null {
     const chance = new Chance(seed, index);
     const productions = productionsOf(facts).filter(({ name }) => !kept.has(name));
@@ -165,7 +188,10 @@ export function mutantOf(
 }
 
 function edited(
-    text: string, facts: Opened, index: number, chance: Chance,
+    text: string,
+    facts: Opened,
+    index: number,
+    chance: Chance,
 ): { text: string; label: string; part: NonNullable<Variant["part"]> } | null {
     const production = facts.productions[index];
     if (!production) return null;
@@ -173,7 +199,8 @@ function edited(
     const axiom = facts.keys.find(({ name }) => name === "axiom")?.value ?? "";
     // Where parameters are used, only the production's own modules surely have the right names in them.
     const sources = production.successor.includes("(")
-        ? [production.successor] : [...facts.productions.map(({ successor }) => successor), axiom];
+        ? [production.successor]
+        : [...facts.productions.map(({ successor }) => successor), axiom];
     const alphabet = alphabetOf(sources, names).filter((module) => sources.length === 1 || !module.includes("("));
     const successor = mutated(production.successor, alphabet, chance, names);
     if (successor === null) return null;

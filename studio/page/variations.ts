@@ -3,8 +3,18 @@ import type { MakePanel, Studio, Work } from "./context";
 import { button, element } from "./elements";
 import type { Opened } from "./protocol";
 import { filters, searchVariants, type Found } from "./sheet_of_variants";
+import { makeAxisRow, makeLocks, type AxisChoice } from "./variation_controls";
 import {
-    mutantOf, parametersOf, productionsOf, rangeOf, seedVariant, sheetVariants, valuesOf, type Axis, type Parameter, type Variant,
+    mutantOf,
+    parametersOf,
+    productionsOf,
+    rangeOf,
+    seedVariant,
+    sheetVariants,
+    valuesOf,
+    type Axis,
+    type Parameter,
+    type Variant,
 } from "./variants";
 
 type Mode = "mutations" | "values" | "seeds";
@@ -14,15 +24,19 @@ const columns = 6;
 const mostTried = { plain: 480, filtered: 6000 };
 const mostTime = { plain: 6_000, filtered: 15_000 }; // milliseconds
 const modes: readonly { mode: Mode; label: string }[] = [
-    { mode: "mutations", label: "Mutations" }, { mode: "values", label: "Two values" }, { mode: "seeds", label: "Seeds" },
+    { mode: "mutations", label: "Mutations" },
+    { mode: "values", label: "Two values" },
+    { mode: "seeds", label: "Seeds" },
 ];
-const lockPath = "M4.5 7.5V5.2a3.5 3.5 0 0 1 7 0v2.3M3.5 7.5h9v6.5h-9z";
 
 export const makeVariationsPanel: MakePanel = (studio) => {
     const variations = new Variations(studio);
     return {
-        name: "variations", label: "Variations", element: variations.element,
-        show: () => variations.show(), hide: () => variations.hide(),
+        name: "variations",
+        label: "Variations",
+        element: variations.element,
+        show: () => variations.show(),
+        hide: () => variations.hide(),
     };
 };
 
@@ -42,7 +56,7 @@ class Variations {
     private readonly axes: { across: AxisChoice | null; down: AxisChoice | null } = { across: null, down: null };
     private base: { facts: Opened; work: Work } | null = null; // what is varied
     private adopted: Work["pattern"] | null = null; // that this panel put into the work
-    private isStale = false; // drawn with other options
+    private isStale = false; // what is shown is not complete, or drawn with other options
     private first = 0; // index of the first candidate
     private tried = 0;
     private search: AbortController | null = null;
@@ -57,7 +71,11 @@ class Variations {
             segmented.append(made);
         }
         const chips = filters.map(({ name, label, help }) => {
-            const chip = element("button", { type: "button", class: "chip", "aria-pressed": "false", title: help }, label);
+            const chip = element(
+                "button",
+                { type: "button", class: "chip", "aria-pressed": "false", title: help },
+                label,
+            );
             chip.addEventListener("click", () => {
                 if (!this.filters.delete(name)) this.filters.add(name);
                 chip.setAttribute("aria-pressed", String(this.filters.has(name)));
@@ -69,11 +87,21 @@ class Variations {
         this.fromHere = button("Vary the one taken", () => this.adopt(), { kind: "primary" });
         this.fromHere.hidden = true;
         this.element.append(
-            element("div", { class: "variations-bar" }, segmented,
-                element("div", { class: "variations-filters", role: "group", "aria-label": "Show only" },
-                    element("span", { class: "variations-word" }, "Only"), ...chips),
-                element("div", { class: "variations-actions" }, this.status, this.fromHere, this.again)),
-            this.settings, this.sheet);
+            element(
+                "div",
+                { class: "variations-bar" },
+                segmented,
+                element(
+                    "div",
+                    { class: "variations-filters", role: "group", "aria-label": "Show only" },
+                    element("span", { class: "variations-word" }, "Only"),
+                    ...chips,
+                ),
+                element("div", { class: "variations-actions" }, this.status, this.fromHere, this.again),
+            ),
+            this.settings,
+            this.sheet,
+        );
         this.sheet.addEventListener("keydown", (event) => this.move(event));
         studio.onOpened((facts, work) => this.opened(facts, work));
         studio.store.subscribe((work, before) => {
@@ -87,7 +115,7 @@ class Variations {
         if (!opened) return;
         if (!this.base || (opened.work.pattern !== this.base.work.pattern && opened.work.pattern !== this.adopted)) {
             this.setBase(opened.facts, opened.work);
-        } else if (this.isStale || this.search?.signal.aborted) {
+        } else if (this.isStale) {
             void this.run();
         }
     }
@@ -95,7 +123,10 @@ class Variations {
     hide(): void {
         this.isShown = false;
         clearTimeout(this.timer);
-        this.search?.abort();
+        if (!this.search) return;
+        this.search.abort();
+        this.search = null;
+        this.isStale = true;
     }
 
     private opened(facts: Opened, work: Work): void {
@@ -161,35 +192,26 @@ class Variations {
     private showSettings(): void {
         const base = this.base;
         if (!base) return;
-        const had = document.activeElement instanceof HTMLElement && this.settings.contains(document.activeElement)
-            ? document.activeElement.id : "";
+        const had =
+            document.activeElement instanceof HTMLElement && this.settings.contains(document.activeElement)
+                ? document.activeElement.id
+                : "";
         this.settings.replaceChildren();
         this.again.hidden = this.mode === "values";
-        if (this.mode === "mutations") this.settings.append(this.lockRow(base.facts));
+        if (this.mode === "mutations") {
+            const all = [...parametersOf(base.facts), ...productionsOf(base.facts)];
+            this.settings.append(makeLocks(all, this.kept, (parameter, isKept) => this.keep(parameter, isKept)));
+        }
         if (this.mode === "values") this.settings.append(...this.axisRows(base.facts));
         const seedNote = !base.facts.is_random
-            ? "This pattern makes no random choices, so every seed draws the same. Productions with weights do: F --> FF : 0.8"
-            : this.isSeedLocked ? "The seed is locked." : "";
+            ? "This pattern makes no random choices, so every seed draws the same. " +
+              "Productions with weights do: F --> FF : 0.8"
+            : this.isSeedLocked
+              ? "The seed is locked."
+              : "";
         if (this.mode === "seeds" && seedNote !== "") this.settings.append(element("p", { class: "note" }, seedNote));
         this.settings.hidden = this.settings.childElementCount === 0;
         if (had !== "") document.getElementById(had)?.focus();
-    }
-
-    private lockRow(facts: Opened): HTMLElement {
-        const row = element("div", { class: "variations-locks", role: "group", "aria-label": "Keep as it is" },
-            element("span", { class: "variations-word" }, "Keep"));
-        for (const parameter of [...parametersOf(facts), ...productionsOf(facts)]) {
-            const text = parameter.kind === "production" ? shortened(parameter.label, 24)
-                : `${parameter.label}${parameter.label.endsWith("/") ? "" : " "}${parameter.value}`;
-            const isKept = this.kept.has(parameter.name);
-            const chip = element("button", {
-                type: "button", class: "chip", id: `keep-${parameter.name.replace(/\W+/g, "-")}`, "aria-pressed": String(isKept),
-                title: parameter.label,
-            }, lockIcon(), element("span", { class: parameter.kind === "production" ? "mono" : "" }, text));
-            chip.addEventListener("click", () => this.keep(parameter, !this.kept.has(parameter.name)));
-            row.append(chip);
-        }
-        return row;
     }
 
     // Values are locked everywhere, productions only here.
@@ -203,7 +225,9 @@ class Variations {
         this.restart();
     }
 
-    private get isSeedLocked(): boolean { return this.studio.store.work.locked?.includes("seed") ?? false; }
+    private get isSeedLocked(): boolean {
+        return this.studio.store.work.locked?.includes("seed") ?? false;
+    }
 
     private axisRows(facts: Opened): HTMLElement[] {
         const locked = this.studio.store.work.locked ?? [];
@@ -211,38 +235,17 @@ class Variations {
         const parameters = free.length > 0 ? free : parametersOf(facts);
         const preferred = [...parameters].sort((one, other) => rank(one) - rank(other));
         const choice = (old: AxisChoice | null, parameter: Parameter): AxisChoice =>
-            parameters.some(({ name }) => name === old?.parameter.name) ? old!
+            parameters.some(({ name }) => name === old?.parameter.name)
+                ? old!
                 : { parameter, ...rangeOf(parameter, facts.cost.most) };
         this.axes.across = choice(this.axes.across, preferred[0]!);
         this.axes.down = choice(this.axes.down, preferred[1] ?? preferred[0]!);
-        const row = (which: "across" | "down", label: string) => {
-            const axis = this.axes[which]!;
-            const select = element("select", { id: `vary-${which}`, "aria-label": `${label}: value` },
-                ...parameters.map(({ name, label: text }) =>
-                    element("option", { value: name, selected: name === axis.parameter.name }, text)));
-            select.addEventListener("change", () => {
-                const parameter = parameters.find(({ name }) => name === select.value)!;
-                this.axes[which] = { parameter, ...rangeOf(parameter, facts.cost.most) };
+        const row = (which: "across" | "down", label: string) =>
+            makeAxisRow(which, label, this.axes[which]!, parameters, (axis) => {
+                const isOther = axis.parameter !== this.axes[which]!.parameter;
+                this.axes[which] = isOther ? { ...axis, ...rangeOf(axis.parameter, facts.cost.most) } : axis;
                 this.restart();
             });
-            const end = (name: "from" | "to") => {
-                const input = element("input", {
-                    type: "text", inputmode: "decimal", class: "number", id: `vary-${which}-${name}`, value: String(axis[name]),
-                    "aria-label": `${label}: ${name}`,
-                });
-                input.addEventListener("change", () => {
-                    const value = Number(input.value);
-                    const isWrong = input.value.trim() === "" || !Number.isFinite(value);
-                    input.setAttribute("aria-invalid", String(isWrong));
-                    if (isWrong) return;
-                    this.axes[which] = { ...axis, [name]: value };
-                    this.restart();
-                });
-                return input;
-            };
-            return element("div", { class: "variations-axis" }, element("span", { class: "variations-word" }, label), select,
-                end("from"), element("span", { class: "variations-word", "aria-hidden": "true" }, "to"), end("to"));
-        };
         return [row("across", "Across"), row("down", "Down")];
     }
 
@@ -254,7 +257,7 @@ class Variations {
 
     private async run(): Promise<void> {
         this.search?.abort();
-        const search = this.search = new AbortController();
+        const search = (this.search = new AbortController());
         this.isStale = false;
         const base = this.base;
         if (!base || !this.isShown) return;
@@ -283,10 +286,17 @@ class Variations {
         };
         try {
             tried = await searchVariants(this.studio.engine, {
-                candidates: plan.candidates, count: plan.cells, most: plan.isFixed ? plan.cells : mostTried[kind],
+                candidates: plan.candidates,
+                count: plan.cells,
+                most: plan.isFixed ? plan.cells : mostTried[kind],
                 milliseconds: mostTime[kind],
-                side: Math.round(side * ratio), ratio, filters: this.filters, draw, isDistinct: !plan.isFixed && this.mode === "mutations",
-                signal: search.signal, onFound: add,
+                side: Math.round(side * ratio),
+                ratio,
+                filters: this.filters,
+                draw,
+                isDistinct: !plan.isFixed && this.mode === "mutations",
+                signal: search.signal,
+                onFound: add,
                 onTried: (count, valid) => {
                     if (search.signal.aborted || performance.now() - told < 400) return;
                     told = performance.now();
@@ -295,23 +305,35 @@ class Variations {
             });
         } catch (error) {
             if (search.signal.aborted) return;
-            this.studio.say(`The variants cannot be drawn: ${error instanceof Error ? error.message : String(error)}`, "error");
+            this.studio.say(
+                `The variants cannot be drawn: ${error instanceof Error ? error.message : String(error)}`,
+                "error",
+            );
         }
         if (search.signal.aborted) return;
+        this.search = null;
         this.tried = tried;
         for (const cell of cells) cell.classList.remove("waits");
         const shown = Math.min(found.length, plan.cells);
         this.element.dataset["milliseconds"] = String(Math.round(performance.now() - start));
-        this.status.textContent = shown === plan.cells ? ""
-            : shown === 0 ? `None of ${tried} variants is valid${this.filters.size > 0 ? " and passes the filters" : ""}`
-            : plan.isFixed ? `${shown} of ${plan.cells} are valid` : `${shown} found among ${tried}`;
+        this.status.textContent =
+            shown === plan.cells
+                ? ""
+                : shown === 0
+                  ? `None of ${tried} variants is valid${this.filters.size > 0 ? " and passes the filters" : ""}`
+                  : plan.isFixed
+                    ? `${shown} of ${plan.cells} are valid`
+                    : `${shown} found among ${tried}`;
         this.markTaken(pattern);
         const focused = cells.find((cell) => cell.tabIndex === 0 && !cell.disabled);
         if (!focused) cells.find((cell) => !cell.disabled)?.setAttribute("tabindex", "0");
     }
 
     private plan(base: { facts: Opened; work: Work }): Plan | null {
-        const { facts, work: { pattern } } = base;
+        const {
+            facts,
+            work: { pattern },
+        } = base;
         if (this.mode === "seeds") {
             if (!facts.is_random || this.isSeedLocked) return null;
             const from = BigInt(/^\d+$/.test(facts.seed) ? facts.seed : "0") + BigInt(this.first);
@@ -319,10 +341,13 @@ class Variations {
         }
         if (this.mode === "mutations") {
             const seed = 1;
-            const isAllKept = [...parametersOf(facts), ...productionsOf(facts)].every(({ name }) => this.kept.has(name));
+            const isAllKept = [...parametersOf(facts), ...productionsOf(facts)].every(({ name }) =>
+                this.kept.has(name),
+            );
             if (isAllKept) return null;
             return {
-                cells: count, isFixed: false,
+                cells: count,
+                isFixed: false,
                 candidates: (index) => {
                     const mutant = mutantOf(pattern, facts, this.kept, seed, this.first + index);
                     return mutant ? [mutant] : [];
@@ -334,7 +359,9 @@ class Variations {
         const down = this.axis(this.axes.down, count / columns);
         const wide = across.values.length;
         return {
-            cells: wide * down.values.length, isFixed: true, headings: { across, down },
+            cells: wide * down.values.length,
+            isFixed: true,
+            headings: { across, down },
             candidates: (index) => sheetVariants(pattern, across, down, index % wide, Math.floor(index / wide)),
         };
     }
@@ -344,9 +371,13 @@ class Variations {
         this.sheet.classList.toggle("of-values", !!headings);
         this.sheet.style.setProperty("--columns", String(headings ? headings.across.values.length : columns));
         const made = Array.from({ length: cells }, (_, index) => {
-            const cell = element("button", { type: "button", class: "card variant waits", disabled: true, tabindex: index === 0 ? 0 : -1 },
+            const cell = element(
+                "button",
+                { type: "button", class: "card variant waits", disabled: true, tabindex: index === 0 ? 0 : -1 },
                 element("canvas", { class: "picture", width: 1, height: 1, "aria-hidden": "true" }),
-                element("span", { class: "caption", "aria-hidden": "true" }, "\u00a0"), element("span", { class: "unseen" }, "Not drawn yet"));
+                element("span", { class: "caption", "aria-hidden": "true" }, "\u00a0"),
+                element("span", { class: "unseen" }, "Not drawn yet"),
+            );
             cell.addEventListener("click", () => this.take(cell));
             return cell;
         });
@@ -355,9 +386,15 @@ class Variations {
             return made;
         }
         const { across, down } = headings;
-        const children: HTMLElement[] = [element("span", { class: "variations-corner", "aria-hidden": "true" },
-            `${down.parameter.label} ↓  ${across.parameter.label} →`)];
-        for (const value of across.values) children.push(element("span", { class: "variations-heading number" }, value));
+        const children: HTMLElement[] = [
+            element(
+                "span",
+                { class: "variations-corner", "aria-hidden": "true" },
+                `${down.parameter.label} ↓  ${across.parameter.label} →`,
+            ),
+        ];
+        for (const value of across.values)
+            children.push(element("span", { class: "variations-heading number" }, value));
         down.values.forEach((value, row) => {
             children.push(element("span", { class: "variations-heading row number" }, value));
             children.push(...made.slice(row * across.values.length, (row + 1) * across.values.length));
@@ -400,13 +437,18 @@ class Variations {
         for (const each of this.cells) each.tabIndex = each === cell ? 0 : -1;
     }
 
-    private get cells(): HTMLButtonElement[] { return [...this.sheet.querySelectorAll<HTMLButtonElement>(".variant")]; }
+    private get cells(): HTMLButtonElement[] {
+        return [...this.sheet.querySelectorAll<HTMLButtonElement>(".variant")];
+    }
 
     private markTaken(pattern = this.studio.store.work.pattern): void {
         const text = JSON.stringify(pattern);
         for (const cell of this.cells) {
             const variant = this.variants.get(cell);
-            cell.setAttribute("aria-pressed", String(variant !== undefined && JSON.stringify(variant.pattern) === text));
+            cell.setAttribute(
+                "aria-pressed",
+                String(variant !== undefined && JSON.stringify(variant.pattern) === text),
+            );
         }
     }
 
@@ -416,7 +458,14 @@ class Variations {
         if (at < 0) return;
         const tops = new Set(cells.map((cell) => cell.offsetTop));
         const wide = Math.max(1, Math.round(cells.length / tops.size));
-        const step = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: wide, ArrowUp: -wide, Home: -at, End: cells.length - 1 - at }[event.key];
+        const step = {
+            ArrowRight: 1,
+            ArrowLeft: -1,
+            ArrowDown: wide,
+            ArrowUp: -wide,
+            Home: -at,
+            End: cells.length - 1 - at,
+        }[event.key];
         if (step === undefined) return;
         event.preventDefault();
         const sign = Math.sign(step) || 1;
@@ -429,8 +478,6 @@ class Variations {
     }
 }
 
-interface AxisChoice { readonly parameter: Parameter; readonly from: number; readonly to: number }
-
 interface Plan {
     readonly cells: number;
     readonly isFixed: boolean; // each candidate has its own cell
@@ -441,18 +488,4 @@ interface Plan {
 // Which values to begin with.
 function rank({ kind }: Parameter): number {
     return { define: 0, angle: 1, n: 2, seed: 3, production: 4 }[kind];
-}
-
-function shortened(text: string, most: number): string {
-    return text.length > most ? `${text.slice(0, most - 1)}…` : text;
-}
-
-function lockIcon(): SVGSVGElement {
-    const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    svg.setAttribute("viewBox", "0 0 16 16");
-    svg.setAttribute("aria-hidden", "true");
-    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-    path.setAttribute("d", lockPath);
-    svg.append(path);
-    return svg;
 }

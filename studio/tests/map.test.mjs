@@ -102,8 +102,12 @@ test("tiles cover the view, share their edges, and are found again", () => {
         const camera = { x: readExact("987654321987654321.75"), y: readExact("-55"), scale: scale * 1.2 };
         const tiles = seenTiles(camera, size, grid, scale);
         const boxes = tiles.map((tile) => tileBox(tile, camera, size, grid));
-        assert.ok(Math.min(...boxes.map((box) => box.left)) <= 0 && Math.max(...boxes.map((box) => box.right)) >= size.width);
-        assert.ok(Math.min(...boxes.map((box) => box.top)) <= 0 && Math.max(...boxes.map((box) => box.bottom)) >= size.height);
+        assert.ok(
+            Math.min(...boxes.map((box) => box.left)) <= 0 && Math.max(...boxes.map((box) => box.right)) >= size.width,
+        );
+        assert.ok(
+            Math.min(...boxes.map((box) => box.top)) <= 0 && Math.max(...boxes.map((box) => box.bottom)) >= size.height,
+        );
         const one = tiles[0];
         const next = tileWindow({ ...one, column: one.column + 1n }, grid);
         assert.equal(tileWindow(one, grid)[2], next[0]);
@@ -128,15 +132,37 @@ test("the cache keeps the pictures used last", () => {
 
 test("pages have the sizes of the program", () => {
     assert.deepEqual(sheetOf([]), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
-    assert.equal(sheetOf([["size", "a3"], ["landscape", "true"]]).width, 420);
+    assert.equal(
+        sheetOf([
+            ["size", "a3"],
+            ["landscape", "true"],
+        ]).width,
+        420,
+    );
     assert.equal(sheetOf([["size", "20cmx30cm"]]).height, 300);
-    assert.equal(sheetOf([["size", "300x200mm"], ["landscape", "true"]]).width, 300);
-    assert.equal(sheetOf([["size", "12x18in"], ["margin", "1cm"]]).margin, 10);
+    assert.equal(
+        sheetOf([
+            ["size", "300x200mm"],
+            ["landscape", "true"],
+        ]).width,
+        300,
+    );
+    assert.equal(
+        sheetOf([
+            ["size", "12x18in"],
+            ["margin", "1cm"],
+        ]).margin,
+        10,
+    );
     assert.equal(sheetOf([["size", "nonsense"]]).width, 210);
 });
 
 test("the plane lies as the drawing does on the page", () => {
-    const facts = { extent: ["0", "0", "31", "31"], is_spatial: false, keys: [{ name: "stroke", value: "1 step red" }] };
+    const facts = {
+        extent: ["0", "0", "31", "31"],
+        is_spatial: false,
+        keys: [{ name: "stroke", value: "1 step red" }],
+    };
     const sheet = sheetOf([["size", "100x100mm"]]);
     const laid = laidOut(sheet, size);
     const camera = cameraOfSheet(sheet, laid, size, facts, []);
@@ -148,28 +174,50 @@ test("the plane lies as the drawing does on the page", () => {
 
 // With the libraries, if they have been built.
 const built = join(dirname(fileURLToPath(import.meta.url)), "../../build/studio/sikku-bridge.wasm");
-test("tiles join without a seam", { skip: existsSync(built) ? false : "the libraries have not been built" }, async () => {
-    const { loadBridge } = await import("./load_bridge.mjs");
-    const bridge = await loadBridge();
-    const text = "derivation length: 60\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #f2e6cf\n";
-    const grid = tileGrid(1);
-    const side = grid.side;
-    for (const scale of [0.11, 3, 2 ** 45]) {
-        const tile = { scale, column: BigInt(Math.floor(-3e17 / (side * scale))), row: BigInt(Math.floor(5e17 / (side * scale))) };
-        const next = { ...tile, column: tile.column + 1n };
-        const [x0, y0, , y1] = tileWindow(tile, grid);
-        const [, , x1] = tileWindow(next, grid);
-        const pixels = (width, window) => bridge(JSON.stringify({
-            do: "pixels", width, height: side, window, pattern: { name: "hilbert.lsys", text },
-        })).bytes;
-        const both = pixels(2 * side, [x0, y0, x1, y1]);
-        for (const [index, each] of [tile, next].entries()) {
-            const bytes = pixels(side, tileWindow(each, grid));
-            for (let row = 0; row < side; ++row) {
-                const from = (2 * row + index) * side * 4;
-                assert.ok(Buffer.compare(bytes.subarray(row * side * 4, (row + 1) * side * 4), both.subarray(from, from + side * 4)) === 0,
-                    `scale ${scale}, row ${row}`);
+test(
+    "tiles join without a seam",
+    { skip: existsSync(built) ? false : "the libraries have not been built" },
+    async () => {
+        const { loadBridge } = await import("./load_bridge.mjs");
+        const bridge = await loadBridge();
+        const text =
+            "derivation length: 60\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n" +
+        "stroke: 0.3 step #f2e6cf\n";
+        const grid = tileGrid(1);
+        const side = grid.side;
+        for (const scale of [0.11, 3, 2 ** 45]) {
+            const tile = {
+                scale,
+                column: BigInt(Math.floor(-3e17 / (side * scale))),
+                row: BigInt(Math.floor(5e17 / (side * scale))),
+            };
+            const next = { ...tile, column: tile.column + 1n };
+            const [x0, y0, , y1] = tileWindow(tile, grid);
+            const [, , x1] = tileWindow(next, grid);
+            const pixels = (width, window) =>
+                bridge(
+                    JSON.stringify({
+                        do: "pixels",
+                        width,
+                        height: side,
+                        window,
+                        pattern: { name: "hilbert.lsys", text },
+                    }),
+                ).bytes;
+            const both = pixels(2 * side, [x0, y0, x1, y1]);
+            for (const [index, each] of [tile, next].entries()) {
+                const bytes = pixels(side, tileWindow(each, grid));
+                for (let row = 0; row < side; ++row) {
+                    const from = (2 * row + index) * side * 4;
+                    assert.ok(
+                        Buffer.compare(
+                            bytes.subarray(row * side * 4, (row + 1) * side * 4),
+                            both.subarray(from, from + side * 4),
+                        ) === 0,
+                        `scale ${scale}, row ${row}`,
+                    );
+                }
             }
         }
-    }
-});
+    },
+);

@@ -11,7 +11,9 @@ function glb(json, binary) {
     text = text.padEnd(Math.ceil(text.length / 4) * 4);
     const bytes = new Uint8Array(12 + 8 + text.length + 8 + binary.byteLength);
     const data = new DataView(bytes.buffer);
-    [0x46546c67, 2, bytes.length, text.length, 0x4e4f534a].forEach((value, index) => data.setUint32(4 * index, value, true));
+    [0x46546c67, 2, bytes.length, text.length, 0x4e4f534a].forEach((value, index) =>
+        data.setUint32(4 * index, value, true),
+    );
     bytes.set(new TextEncoder().encode(text), 20);
     data.setUint32(20 + text.length, binary.byteLength, true);
     data.setUint32(24 + text.length, 0x004e4942, true);
@@ -27,11 +29,13 @@ function triangle(change = () => {}) {
         meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 }, indices: 2, material: 0 }] }],
         materials: [{ pbrMetallicRoughness: { baseColorFactor: [0.1, 0.2, 0.3, 1] }, doubleSided: true }],
         accessors: [
-            { bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }, { bufferView: 1, componentType: 5126, count: 3, type: "VEC3" },
+            { bufferView: 0, componentType: 5126, count: 3, type: "VEC3" },
+            { bufferView: 1, componentType: 5126, count: 3, type: "VEC3" },
             { bufferView: 2, componentType: 5125, count: 3, type: "SCALAR" },
         ],
         bufferViews: [
-            { buffer: 0, byteOffset: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 36 },
+            { buffer: 0, byteOffset: 0, byteLength: 36 },
+            { buffer: 0, byteOffset: 36, byteLength: 36 },
             { buffer: 0, byteOffset: 72, byteLength: 12 },
         ],
     };
@@ -51,17 +55,39 @@ test("a model is read", () => {
 
 test("what is no model is refused", () => {
     const faults = {
-        "a corner that is missing": (_, binary) => { new Uint32Array(binary, 72)[1] = 3; },
-        "not finite": (_, binary) => { new Float32Array(binary)[4] = NaN; },
-        "beyond the end": (json) => { json.bufferViews[2].byteLength = json.accessors[2].count = 99; },
-        "another type": (json) => { json.accessors[0].componentType = 5125; },
-        "not a whole number": (json) => { json.accessors[2].count = 1.5; },
-        "a view is missing": (json) => { json.accessors[0].bufferView = 7; },
-        "a material is missing": (json) => { json.meshes[0].primitives[0].material = 1; },
-        "no list of materials": (json) => { delete json.materials; },
-        "a colour that is none": (json) => { json.materials[0].pbrMetallicRoughness.baseColorFactor = [9, 0, 0, 1]; },
-        "no triangles": (json) => { json.meshes[0].primitives = []; },
-        "without triangles": (json) => { json.meshes[0].primitives[0].mode = 1; },
+        "a corner that is missing": (_, binary) => {
+            new Uint32Array(binary, 72)[1] = 3;
+        },
+        "not finite": (_, binary) => {
+            new Float32Array(binary)[4] = NaN;
+        },
+        "beyond the end": (json) => {
+            json.bufferViews[2].byteLength = json.accessors[2].count = 99;
+        },
+        "another type": (json) => {
+            json.accessors[0].componentType = 5125;
+        },
+        "not a whole number": (json) => {
+            json.accessors[2].count = 1.5;
+        },
+        "a view is missing": (json) => {
+            json.accessors[0].bufferView = 7;
+        },
+        "a material is missing": (json) => {
+            json.meshes[0].primitives[0].material = 1;
+        },
+        "no list of materials": (json) => {
+            delete json.materials;
+        },
+        "a colour that is none": (json) => {
+            json.materials[0].pbrMetallicRoughness.baseColorFactor = [9, 0, 0, 1];
+        },
+        "no triangles": (json) => {
+            json.meshes[0].primitives = [];
+        },
+        "without triangles": (json) => {
+            json.meshes[0].primitives[0].mode = 1;
+        },
     };
     for (const [message, change] of Object.entries(faults)) {
         assert.throws(() => readModel(triangle(change)), new RegExp(message), message);
@@ -80,25 +106,36 @@ test("the eye is read and written as the key view", () => {
     assert.deepEqual(readEye("side"), { azimuth: 90, elevation: 0, distance: null });
     assert.deepEqual(readEye("top perspective"), { azimuth: 0, elevation: 90, distance: 4 });
     assert.deepEqual(readEye("-30,15,perspective,2.5"), { azimuth: -30, elevation: 15, distance: 2.5 });
-    for (const text of ["", "30", "30 95", "a b", "30 15 flat", "30 15 perspective 0.5", "front 1 2 3"]) assert.equal(readEye(text), null);
-    for (const text of ["30,15", "-12.5,0,perspective", "10,-90,perspective,2.5"]) assert.equal(eyeText(readEye(text)), text);
+    for (const text of ["", "30", "30 95", "a b", "30 15 flat", "30 15 perspective 0.5", "front 1 2 3"])
+        assert.equal(readEye(text), null);
+    for (const text of ["30,15", "-12.5,0,perspective", "10,-90,perspective,2.5"])
+        assert.equal(eyeText(readEye(text)), text);
     assert.equal(eyeText({ azimuth: 390, elevation: 0, distance: null }), "30,0");
     assert.equal(between(-190), 170);
 });
 
 test("the middle stays in the middle, what is right lies right, what is near lies before", () => {
     const at = (matrix, point) => {
-        const [x, y, z, w] = [0, 1, 2, 3].map((row) => point.reduce((sum, value, column) => sum + matrix[column * 4 + row] * value, matrix[12 + row]));
+        const [x, y, z, w] = [0, 1, 2, 3].map((row) =>
+            point.reduce((sum, value, column) => sum + matrix[column * 4 + row] * value, matrix[12 + row]),
+        );
         return [x / w, y / w, z / w];
     };
     const middle = [1, 2, 3];
     for (const distance of [null, 40]) {
         const matrix = seenBy(axes(90, 0), middle, { across: 10, up: 10, deep: 20 }, distance);
-        assert.ok(at(matrix, middle).slice(0, 2).every((value) => Math.abs(value) < 1e-6));
+        assert.ok(
+            at(matrix, middle)
+                .slice(0, 2)
+                .every((value) => Math.abs(value) < 1e-6),
+        );
         const right = at(matrix, [1, 2, -2]); // seen from the side, z lies to the left
         assert.ok(Math.abs(right[0] - 0.5) < 1e-6 && Math.abs(right[1]) < 1e-6);
         assert.ok(at(matrix, [5, 2, 3])[2] < at(matrix, [-5, 2, 3])[2]);
         assert.ok(Math.abs(at(matrix, [5, 2, 3])[2]) < 1);
     }
-    assert.deepEqual(towards(0, 0).map((value) => Math.round(value)), [0, 0, 1]);
+    assert.deepEqual(
+        towards(0, 0).map((value) => Math.round(value)),
+        [0, 0, 1],
+    );
 });

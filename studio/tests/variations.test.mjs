@@ -5,10 +5,24 @@ import { load } from "./load.mjs";
 
 const { Chance } = await load("chance");
 const { modulesOf, isBalanced, alphabetOf, mutated, withSuccessor, otherAngle, otherNumber } = await load("mutations");
-const { parametersOf, rangeOf, valuesOf, sheetVariants, mutantOf, seedVariant, withSetting, changedPart } = await load("variants");
+const { parametersOf, rangeOf, valuesOf, sheetVariants, mutantOf, seedVariant, withSetting, changedPart } =
+    await load("variants");
 
 test("words are read as modules", () => {
-    assert.deepEqual(modulesOf("F[+F]@O(2)F(x*(y+1), 2)Apex!"), ["F", "[", "+", "F", "]", "@O(2)", "F(x*(y+1), 2)", "A", "p", "e", "x", "!"]);
+    assert.deepEqual(modulesOf("F[+F]@O(2)F(x*(y+1), 2)Apex!"), [
+        "F",
+        "[",
+        "+",
+        "F",
+        "]",
+        "@O(2)",
+        "F(x*(y+1), 2)",
+        "A",
+        "p",
+        "e",
+        "x",
+        "!",
+    ]);
     assert.deepEqual(modulesOf("Apex(1) F", ["Apex"]), ["Apex(1)", "F"]);
     assert.deepEqual(modulesOf("F(1"), ["F(1"]);
     assert.ok(isBalanced(modulesOf("F[+F]{-f}")));
@@ -19,7 +33,10 @@ test("words are read as modules", () => {
 test("chance is repeatable and even", () => {
     const one = new Chance(7, 3);
     const other = new Chance(7, 3);
-    assert.deepEqual(Array.from({ length: 5 }, () => one.share()), Array.from({ length: 5 }, () => other.share()));
+    assert.deepEqual(
+        Array.from({ length: 5 }, () => one.share()),
+        Array.from({ length: 5 }, () => other.share()),
+    );
     const chance = new Chance(1);
     const counts = new Array(10).fill(0);
     for (let index = 0; index < 10000; ++index) ++counts[chance.below(10)];
@@ -38,7 +55,10 @@ test("mutations are balanced, new, made of known modules, and repeatable", () =>
             const modules = modulesOf(made);
             assert.notEqual(made, successor);
             assert.ok(isBalanced(modules), made);
-            assert.ok(modules.every((module) => known.has(module)), made);
+            assert.ok(
+                modules.every((module) => known.has(module)),
+                made,
+            );
             all.add(made);
         }
         assert.ok(all.size > (successor === "F" ? 2 : 5), `${successor}: ${all.size}`);
@@ -48,7 +68,10 @@ test("mutations are balanced, new, made of known modules, and repeatable", () =>
 
 test("a successor is replaced in its line only", () => {
     const text = "axiom: F\nF --> F+F : 0.5\nF --> F-F : 0.5\n";
-    assert.equal(withSuccessor(text, { line: 3, successor: "F-F" }, "FF"), "axiom: F\nF --> F+F : 0.5\nF --> FF : 0.5\n");
+    assert.equal(
+        withSuccessor(text, { line: 3, successor: "F-F" }, "FF"),
+        "axiom: F\nF --> F+F : 0.5\nF --> FF : 0.5\n",
+    );
     assert.equal(withSuccessor("F<F>F --> F", { line: 1, successor: "F" }, "G"), "F<F>F --> G");
     assert.equal(withSuccessor("F --> F \\\n  +F", { line: 1, successor: "F" }, "G"), null);
     assert.equal(withSuccessor("F --> /* a */ F", { line: 1, successor: "F" }, "G"), null);
@@ -67,16 +90,34 @@ test("other angles and numbers stay near", () => {
 });
 
 const facts = {
-    n: "4", seed: "3", is_random: true, cost: { most: "12" },
-    defines: [{ name: "r", value: "0.5" }, { name: "word", value: "a*2" }],
-    keys: [{ name: "angle factor", value: "4" }, { name: "axiom", value: "X" }],
-    productions: [{ line: 2, predecessor: "X", successor: "F+X" }, { line: 3, predecessor: "F", successor: "FF" }],
+    n: "4",
+    seed: "3",
+    is_random: true,
+    cost: { most: "12" },
+    defines: [
+        { name: "r", value: "0.5" },
+        { name: "word", value: "a*2" },
+    ],
+    keys: [
+        { name: "angle factor", value: "4" },
+        { name: "axiom", value: "X" },
+    ],
+    productions: [
+        { line: 2, predecessor: "X", successor: "F+X" },
+        { line: 3, predecessor: "F", successor: "FF" },
+    ],
 };
 const pattern = { name: "a.lsys", text: "axiom: X\nX --> F+X\nF --> FF\n", variant: "", settings: [["r", "0.4"]] };
 
 test("parameters are those that can be varied", () => {
-    assert.deepEqual(parametersOf(facts).map(({ name }) => name), ["derivation length", "angle factor", "seed", "r"]);
-    assert.deepEqual(parametersOf({ ...facts, keys: [{ name: "angle increment", value: "360/7" }] })[1].value, String(360 / 7));
+    assert.deepEqual(
+        parametersOf(facts).map(({ name }) => name),
+        ["derivation length", "angle factor", "seed", "r"],
+    );
+    assert.deepEqual(
+        parametersOf({ ...facts, keys: [{ name: "angle increment", value: "360/7" }] })[1].value,
+        String(360 / 7),
+    );
 });
 
 test("ranges lie about the value and within the budget", () => {
@@ -95,7 +136,10 @@ test("a sheet has a variant in each cell, and others near it", () => {
     const across = { parameter: r, values: ["0.3", "0.6"] };
     const down = { parameter: n, values: ["2", "6"] };
     const [first, ...others] = sheetVariants(pattern, across, down, 1, 0);
-    assert.deepEqual(first.pattern.settings, [["r", "0.6"], ["derivation length", "2"]]);
+    assert.deepEqual(first.pattern.settings, [
+        ["r", "0.6"],
+        ["derivation length", "2"],
+    ]);
     assert.ok(others.length > 0 && others.every(({ label }) => label !== first.label));
 });
 
@@ -110,7 +154,10 @@ test("mutants keep what is kept, and come again", () => {
     }
     const all = new Set([...kept, "production 0"]);
     assert.equal(mutantOf(pattern, facts, all, 9, 0), null);
-    assert.deepEqual(seedVariant(pattern, 3n, 2).pattern.settings, [["r", "0.4"], ["seed", "5"]]);
+    assert.deepEqual(seedVariant(pattern, 3n, 2).pattern.settings, [
+        ["r", "0.4"],
+        ["seed", "5"],
+    ]);
     assert.deepEqual(withSetting(pattern, "r", "1").settings, [["r", "1"]]);
 });
 

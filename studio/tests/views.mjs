@@ -8,11 +8,21 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
-const { values, positionals } = parseArgs({ allowPositionals: true, options: { measure: { type: "boolean", default: false } } });
+const { values, positionals } = parseArgs({
+    allowPositionals: true,
+    options: { measure: { type: "boolean", default: false } },
+});
 const address = pathToFileURL(resolve(positionals[0] ?? join(root, "build/studio/sikku-studio.html"))).href;
 const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-quic",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ],
 });
 
 const pattern = (path) => readFileSync(join(root, "patterns", `${path}.lsys`), "utf8");
@@ -26,11 +36,17 @@ async function open(path, { settings = [], place = null, panel = "map", reducedM
     page.on("pageerror", (error) => page.problems.push(error.message));
     const work = {
         pattern: { name: `${path.split("/")[1]}.lsys`, text: pattern(path), variant: "", settings },
-        draw: [], play: [], place, panel,
+        draw: [],
+        play: [],
+        place,
+        panel,
     };
-    await page.addInitScript((saved) => {
-        if (!localStorage.getItem("sikku-studio")) localStorage.setItem("sikku-studio", saved);
-    }, JSON.stringify({ steps: [{ work, label: "Start", time: 1 }], at: 0 }));
+    await page.addInitScript(
+        (saved) => {
+            if (!localStorage.getItem("sikku-studio")) localStorage.setItem("sikku-studio", saved);
+        },
+        JSON.stringify({ steps: [{ work, label: "Start", time: 1 }], at: 0 }),
+    );
     await page.goto(address);
     await page.getByRole("tab", { name: "Gallery" }).waitFor();
     if (panel === "map") await page.waitForSelector(".map-canvas[data-shows]");
@@ -43,15 +59,19 @@ async function close(page) {
 }
 
 const map = (page) => page.locator(".map-canvas");
-const described = (page, text) => page.waitForFunction(
-    ([selector, part]) => document.querySelector(selector)?.getAttribute("aria-label").includes(part), [".map-canvas", text]);
-const kept = (page) => page.evaluate(() => {
-    const { steps, at } = JSON.parse(localStorage.getItem("sikku-studio"));
-    return steps[at].work;
-});
+const described = (page, text) =>
+    page.waitForFunction(
+        ([selector, part]) => document.querySelector(selector)?.getAttribute("aria-label").includes(part),
+        [".map-canvas", text],
+    );
+const kept = (page) =>
+    page.evaluate(() => {
+        const { steps, at } = JSON.parse(localStorage.getItem("sikku-studio"));
+        return steps[at].work;
+    });
 const variants = (page) => page.locator(".variant:not([disabled])");
-const found = (page, count) => page.waitForFunction(
-    (wanted) => document.querySelectorAll(".variant:not([disabled])").length === wanted, count);
+const found = (page, count) =>
+    page.waitForFunction((wanted) => document.querySelectorAll(".variant:not([disabled])").length === wanted, count);
 
 const tests = {
     async "a drawing of 10^36 segments is zoomed from the page to its steps and back"() {
@@ -105,7 +125,10 @@ const tests = {
         await described(page, "a part");
         const before = await map(page).getAttribute("aria-label");
         await page.keyboard.press("Shift+ArrowRight");
-        await page.waitForFunction((text) => document.querySelector(".map-canvas").getAttribute("aria-label") !== text, before);
+        await page.waitForFunction(
+            (text) => document.querySelector(".map-canvas").getAttribute("aria-label") !== text,
+            before,
+        );
         for (let press = 0; press < 4; ++press) await page.keyboard.press("Shift+ArrowRight");
         await page.locator(".map-problem", { hasText: "outside this view" }).waitFor();
         await page.keyboard.press("f");
@@ -185,13 +208,18 @@ const tests = {
         await page.getByRole("button", { name: "Two values" }).click();
         await found(page, 24);
         await page.getByLabel("Across: value").selectOption("alpha1");
-        await page.waitForFunction(() => document.querySelector(".variant:not([disabled])")?.title.startsWith("alpha1"));
+        await page.waitForFunction(() =>
+            document.querySelector(".variant:not([disabled])")?.title.startsWith("alpha1"),
+        );
         await found(page, 24);
         await close(page);
         const random = await open("plants/stochastic-branches", { panel: "variations" });
         await random.getByRole("button", { name: "Seeds" }).click();
         await found(random, 24);
-        await random.getByRole("button", { name: /Take seed/ }).nth(5).click();
+        await random
+            .getByRole("button", { name: /Take seed/ })
+            .nth(5)
+            .click();
         await random.waitForTimeout(700);
         assert.equal((await kept(random)).pattern.settings[0][0], "seed");
         await close(random);
@@ -200,7 +228,10 @@ const tests = {
 
 // Frames and times; each machine has its own.
 async function measure() {
-    const page = await open("curves/hilbert", { settings: [["derivation length", "60"]], reducedMotion: "no-preference" });
+    const page = await open("curves/hilbert", {
+        settings: [["derivation length", "60"]],
+        reducedMotion: "no-preference",
+    });
     await page.waitForTimeout(1000);
     const frames = async (what, act) => {
         await page.evaluate(() => {
@@ -214,12 +245,15 @@ async function measure() {
             window.ticking = requestAnimationFrame(tick);
         });
         await act();
-        const taken = (await page.evaluate(() => {
-            cancelAnimationFrame(window.ticking);
-            return window.frames_taken.slice(1);
-        })).sort((one, other) => one - other);
+        const taken = (
+            await page.evaluate(() => {
+                cancelAnimationFrame(window.ticking);
+                return window.frames_taken.slice(1);
+            })
+        ).sort((one, other) => one - other);
         const mean = taken.reduce((sum, each) => sum + each, 0) / taken.length;
-        console.log(`${what}: ${(1000 / mean).toFixed(0)} frames a second, 95 % within ${taken[Math.floor(taken.length * 0.95)].toFixed(0)} ms`);
+        const slow = taken[Math.floor(taken.length * 0.95)];
+        console.log(`${what}: ${(1000 / mean).toFixed(0)} frames a second, 95 % within ${slow.toFixed(0)} ms`);
     };
     const box = await map(page).boundingBox();
     await page.mouse.move(box.x + box.width / 2 + 37, box.y + box.height / 2 + 11);

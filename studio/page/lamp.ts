@@ -1,0 +1,50 @@
+// The light on a drawing in space, with its controls.
+import { element } from "./elements";
+import { between } from "./eye";
+
+/// Where the light comes from: degrees around the drawing and up.
+export interface Light {
+    readonly azimuth: number;
+    readonly elevation: number;
+}
+
+export const usualLight: Light = { azimuth: -38, elevation: 46 };
+const lowest = 5; // degrees: lower, shadows have no end
+
+export function boundedLight({ azimuth, elevation }: Light): Light {
+    return { azimuth: between(azimuth), elevation: Math.max(lowest, Math.min(90, elevation)) };
+}
+
+export function makeLamp(change: (light: Light) => void): { element: HTMLElement; show(light: Light): void } {
+    let light = usualLight;
+    const slider = (id: string, least: number, most: number, part: keyof Light) => {
+        const input = element("input", { type: "range", id, min: least, max: most, step: 1 });
+        input.addEventListener("input", () => {
+            light = { ...light, [part]: Number(input.value) };
+            change(light);
+        });
+        const show = () => {
+            input.value = String(Math.round(light[part]));
+            input.style.setProperty("--at", `${(100 * (light[part] - least)) / (most - least)}%`);
+        };
+        return { input, show };
+    };
+    const around = slider("space-light-around", -180, 180, "azimuth");
+    const height = slider("space-light-height", lowest, 90, "elevation");
+    const field = (label: string, input: HTMLInputElement) =>
+        element("div", { class: "field" }, element("label", { for: input.id }, label), input);
+    const fields = element(
+        "div",
+        { class: "space-light-fields" },
+        field("Direction", around.input),
+        field("Height", height.input),
+    );
+    return {
+        element: element("details", { class: "space-light" }, element("summary", {}, "Light"), fields),
+        show(now) {
+            light = now;
+            around.show();
+            height.show();
+        },
+    };
+}
