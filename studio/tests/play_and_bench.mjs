@@ -95,7 +95,7 @@ async function play() {
     await page.fill('[aria-label="Loop to bar"]', "2");
     await page.keyboard.press("Tab");
     await page.click('[aria-label="Stop, and go to the beginning"]');
-    assert.match(await text(".play-place"), /^Bar 2 of 16, beat 1/);
+    await until(() => /^Bar 2 of 16, beat 1/.test(document.querySelector(".play-place").textContent));
     await page.fill('[aria-label="Tempo, quarters a minute"]', "300");
     await page.keyboard.press("Enter");
     await page.click(".play-main");
