@@ -4,7 +4,7 @@ import { openDialog } from "./dialog";
 import { byId, element } from "./elements";
 import { bytes as sizeOf } from "./numbers_shown";
 import { openPattern } from "./opening";
-import type { Imported, Shown } from "./protocol";
+import type { Imported, PatternRequest, Shown } from "./protocol";
 import { keepScale } from "./scales";
 
 const largest_file = 64 * 1024 * 1024;
@@ -50,13 +50,25 @@ async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promi
 
 async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
     const { json } = await studio.engine.request<Shown>({ do: "show", name }, { bytes });
-    const pattern = {
-        name: name.replace(/\.\w+$/, ".lsys"),
-        text: json.text,
-        variant: json.variant,
-        settings: json.settings,
-    };
-    openPattern(studio, pattern);
+    openPattern(studio, { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, ...valuesOf(json.made) });
+}
+
+// The values that a print was made with, as options of the program: "sikku 0.1.0, -n 3 --set 'stroke=0.5mm red'".
+function valuesOf(made: string): Pick<PatternRequest, "variant" | "settings"> {
+    const words = [...made.matchAll(/'((?:[^']|'\\'')*)'|(\S+)/g)].map(
+        (word) => word[1]?.replaceAll("'\\''", "'") ?? word[2]!,
+    );
+    const settings: [string, string][] = [];
+    let variant = "";
+    for (let at = 0; at + 1 < words.length; ++at) {
+        const [option, value] = [words[at]!, words[at + 1]!];
+        if (option === "-n") settings.push(["derivation length", value]);
+        if (option === "--seed") settings.push(["seed", value]);
+        if (option === "--variant") variant = value;
+        if (option === "--set")
+            settings.push([value.slice(0, value.indexOf("=")), value.slice(value.indexOf("=") + 1)]);
+    }
+    return { variant, settings };
 }
 
 async function openCollection(studio: Studio, name: string, bytes: Uint8Array, all: File[]): Promise<void> {

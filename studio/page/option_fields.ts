@@ -33,26 +33,26 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
     const help = element("p", { class: "option-help", id: `${id}-help` }, capital(option.help));
     const name = capital(option.name.replaceAll("-", " "));
     const onlyValue = /^[a-z]+$/.test(option.value) ? option.value : "";
-    const hasBox = option.kind === "flag" || option.value.startsWith("[") || onlyValue !== "";
-    if (hasBox) {
-        const on = onlyValue || "true";
+    const mayBeEmpty = option.value.startsWith("["); // the value may be left out: `--dots`, `--dots=2mm`
+    if (option.kind === "flag" || mayBeEmpty || onlyValue !== "") {
+        const on = mayBeEmpty ? "" : onlyValue || "true";
         const box = element("input", { type: "checkbox", id, "aria-describedby": help.id });
         box.checked = value === undefined ? option.is_on : value !== "false";
         box.addEventListener("change", () =>
             act(option.name, box.checked === option.is_on ? null : box.checked ? on : "false"),
         );
         const row = element("div", { class: "field" }, element("label", { class: "switch", for: id }, box, name), help);
-        if (!option.value.startsWith("[")) return row;
+        if (!mayBeEmpty) return row;
         const detail = element("input", {
             type: "text",
             "aria-label": `${name}, value`,
             placeholder: option.value.slice(1, -1).toLowerCase(),
             spellcheck: "false",
-            value: value === undefined || value === "true" ? "" : value,
+            value: value ?? "",
         });
         detail.addEventListener("change", () => {
             box.checked = true;
-            act(option.name, detail.value.trim() || "true");
+            act(option.name, detail.value.trim());
         });
         row.insertBefore(detail, help);
         return row;

@@ -317,13 +317,15 @@ test("export writes the file and tells the command", async ({ page }) => {
     await dialog.getByRole("combobox", { name: "Size", exact: true }).fill("A3");
     await dialog.getByRole("checkbox", { name: "Landscape" }).check();
     await dialog.locator(".command", { hasText: "--size A3 --landscape" }).waitFor();
+    await dialog.locator("summary", { hasText: "Kolams and growth" }).click();
+    await dialog.getByRole("checkbox", { name: "Dots", exact: true }).check();
+    await dialog.locator(".command", { hasText: "--landscape --dots" }).waitFor();
     const save = dialog.getByRole("button", { name: /^Save .*\.svg/ });
     await save.waitFor();
     const [download] = await Promise.all([page.waitForEvent("download"), save.click()]);
     const svg = readFileSync(await download.path(), "utf8");
     assert.match(svg, /<svg[^>]*width="420mm"/);
     await screenshot(page, "export");
-    shared.svg = svg;
     await dialog.getByText("G-code", { exact: true }).click();
     await dialog.locator(".remarks", { hasText: "drawn" }).waitFor();
     await dialog.getByRole("button", { name: /^Save .*\.gcode/ }).waitFor();
@@ -332,14 +334,24 @@ test("export writes the file and tells the command", async ({ page }) => {
     await dialog.waitFor({ state: "detached" });
 });
 
-test("a print that is dropped gives its pattern back", async ({ page, svg }) => {
+test("a print that is dropped gives its pattern and values back", async ({ page }) => {
     const before = await textOf(page);
+    await page.getByRole("textbox", { name: "n, value" }).fill("3");
+    await page.keyboard.press("Enter");
+    await page.getByRole("button", { name: "Export" }).click();
+    await page.getByText("SVG", { exact: true }).click();
+    const save = page.getByRole("button", { name: /^Save .*\.svg/ });
+    const [download] = await Promise.all([page.waitForEvent("download"), save.click()]);
+    const svg = readFileSync(await download.path(), "utf8");
+    await page.keyboard.press("Escape");
     await page.getByRole("button", { name: "Open", exact: true }).click();
     await page.getByRole("menuitem", { name: "New pattern" }).click();
     await page.locator("#work-title", { hasText: "A curve of mine" }).waitFor();
     await dropFile(page, "print.svg", svg);
     await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
     assert.equal((await textOf(page)).trim(), before.trim());
+    assert.equal(await slider(page, "n").inputValue(), "3");
+    await page.getByRole("button", { name: "Reset n" }).click();
 });
 
 test("a link holds everything and runs nothing before it is opened", async ({ page }) => {
@@ -423,17 +435,22 @@ for (const colorScheme of ["light", "dark"]) {
 }
 
 test("patterns that the program wrote into the page are open and in the gallery", async () => {
-    const own = JSON.stringify([{
-        name: "own.lsys",
-        text: "title: My </script> own\naxiom: F\nF --> F+F\n",
-        settings: [["derivation length", "3"]],
-    }]);
+    const own = JSON.stringify([
+        {
+            name: "own.lsys",
+            text: "title: My </script> own\naxiom: F\nF --> F+F\n",
+            settings: [["derivation length", "3"]],
+        },
+    ]);
     const folder = mkdtempSync(join(tmpdir(), "sikku-studio-"));
     const file = join(folder, "own.html");
     const page_text = readFileSync(fileURLToPath(address), "utf8");
     const slot = 'id="sikku-patterns">';
     assert.ok(page_text.includes(`${slot}[]<`));
-    writeFileSync(file, page_text.replace(`${slot}[]`, () => slot + own.replaceAll("<", "\\u003c")));
+    writeFileSync(
+        file,
+        page_text.replace(`${slot}[]`, () => slot + own.replaceAll("<", "\\u003c")),
+    );
     const page = await openStudio({ at: pathToFileURL(file).href });
     await page.locator("#work-title", { hasText: "My </script> own" }).waitFor();
     await page.getByRole("tab", { name: "Gallery" }).click();
@@ -456,13 +473,23 @@ async function measure() {
                 return draw.apply(this, given);
             };
         }
-        addEventListener("keydown", () => { globalThis.pressed = performance.now(); globalThis.draws.length = 0; }, true);
+        addEventListener(
+            "keydown",
+            () => {
+                globalThis.pressed = performance.now();
+                globalThis.draws.length = 0;
+            },
+            true,
+        );
     });
     const page = await openStudio({ context });
     await page.waitForFunction(() => globalThis.draws.length > 0);
     console.log(`first picture after ${Math.round(await page.evaluate(() => globalThis.draws[0]))} ms`);
     for (const n of [7, 10]) {
-        await setText(page, `derivation length: ${n}\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #8c3b24`);
+        await setText(
+            page,
+            `derivation length: ${n}\nangle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nstroke: 0.3 step #8c3b24`,
+        );
         await page.waitForTimeout(1500);
         const times = [];
         for (const key of ["Backspace", "5", "Backspace", "6", "Backspace", "4"]) {
@@ -481,7 +508,9 @@ async function measure() {
             }
             return new Set(globalThis.draws.map(Math.round)).size / 2;
         });
-        console.log(`n = ${n}, ${await cost(page)}: keystroke to picture ${times.join(", ")} ms; dragging ${frames} pictures a second`);
+        console.log(
+            `n = ${n}, ${await cost(page)}: keystroke to picture ${times.join(", ")} ms; dragging ${frames} pictures a second`,
+        );
     }
     await page.getByRole("tab", { name: "Gallery" }).click();
     const gallery = await page.evaluate(async () => {
