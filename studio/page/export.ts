@@ -47,6 +47,7 @@ const openAtFirst: Record<string, RegExp> = {
     Model: /^Page/,
     Score: /^Passage/,
 };
+const preview_size = 440; // pixels
 const pause = 200; // milliseconds after a change before the file is made again
 
 let chosen = "draw svg"; // remembered while the page is open
@@ -91,8 +92,8 @@ class Export {
     private readonly dialog: Dialog;
     private readonly preview = element("canvas", {
         class: "export-preview",
-        width: 440,
-        height: 440,
+        width: preview_size,
+        height: preview_size,
         role: "img",
         "aria-label": "The page",
     });
@@ -321,10 +322,11 @@ class Export {
         try {
             await drawInto(
                 this.preview,
+                preview_size,
                 this.application.engine,
                 this.application.store.work.pattern,
                 this.optionsNow(),
-                { key: "export-preview" },
+                "export-preview",
             );
         } catch {
             // the remarks say why

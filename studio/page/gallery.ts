@@ -4,10 +4,14 @@ import { button, element } from "./elements";
 import { given_kind, openGiven } from "./given";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
-import type { PatternEntry } from "./protocol";
+import type { Options, PatternEntry } from "./protocol";
 import { drawInto } from "./thumbnails";
 
-const picture_size = 256;
+const picture_size = 256; // pixels
+const square_page: Options = [
+    ["size", "120x120mm"],
+    ["margin", "6mm"],
+];
 
 class Card {
     readonly element: HTMLButtonElement;
@@ -64,11 +68,13 @@ class Card {
         if (this.isDrawn) return;
         this.isDrawn = true;
         try {
-            await drawInto(this.canvas, studio.engine, { name: `${this.entry.name}.lsys`, text: this.entry.text }, []);
+            const pattern = { name: `${this.entry.name}.lsys`, text: this.entry.text };
+            await drawInto(this.canvas, picture_size, studio.engine, pattern, square_page);
             this.canvas.classList.add("drawn");
         } catch (error) {
-            this.canvas.replaceWith(this.wordCard()); // a system of words only
-            if (!(error instanceof RequestFailed)) this.isDrawn = false;
+            if (error instanceof RequestFailed)
+                this.canvas.replaceWith(this.wordCard()); // nothing to draw
+            else this.isDrawn = false;
         }
     }
 }

@@ -82,7 +82,7 @@ async function drawMissing(application: Application, popover: HTMLElement): Prom
 async function drawStep(application: Application, work: Work): Promise<void> {
     const canvas = element("canvas", { width: picture_size, height: picture_size });
     try {
-        await drawInto(canvas, application.engine, work.pattern, work.draw, { key: "history" });
+        await drawInto(canvas, picture_size, application.engine, work.pattern, work.draw, "history");
         application.store.picture(work, canvas.toDataURL("image/webp", 0.8));
     } catch {
         // the step stays without a picture

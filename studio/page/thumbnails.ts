@@ -2,17 +2,18 @@
 import type { Engine } from "./context";
 import type { Options, PatternRequest, Pixels } from "./protocol";
 
-/// Draws a pattern's page into a canvas of its size; false if it was given up.
+/// Draws a pattern's page into a canvas, which gets the page's proportions and at most `size` pixels on each side.
 export async function drawInto(
     canvas: HTMLCanvasElement,
+    size: number,
     engine: Engine,
     pattern: PatternRequest,
     options: Options,
-    request: { key?: string; signal?: AbortSignal } = {},
-): Promise<boolean> {
+    key?: string,
+): Promise<void> {
     const { json, bytes } = await engine.request<Pixels>(
-        { do: "pixels", width: canvas.width, height: canvas.height, options, pattern },
-        { lane: "back", seconds: 10, ...request },
+        { do: "pixels", width: size, height: size, options, pattern },
+        { lane: "back", seconds: 10, ...(key === undefined ? {} : { key }) },
     );
     canvas.width = json.width;
     canvas.height = json.height;
@@ -22,5 +23,4 @@ export async function drawInto(
         json.height,
     );
     canvas.getContext("2d")!.putImageData(pixels, 0, 0);
-    return true;
 }
