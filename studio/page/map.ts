@@ -109,8 +109,11 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
         canvas.setAttribute("aria-label", parts.filter((part) => part !== "").join(", "));
     }
     return () => {
-        clearTimeout(timer);
-        timer = window.setTimeout(describe, describeAfter);
+        if (timer !== 0) return;
+        timer = window.setTimeout(() => {
+            timer = 0;
+            describe();
+        }, describeAfter);
     };
 }
 

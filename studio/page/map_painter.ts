@@ -7,6 +7,7 @@ import type { Laid } from "./sheet";
 export interface Overview {
     readonly kind: "page" | "plane";
     readonly name: string; // of what it shows
+    readonly pattern: string; // name of the pattern
     readonly bitmap: Bitmap;
     readonly ratio: number;
     readonly camera: Camera | null; // of a page: under which the plane lies as the drawing does
@@ -65,6 +66,13 @@ export class Painter {
         const [left, top] = place(laid.left, laid.top);
         const [right, bottom] = place(laid.left + laid.width, laid.top + laid.height);
         this.sheet(overview, { left, top, width: right - left, height: bottom - top }, 1);
+    }
+
+    /// A sheet on which there is nothing.
+    blank(laid: Laid): void {
+        const { ratio } = this;
+        this.context.fillStyle = "#fff";
+        this.context.fillRect(laid.left * ratio, laid.top * ratio, laid.width * ratio, laid.height * ratio);
     }
 
     private sheet(overview: Overview, { left, top, width, height }: Box, shade: number): void {

@@ -350,7 +350,17 @@ export class MapView {
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
-            (bitmap) => ({ kind: "page", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }),
+            (bitmap) => ({
+                kind: "page",
+                name,
+                pattern: work.pattern.name,
+                bitmap,
+                ratio,
+                camera,
+                size,
+                laid,
+                ground: this.groundOf(work),
+            }),
         );
     }
 
@@ -383,7 +393,17 @@ export class MapView {
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
-            (bitmap) => ({ kind: "plane", name, bitmap, ratio, camera, size, laid, ground: this.groundOf(work) }),
+            (bitmap) => ({
+                kind: "plane",
+                name,
+                pattern: work.pattern.name,
+                bitmap,
+                ratio,
+                camera,
+                size,
+                laid,
+                ground: this.groundOf(work),
+            }),
         );
     }
 
@@ -399,6 +419,12 @@ export class MapView {
     private fail(error: unknown): void {
         const isOfText = error instanceof RequestFailed && error.failure.kind === "pattern"; // the editor shows it
         this.problem = isOfText ? "" : error instanceof Error ? error.message : String(error);
+        // The last picture stays, unless it is of another pattern.
+        if (!isOfText && this.overview && this.overview.pattern !== this.work.pattern.name) {
+            this.overview.bitmap.close();
+            this.overview = null;
+        }
+        this.draw();
         this.onChange();
     }
 
@@ -443,7 +469,10 @@ export class MapView {
     private paint(now: number): void {
         const { overview, painter } = this;
         painter.clear();
-        if (!overview) return;
+        if (!overview) {
+            if (this.problem !== "") painter.blank(this.laid);
+            return;
+        }
         this.tell(overview);
         if (this.mode === "page" && overview.kind === "page") {
             painter.page(overview, this.laid, this.size, this.loupe);

@@ -140,7 +140,7 @@ async function drawn(
             bytes.byteOffset,
             json.width * json.height * 4,
         );
-        return new ImageData(values, json.width, json.height);
+        return isBlank(values) ? null : new ImageData(values, json.width, json.height);
     } catch (error) {
         if (isAbort(error) || error instanceof RequestFailed) return null; // not a valid variant
         throw error;
@@ -166,6 +166,18 @@ async function passes(
         (!wanted.has("avoiding") || (json.meetings === 0 && json.reused_edges === 0)) &&
         (!wanted.has("kolam") || json.kolam)
     );
+}
+
+// True if hardly anything can be seen: fewer than one pixel in a thousand differs from the first, the ground.
+function isBlank(values: Uint8ClampedArray): boolean {
+    const least = values.length / 4 / 1000;
+    let seen = 0;
+    for (let at = 4; at < values.length; at += 4) {
+        let away = 0;
+        for (let part = 0; part < 4; ++part) away += Math.abs(values[at + part]! - values[part]!);
+        if (away > 30 && ++seen > least) return false;
+    }
+    return true;
 }
 
 // FNV-1a of every third pixel.
