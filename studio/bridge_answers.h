@@ -45,6 +45,7 @@ Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_origins(const Json& request);
 Json answer_import(const Json& request, const std::string& file);
+Json answer_scale(const Json& request, const std::string& file);
 Json answer_show(const Json& request, const std::string& file);
 Json answer_grid(const Json& request, const Monitor& monitor);
 Json answer_command(const Json& request);

@@ -3,10 +3,12 @@
 #include "art/drawing/seen_drawing.h"
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
+#include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/origins.h"
 #include "engine/import/import.h"
 #include "engine/measure/extent.h"
+#include "music/scale/scale.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
@@ -352,6 +354,27 @@ Json answer_import(const Json& request, const std::string& file) {
                         {"losses", system.losses}});
     }
     return {{"systems", std::move(list)}, {"diagnostics", json_of(diagnostics.sorted())}};
+}
+
+Json answer_scale(const Json& request, const std::string& file) {
+    const std::string name = text_of(request, "name");
+    const std::string lower = lower_case(name);
+    const bool is_map = lower.ends_with(".kbm");
+    if ((!is_map && !lower.ends_with(".scl")) || name.find_first_of("/\\:") != std::string::npos || name[0] == '.') {
+        throw BadRequest("expected the name of a .scl or .kbm file");
+    }
+    const Source source(name, file);
+    Diagnostics diagnostics;
+    if (is_map) {
+        read_kbm(source, diagnostics);
+    } else {
+        read_scl(source, diagnostics);
+    }
+    diagnostics.throw_if_errors();
+    std::ofstream stream(name, std::ios::binary);
+    stream.write(file.data(), static_cast<std::streamsize>(file.size()));
+    if (!stream.flush()) throw std::runtime_error(name + ": cannot be kept");
+    return {{"name", name}};
 }
 
 Json answer_show(const Json& request, const std::string& file) {

@@ -1,7 +1,11 @@
 // Calls the WebAssembly module: see studio/wasm/module.cpp.
 import { makeZlib } from "./zlib";
 
-export interface RawAnswer { json: string; bytes: Uint8Array }
+export interface RawAnswer {
+    json: string;
+    bytes: Uint8Array;
+    memory: number; // bytes that the module holds; it never gives any back
+}
 export type Bridge = (json: string, bytes?: Uint8Array) => RawAnswer;
 
 /// Starts the module. `makeModule` is the default export of sikku-bridge.cjs; `hooks` may hold `instantiateWasm`.
@@ -29,6 +33,7 @@ export async function startBridge(makeModule: (hooks: object) => Promise<any>, h
         return {
             json: decoder.decode(taken(module._sikku_json(), module._sikku_json_size())),
             bytes: taken(module._sikku_bytes(), module._sikku_bytes_size()),
+            memory: module.HEAPU8.length,
         };
     };
 }

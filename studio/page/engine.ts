@@ -9,11 +9,12 @@ export type ToWorker = { module: WebAssembly.Module } | { id: number; json: stri
 export type FromWorker =
     | { ready: true }
     | { failed: string } // the module did not start
-    | { id: number; json: unknown; bytes: Uint8Array }
+    | { id: number; json: unknown; bytes: Uint8Array; memory: number }
     | { id: number; broken: string };
 
 const patience = 150; // milliseconds that a replaced request may go on for: a new worker costs about as much
 const most_workers = 4;
+const most_memory = 64 * 1024 * 1024; // bytes of a worker that is kept for further requests
 
 interface Job {
     id: number;
@@ -118,6 +119,12 @@ export class Pool implements Engine {
         this.next();
     }
 
+    // WebAssembly never gives memory back: a new worker takes the place of one that a large request has filled.
+    private renew(seat: Seat): void {
+        seat.worker.terminate();
+        this.seats[this.seats.indexOf(seat)] = this.seat();
+    }
+
     // Idle seats for this lane: the front prefers the first, which has its pattern at hand; the back leaves one free.
     private idle(lane: "front" | "back"): Seat | undefined {
         const free = this.seats.filter((seat) => !seat.job);
@@ -188,6 +195,7 @@ export class Pool implements Engine {
         }
         clearTimeout(seat.timer);
         seat.job = null;
+        if (message.memory > most_memory) this.renew(seat);
         if (!job.isUnwanted) {
             const failure = message.json as Partial<Failure>;
             if (failure.error) job.reject(new RequestFailed(failure.error));

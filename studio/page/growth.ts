@@ -6,7 +6,7 @@ import type { Made, PatternRequest } from "./protocol";
 import { optionOf } from "./sheet";
 import type { Stage, Staged } from "./space_stage";
 
-const mostBytes = 256 * 1024 * 1024;
+const mostBytes = 48 * 1024 * 1024;
 const modelSettings = ["line", "stroke", "fill", "palette", "budget"]; // options that a model depends on
 
 /// What is there at a derivation length; `empty`: nothing is drawn yet.

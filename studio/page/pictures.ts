@@ -49,7 +49,7 @@ export interface Subject {
     readonly options: Options;
 }
 
-const mostBytes = 192 * 1024 * 1024;
+const mostBytes = 64 * 1024 * 1024;
 const patience = 400; // milliseconds that a tile may go on for after it has left the view
 
 /// Loads the tiles that are wanted, those in the middle first, and keeps those used last.

@@ -29,7 +29,8 @@ async function answer(message: ToWorker): Promise<void> {
     }
     try {
         const made = (await bridge!)(message.json, message.bytes);
-        send({ id: message.id, json: JSON.parse(made.json), bytes: made.bytes }, [made.bytes.buffer as ArrayBuffer]);
+        const { bytes, memory } = made;
+        send({ id: message.id, json: JSON.parse(made.json), bytes, memory }, [bytes.buffer as ArrayBuffer]);
     } catch (error) {
         send({ id: message.id, broken: String(error) }); // out of memory, or a fault: the instance is not used again
     }

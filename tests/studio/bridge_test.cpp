@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 namespace sikku {
@@ -109,6 +111,20 @@ TEST(Bridge, CommandsAreQuotedForTheShell) {
                {"pattern", {{"name", "it's.lsys"}, {"text", koch}, {"settings", pairs({{"seed", "7"}})}}}});
     EXPECT_EQ(answer["command"],
               "sikku draw 'it'\\''s.lsys' --seed 7 --stroke '0.3mm navy' --dots --landscape -o 'it'\\''s.svg'");
+}
+
+TEST(Bridge, ScaleFilesAreKept) {
+    const std::string scale = "! test.scl\n!\nThree equal steps\n 3\n!\n 400.\n 800.\n 2/1\n";
+    EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "x.txt"}}, scale), "request");
+    EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "../x.scl"}}, scale), "request");
+    EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "x.scl"}}, "no scale"), "pattern");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(testing::TempDir());
+    EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "kept.scl"}}, scale), "");
+    const Json notes = {{"do", "notes"}, {"pattern", pattern(koch)}, {"options", pairs({{"scale", "kept.scl"}})}};
+    EXPECT_EQ(kind_of_failure(notes), "");
+    std::filesystem::remove("kept.scl");
+    std::filesystem::current_path(before);
 }
 
 TEST(Bridge, FilesWithoutPatternsAreRefused) {

@@ -10,7 +10,7 @@ export interface Voiced {
     loops: boolean;
 }
 
-const most_bytes = 128 * 1024 * 1024;
+const most_bytes = 48 * 1024 * 1024;
 
 export class Renderer {
     private readonly worker: Worker;
