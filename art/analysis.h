@@ -1,4 +1,4 @@
-// art/analysis.h: the drawing of a document as data: its lines as points, its examination as a kolam.
+// art/analysis.h: the drawing of a document as data: lines as arrays of points, and the examination of a kolam.
 #pragma once
 
 #include "art/kolam/kolam.h"
@@ -13,8 +13,8 @@ namespace sikku {
 /// The lines of a drawing in the plane or in space.
 using DrawnLines = std::variant<Polylines<glm::dvec2>, Polylines<glm::dvec3>>;
 
-/// The visible lines that the turtle draws for a document, in turtle steps: control polygons where it asks for
-/// splines. @param budget  maximum number of derivation nodes visited
+/// Traces the visible lines of a document, in turtle steps; splines are given as control polygons.
+/// @param budget  maximum number of derivation nodes visited
 /// @throws PatternError, BudgetError, WordError, Stopped
 DrawnLines drawn_lines(const Document& document, double budget, const Monitor& monitor);
 

@@ -279,7 +279,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
 }
 
 DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {
-    const char* const why = "makes several pictures or sheets; a picture in memory is one";
+    const char* const why = "makes several pictures or sheets; only one picture can be drawn in memory";
     if (settings_.generations) refuse_option("generations", "", why);
     if (settings_.tile) refuse_option("tile", "", why);
     constexpr std::size_t bytes_of_pixel = 4;

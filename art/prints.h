@@ -27,7 +27,7 @@ struct DrawnPixels {
     std::vector<Remark> remarks;
 };
 
-/// Draws the pixels of a PNG into memory. @param values  as for draw() @throws as draw()
+/// Draws the pixels that a PNG would have into memory. @param values  as for draw() @throws as draw()
 DrawnPixels draw_pixels(const Document& document, const OptionValues& values, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -29,7 +29,7 @@ double now() {
 void add_pattern_options(CLI::App& command, PatternOptions& options) {
     command
         .add_option("PATTERN", options.pattern,
-                    "pattern file, name of a bundled pattern, link of the studio, or - for standard input")
+                    "pattern file, name of a bundled pattern, studio link, or - for standard input")
         ->required();
     add_override_options(command, options);
 }

@@ -76,11 +76,11 @@ void add_budget_option(CLI::App& command, double& budget);
 /// The interpreters: prints, then scores.
 std::span<const Interpreter* const> interpreters();
 
-/// Reads, compiles and checks a pattern; warnings are printed unless `quiet`. The settings of a link apply unless the
-/// options replace them.
-/// @throws PatternError, UsageError for an unknown name and a damaged link
+/// Reads, compiles and checks a pattern; warnings are printed unless `quiet`. The settings of a link apply, except
+/// those that the options replace.
+/// @throws PatternError; UsageError for an unknown name or a damaged link
 Document load(const PatternOptions& options, bool quiet);
-/// The same if PATTERN has been read as a link, or is not one (null).
+/// Does the same for a PATTERN that was already read as a link; null if it is not one.
 Document load(const PatternOptions& options, const SharedWork* link, bool quiet);
 
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws

@@ -48,7 +48,7 @@ void run(const DrawCommand& command, bool quiet) {
     const OptionValues given = command.options.values();
     auto link = read_link_argument(command.pattern.pattern);
     if (link && has_option(given, "generations")) {
-        // A derivation length and several of them exclude each other.
+        // A single derivation length and a list of generations exclude each other.
         for (OptionValues* values : {&link->settings, &link->draw}) {
             std::erase_if(*values, [](const OptionValue& value) { return value.name == "derivation length"; });
         }
@@ -79,9 +79,8 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->required();
     options->options.add(*command, prints().options());
     command->footer(
-        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all. A link of the studio brings its "
-        "own "
-        "values and options, which options of the command line replace.\n\n"
+        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all. A studio link sets values "
+        "and options; options on the command line replace them.\n\n"
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"
         "  sikku draw anklets-of-krishna -n 6 --size A1 --landscape -o anklets.pdf\n"

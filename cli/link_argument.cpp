@@ -10,17 +10,17 @@
 namespace sikku {
 namespace {
 
-/// Names of settings and options that the options of a pattern replace.
+/// Names of the settings and options of a link that options on the command line replace.
 std::set<std::string> replaced_names(const PatternOptions& options) {
     std::set<std::string> names;
-    // A derivation length and several of them exclude each other.
+    // A single derivation length and a list of generations exclude each other.
     if (!options.steps.empty()) names = {"derivation length", "generations"};
     if (!options.seed.empty()) names.insert("seed");
     for (const std::string& text : options.settings) names.insert(text.substr(0, text.find('=')));
     return names;
 }
 
-/// Options that set the scale of a drawing; only one can be given.
+/// True for options that set the scale of a drawing, of which only one can be given.
 bool sets_scale(const std::string& name) {
     return name == "fit" || name == "step" || name == "dot-spacing";
 }
@@ -46,7 +46,7 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
     std::vector<Setting> settings;
     for (const OptionValue& value : link.settings) {
         if (replaced.contains(value.name)) continue;
-        // For messages; recipes know seeds by it.
+        // Messages quote the origin; recipes recognise a seed by it.
         const char* origin = value.name == "derivation length" ? "-n"
                              : value.name == "seed"            ? "--seed"
                                                                : "link --set";

@@ -1,5 +1,5 @@
-// cli/link_argument.h: links in the place of PATTERN: their values and options, as far as the command line does not
-// replace them.
+// cli/link_argument.h: links as the argument PATTERN. Options on the command line replace the values and options of a
+// link.
 #pragma once
 
 #include "art/link/link.h"
@@ -13,23 +13,23 @@
 
 namespace sikku {
 
-/// The work in a PATTERN that is a link; nothing for files, names and `-`. @throws UsageError for a damaged link
+/// Reads a PATTERN that is a link; returns nothing for files, names and `-`. @throws UsageError for a damaged link
 std::optional<SharedWork> read_link_argument(const std::string& pattern);
 
-/// The settings of a link that the options of the command line do not replace.
+/// Returns the settings of a link that options on the command line do not replace.
 std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& options);
 
-/// The options of a link that the command line does not replace, then those of the command line.
-/// @param shared  the draw or play options of the link  @param given  the options of the command line
+/// Returns the options of a link that the command line does not replace, followed by those of the command line.
+/// @param shared  draw or play options of the link  @param given  options on the command line
 OptionValues options_with(const OptionValues& shared, const OptionValues& given, const PatternOptions& options);
 
-/// True if there is a value of that option.
+/// True if the option has a value.
 bool has_option(const OptionValues& values, std::string_view name);
 
-/// What a link sets, for people: `n 4, seed 7; draw: size A3`. Empty if it sets nothing.
+/// Lists what a link sets, for messages: `n 4, seed 7; draw: size A3`. Empty if it sets nothing.
 std::string describe_settings(const SharedWork& link);
 
-/// Calls `work`. A SettingError about an option that the link sets, rather than the command line, says so.
+/// Calls `work`. Adds a note to a SettingError about an option that the link sets and the command line does not.
 /// @throws what `work` throws
 template <typename Work>
 auto blaming_link(const OptionValues& shared, const OptionValues& given, Work&& work) {

@@ -122,8 +122,7 @@ void add_show(CLI::App& app, bool& quiet) {
     command
         ->add_option(
             "PATTERN", *what,
-            "bundled pattern, pattern file, link of the studio, -, or a print or score made by sikku, but for "
-            "sound")
+            "bundled pattern, pattern file, studio link, -, or a print or score made by sikku, except sound files")
         ->required();
     command->footer("Examples:\n  sikku show snake-kolam > my.lsys\n  sikku show print.png");
     command->callback([what, &quiet] { show(*what, quiet); });
@@ -134,10 +133,8 @@ void add_check(CLI::App& app) {
         app.add_subcommand("check", "Report every error of pattern, Scala and MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
     command
-        ->add_option(
-            "FILE", *files,
-            "pattern files, bundled patterns, links of the studio, -, scales (.scl), key maps (.kbm) or MIDI "
-            "files")
+        ->add_option("FILE", *files,
+                     "pattern files, bundled patterns, studio links, -, scales (.scl), key maps (.kbm) or MIDI files")
         ->required();
     command->footer(
         "Exits with 0 and prints nothing if the files have no errors. Errors in MIDI files exit with 1, other errors "

@@ -46,7 +46,7 @@ void make_score(const PlayCommand& command, const std::string& format, const std
     make(*work, command.output, quiet);
 }
 
-/// The seed of a pattern is that of the player, too.
+/// Uses the seed of the pattern for the options of the score, too.
 void add_seed(const PatternOptions& options, const SharedWork* link, OptionValues& values) {
     if (has_option(values, "seed")) return;
     std::string seed;
@@ -63,7 +63,7 @@ void add_seed(const PatternOptions& options, const SharedWork* link, OptionValue
 void run(const PlayCommand& command, bool quiet) {
     const std::string format = command.output.empty() ? "mid" : format_of(command.output);
     const OptionValues given = command.options.values();
-    if (!command.pattern.seed.empty()) seed_of(command.pattern);            // refuses what is not a number
+    if (!command.pattern.seed.empty()) seed_of(command.pattern);            // throws if it is not a number
     if (!is_link(command.patterns.front())) scores().check(format, given);  // before the patterns are read
     OptionValues shared;  // options of the link, if the first pattern is one
     OptionValues values = given;
@@ -97,8 +97,7 @@ void add_play(CLI::App& app, bool& quiet) {
     command
         ->add_option(
             "PATTERN", options->patterns,
-            "pattern files, names of bundled patterns, links of the studio, or -; several become parts of one "
-            "score")
+            "pattern files, names of bundled patterns, studio links, or -; several become parts of one score")
         ->required();
     add_override_options(*command, options->pattern);
     command
@@ -110,9 +109,8 @@ void add_play(CLI::App& app, bool& quiet) {
     options->options.add(*command, scores().options());
     command->footer(
         "Each horizontal run of the curve is a note: its height determines the pitch in the scale, its length the "
-        "duration. A link of the studio brings its own values, and its options if it is the first pattern; options "
-        "of the "
-        "command line replace them.\n\n"
+        "duration. A studio link sets values and, if it is the first pattern, options; options on the command "
+        "line replace them.\n\n"
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"

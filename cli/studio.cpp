@@ -1,4 +1,4 @@
-// cli/studio.cpp: `sikku studio`: opens the page of the studio, or writes it with patterns in it.
+// cli/studio.cpp: `sikku studio`, which opens the studio page or writes a copy with patterns in it.
 #include "art/gallery/process.h"
 #include "cli/command.h"
 #include "cli/link_argument.h"
@@ -29,14 +29,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_page_bytes = std::size_t{256} << 20;
-constexpr std::size_t longest_address = 8000;  // characters that terminals, shells and browsers handle
+constexpr std::size_t longest_address = 8000;  // characters that terminals, shells and browsers support
 
 struct StudioCommand {
     std::vector<std::string> patterns;
     std::string output;
 };
 
-/// The built page, beside the program as after installation. @throws std::runtime_error if it has not been built
+/// Finds the studio page, in the build folder or as installed. @throws std::runtime_error if it has not been built
 fs::path find_page() {
     std::error_code error;
     const fs::path beside = binary_folder();
@@ -45,14 +45,14 @@ fs::path find_page() {
         if (fs::is_regular_file(page, error)) return page;
     }
     if (fs::is_regular_file(SIKKU_STUDIO_INSTALLED, error)) return SIKKU_STUDIO_INSTALLED;
-    throw std::runtime_error("the page of the studio has not been built; `./demo --studio` builds it");
+    throw std::runtime_error("the studio page has not been built; run `./demo --studio` to build it");
 }
 
-/// A pattern as a work without values, or the work of a link. Errors in patterns are for the studio to show.
+/// Reads a pattern as a work without values, or the work of a link. The studio reports errors in patterns.
 SharedWork read_work(const std::string& pattern) {
     if (auto link = read_link_argument(pattern)) return std::move(*link);
     NamedText text = read_pattern_text(pattern);
-    if (text.text.size() > most_pattern_bytes) throw UsageError(pattern + ": a pattern file is at most 64 MB");
+    if (text.text.size() > most_pattern_bytes) throw UsageError(pattern + ": a pattern file can have at most 64 MB");
     SharedWork work;
     work.name = pattern == "-" ? "pattern.lsys" : fs::path(text.name).filename().string();
     work.text = std::move(text.text);
@@ -79,7 +79,7 @@ void write_page(const fs::path& page, const std::vector<SharedWork>& works, cons
     write_file(target, written);
 }
 
-/// The folder for files that can be made again, which is created.
+/// Returns the user's cache folder for sikku, and creates it if necessary.
 fs::path cache_folder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
@@ -89,15 +89,15 @@ fs::path cache_folder() {
     } else if (home && *home == '/') {
         folder = fs::path(home) / ".cache";
     } else {
-        throw std::runtime_error("there is no folder for the page: HOME is not set; -o FILE writes it");
+        throw std::runtime_error("no folder to write the page to: HOME is not set; use -o FILE");
     }
     folder /= "sikku";
     fs::create_directories(folder);
     return folder;
 }
 
-/// Writes a page that leads to `address`: programs that open files drop the fragment of an address, and the studio
-/// shows what a link contains before it runs it. Returns the address of that page.
+/// Writes a page that redirects to `address`, because programs that open files drop the fragment of an address.
+/// Returns the address of the page that redirects.
 std::string write_redirection(const std::string& address) {
     const fs::path target = cache_folder() / "link.html";
     write_file(target, fmt::format("<!doctype html><meta charset=\"utf-8\"><title>Sikku studio</title>"
@@ -114,8 +114,8 @@ bool has_display() {
     return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
-/// Starts xdg-open in a session of its own. False if it cannot be started or fails at once; it may run as long as the
-/// browser.
+/// Starts xdg-open in its own session. Returns false if it cannot be started or fails at once; it may run as long as
+/// the browser does.
 bool open_in_browser(const std::string& address) {
     constexpr auto patience = std::chrono::seconds(3);
     constexpr auto pause = std::chrono::milliseconds(20);
@@ -146,7 +146,7 @@ bool open_in_browser(const std::string& address) {
     return true;
 }
 
-/// The address of the page with a single work in its fragment, or empty if it is too long.
+/// The address of the page, with a single work in its fragment; empty if it would be too long or for several works.
 std::string address_with(const fs::path& page, const std::vector<SharedWork>& works) {
     if (works.empty()) return file_address(page.string());
     if (works.size() > 1) return {};
@@ -166,7 +166,7 @@ void run(const StudioCommand& command, bool quiet) {
     if (!command.output.empty()) {
         const std::string extension = lower_case(fs::path(command.output).extension().string());
         if (extension != ".html" && extension != ".htm") {
-            throw UsageError(fmt::format("-o {}: the page of the studio is an .html file", command.output));
+            throw UsageError(fmt::format("-o {}: the studio page needs the extension .html", command.output));
         }
         return write_page(page, works, command.output);
     }
@@ -191,18 +191,18 @@ void run(const StudioCommand& command, bool quiet) {
 
 void add_studio(CLI::App& app, bool& quiet) {
     auto* command =
-        app.add_subcommand("studio", "Open the studio, a page to see and hear patterns while they are written");
+        app.add_subcommand("studio", "Open the studio, a page for seeing and hearing patterns while writing them");
     auto options = std::make_shared<StudioCommand>();
     command->add_option("PATTERN", options->patterns,
-                        "pattern files, names of bundled patterns, links of the studio, or -, to open in the studio");
+                        "pattern files, names of bundled patterns, studio links, or -, to open in the studio");
     command
-        ->add_option("-o,--output", options->output, "write the page with the patterns in it, instead of opening it")
+        ->add_option("-o,--output", options->output,
+                     "write a copy of the page that contains the patterns, instead of opening it")
         ->type_name("FILE.html");
     command->footer(
-        "The studio is one page that needs neither a server nor the internet; `./demo --studio` builds it. It is "
-        "opened "
-        "with xdg-open; without a display or xdg-open, its address is printed. Work in the studio is kept by the "
-        "browser, not in the pattern files.\n\n"
+        "The studio is a single page that needs neither a server nor the internet; `./demo --studio` builds it. It "
+        "is opened with xdg-open; without a display or xdg-open, its address is printed. The browser saves work in "
+        "the studio; the pattern files do not change.\n\n"
         "Examples:\n"
         "  sikku studio\n"
         "  sikku studio snake-kolam my.lsys\n"

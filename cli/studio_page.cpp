@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view begin_mark = R"(<script type="application/json" id="sikku-patterns">)";
 constexpr std::string_view end_mark = "</script>";
 
-/// JSON without `<`, which can occur only in its texts: so that nothing in it ends the element.
+/// Escapes `<`, which occurs only in strings of JSON, so that the JSON cannot close the script element.
 std::string without_tags(const std::string& json) {
     std::string text;
     text.reserve(json.size());
@@ -33,7 +33,7 @@ std::string page_with(const std::string& page, const std::vector<SharedWork>& pa
     const std::size_t begin = page.find(begin_mark);
     const std::size_t from = begin == std::string::npos ? begin : begin + begin_mark.size();
     const std::size_t end = from == std::string::npos ? from : page.find(end_mark, from);
-    if (end == std::string::npos) throw PageError("this is not a page of the studio that can contain patterns");
+    if (end == std::string::npos) throw PageError("not a studio page that can contain patterns");
     Json list = Json::array();
     for (const SharedWork& work : patterns) {
         Json shared = Json::parse(shared_json(work));

@@ -97,14 +97,14 @@ bool sets_keys_of(const Interpreter& interpreter, const Document& document);
 std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
                    const std::string& after = {});
 
-/// Values sorted by what they set.
+/// Values, separated into keys and defines of the pattern and options of the interpreter.
 struct Assignment {
     Document document;     ///< with the keys and defines applied
     OptionValues options;  ///< values of the interpreter's options
 };
 
-/// Sorts values by name: those of options of the interpreter, and those of keys and defines of the pattern, which are
-/// applied to the document. A seed is both. @throws SettingError for other names; PatternError
+/// Separates values by name: options of the interpreter are returned; keys and defines of the pattern are applied to
+/// the document. A seed is both. @throws SettingError for other names; PatternError
 Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values);
 
 /// Plans and makes a work with a single output. Names in `values` are options of the interpreter, or keys and defines

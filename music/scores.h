@@ -29,17 +29,17 @@ std::string play(const Document& document, std::string_view format, const Option
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,
                                  const OptionValues& values, const std::filesystem::path& folder = {});
 
-/// The notes of a score and the times that they are counted in.
+/// The notes of a score, with its meter and tempo.
 struct NoteList {
     std::vector<Note> notes;  ///< by onset, then by voice
     std::int64_t end = 0;     ///< end of the score in ticks, rests included
-    double tempo = 120.0;     ///< quarters a minute
+    double tempo = 120.0;     ///< quarter notes per minute
     Meter meter;
     std::vector<Part> parts;
 };
 
-/// Lists the notes of a score with a part for each document. @throws as Work::make(); ScoreError for more notes than
-/// a quarter of the memory holds
+/// Lists the notes of a score with a part for each document. @throws as Work::make(); ScoreError if the notes would
+/// take more than a quarter of the memory
 NoteList list_notes(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
 
 /// Describes the music without writing a score: notes, bars, time and range, in a block of lines for each document.

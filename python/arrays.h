@@ -1,4 +1,4 @@
-// python/arrays.h: vectors as arrays of numpy, without copies.
+// python/arrays.h: vectors as NumPy arrays, without copies.
 #pragma once
 
 #include "art/analysis.h"
@@ -8,12 +8,12 @@
 
 namespace sikku {
 
-/// Points, float64 of shape (points, 2 or 3), and the index of the first point of each stroke, then their number,
+/// Points: float64 of shape (points, 2 or 3). Index of the first point of each stroke, then the number of points:
 /// int64 of shape (strokes + 1,).
 pybind11::tuple to_arrays(DrawnLines lines);
 
-/// Onset, duration (int64, ticks), key (float64), velocity (uint8), voice (int16), one of each for every note, and
-/// the pieces of the curve, float64 of shape (notes, 2, 2).
+/// For each note: onset and duration (int64, ticks), key (float64), velocity (uint8), voice (int16), and piece of the
+/// curve (float64, 2 x 2).
 pybind11::tuple to_arrays(const std::vector<Note>& notes);
 
 }  // namespace sikku

@@ -13,7 +13,7 @@ namespace py = pybind11;
 namespace sikku {
 namespace {
 
-/// Makes the exception of that name and raises it.
+/// Raises an exception of `sikku.errors` by name.
 template <class... Arguments>
 void raise(const char* name, const Arguments&... arguments) {
     const py::object type = py::module_::import("sikku.errors").attr(name);

@@ -1,4 +1,4 @@
-// python/errors.h: exceptions of the libraries as those of the package.
+// python/errors.h: translates exceptions of the libraries to those of the package.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -10,13 +10,13 @@
 
 namespace sikku {
 
-/// A text of the libraries, which is UTF-8 except for names of files.
+/// Text from the libraries as `str`: UTF-8, except for file names.
 pybind11::str to_text(const std::string& bytes);
 
 /// A list of sikku.Diagnostic.
 pybind11::list to_list(const std::vector<Diagnostic>& diagnostics);
 
-/// From here on exceptions of the libraries arrive in Python as those of sikku.errors.
+/// Registers the translation of exceptions to those of sikku.errors.
 void register_errors();
 
 }  // namespace sikku

@@ -23,7 +23,7 @@ bool Interruption::is_stopped() {
         PyErr_Fetch(&type_.ptr(), &value_.ptr(), &traceback_.ptr());
         is_stopped_ = true;
     }
-    // After the signals, so that waiting for the lock does not fill the time.
+    // Read after the signals, so that the time spent waiting for the lock does not count.
     next_ = std::chrono::steady_clock::now() + interval;
     return is_stopped_;
 }

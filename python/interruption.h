@@ -1,4 +1,4 @@
-// python/interruption.h: long calls that let other threads of Python run, and stop on ctrl-C.
+// python/interruption.h: long calls that let other Python threads run, and stop on Ctrl-C.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -11,13 +11,14 @@
 
 namespace sikku {
 
-/// Asks Python, at most every 50 ms, whether a signal has come, such as ctrl-C. Made by the thread that holds the
-/// global lock of Python and then releases it for a long call.
+/// Checks for signals such as Ctrl-C in Python, at most every 50 ms. Constructed by the thread that holds the global
+/// lock of Python (GIL) and then releases it for a long call.
 class Interruption {
 public:
     Interruption();
 
-    /// A monitor that refers to this object. Threads of the work may use it; only the thread of the call asks Python.
+    /// A monitor that refers to this object. Any thread of the work may use it; only the calling thread checks
+    /// signals.
     Monitor monitor();
     /// Throws the exception that a signal raised in Python. Requires the global lock.
     void rethrow();

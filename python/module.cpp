@@ -1,5 +1,5 @@
-// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/src/sikku, has the
-// names, defaults and documentation that users see.
+// python/module.cpp: the compiled part of the package `sikku`. The package around it, python/src/sikku, defines the
+// public names, defaults and documentation.
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
@@ -22,13 +22,13 @@ namespace py = pybind11;
 namespace sikku {
 namespace {
 
-/// A document, and what the checks of its keys warned about.
+/// A document, and the warnings about its keys.
 struct Loaded {
     Document document;
     std::vector<Diagnostic> warnings;
 };
 
-/// @param text  of the pattern; without it, `name` is a file or a bundled pattern
+/// @param text  text of the pattern; if absent, `name` is a file or a bundled pattern
 Loaded load_document(const std::string& name, const std::optional<std::string>& text, const std::string& variant,
                      const TextPairs& settings) {
     return long_call([&](const Monitor& monitor) {
@@ -55,7 +55,7 @@ py::object content_of(std::string bytes, bool is_text) {
     return py::bytes(bytes);
 }
 
-/// Makes an output in memory: (contents by name, remarks).
+/// Makes an output in memory. Returns (contents by name, remarks).
 py::tuple make_outputs(const Document& document, const std::string& interpreter_name, const std::string& format,
                        const TextPairs& values) {
     const Interpreter& interpreter = interpreter_of(interpreter_name);
@@ -102,7 +102,7 @@ py::tuple path_of(const Document& document, double budget) {
     return to_arrays(long_call([&](const Monitor& monitor) { return drawn_lines(document, budget, monitor); }));
 }
 
-/// (Arrays of the notes, end, tempo, beats of a bar, their unit).
+/// Returns (arrays of the notes, end, tempo, beats of a bar, their unit).
 py::tuple notes_of(const Document& document, const TextPairs& values) {
     const NoteList list = long_call([&](const Monitor& monitor) {
         const Assignment assigned = assign(scores(), document, to_values(values));
@@ -111,7 +111,7 @@ py::tuple notes_of(const Document& document, const TextPairs& values) {
     return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit);
 }
 
-/// For each bundled pattern: (name, kind, title, source).
+/// Returns (name, kind, title, source) for each bundled pattern.
 py::list list_patterns() {
     py::list list;
     for (const LibraryPattern& known : PatternLibrary::bundled().patterns()) {
@@ -143,7 +143,7 @@ void add_documents(py::module_& module) {
 }
 
 void add_words(py::module_& module) {
-    py::class_<WordIterator>(module, "WordIterator", "The modules of a word in lists, derived while they are read.")
+    py::class_<WordIterator>(module, "WordIterator", "Modules of a word in lists, derived as they are read.")
         .def(py::init<const Document&, bool>())
         .def("__iter__", [](const py::object& self) { return self; })
         .def("__next__", &WordIterator::next)

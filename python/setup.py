@@ -1,5 +1,5 @@
-"""Builds the package with CMake: `pip install ./python`, or, into an environment with other tools,
-`pip install --no-build-isolation --no-index ./python`. No network is needed.
+"""Builds the package with CMake: `pip install ./python`, or, with the tools already installed in the environment,
+`pip install --no-build-isolation --no-index ./python`, which needs no network.
 
 There is no pyproject.toml, because pip would download setuptools for it.
 """
@@ -14,12 +14,12 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 SOURCE = Path(__file__).resolve().parent.parent
-# SIKKU_BUILD names a folder in which CMake has built already, to be used instead.
+# SIKKU_BUILD can name an existing CMake build folder to use instead.
 BUILD = SOURCE / "build" / f"pip-{sys.implementation.cache_tag}"
 
 
 class CMakeBuild(build_ext):
-    """Builds the module, the image module beside it and the patterns, into the layout of an installation."""
+    """Installs the module, the image module and the patterns in the layout of an installation."""
 
     def build_extension(self, ext: Extension) -> None:
         build = Path(os.environ.get("SIKKU_BUILD", BUILD))

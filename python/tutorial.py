@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Sikku in Python
 #
-# Each `# %%` begins a cell: Jupyter (with jupytext), VS Code and Spyder run them one by one, and
-# `python3 python/tutorial.py` runs them all. The last line of a cell is what a notebook shows.
+# Each `# %%` begins a cell. Jupyter (with jupytext), VS Code and Spyder run the cells one by one;
+# `python3 python/tutorial.py` runs them all. A notebook displays the value of the last line of a cell.
 
 # %%
 import itertools
@@ -16,7 +16,7 @@ import sikku
 # %% [markdown]
 # ## A kolam
 #
-# A notebook shows a pattern as a drawing. Options are those of `sikku draw`.
+# A notebook displays a pattern as a drawing. Options are those of `sikku draw`.
 
 # %%
 kolam = sikku.load("snake-kolam")
@@ -34,7 +34,7 @@ print(facts["symmetry"], "symmetry,", facts["lines"], "line,", len(facts["dots"]
 # %% [markdown]
 # ## A pattern of your own
 #
-# Errors have places, so that an editor can show them.
+# Errors have places, which an editor can mark.
 
 # %%
 text = """
@@ -54,7 +54,7 @@ except sikku.PatternError as error:
 # %% [markdown]
 # ## Exact numbers
 #
-# Words that could never be derived are measured, and whole numbers have as many digits as it takes.
+# Words that are too long to derive can be measured; integers are exact.
 
 # %%
 large = curve.with_settings(n=60).measure()
@@ -62,7 +62,7 @@ assert large["drawn"] == 4**60 - 1
 print(large["drawn"], "segments in a box", large["box"])
 
 # %% [markdown]
-# The word is a stream: read as much of it as you like.
+# A word is a stream of modules: read as many as you need.
 
 # %%
 beginning = itertools.islice(curve.word(60), 100_000)
@@ -76,8 +76,8 @@ points, strokes = curve.path(8)
 print(points.shape, "points in", len(strokes) - 1, "stroke")
 
 # %% [markdown]
-# How evenly does the curve fill the square? The mean distance of points that are `gap` steps apart grows with the
-# square root of the gap, so that the exponent is 1/2.
+# How evenly does the curve fill the square? The mean distance between points that are `gap` steps apart is
+# proportional to the square root of the gap: the exponent is 1/2.
 
 # %%
 gaps = 4 ** numpy.arange(1, 7)
@@ -89,7 +89,7 @@ assert abs(exponent - 0.5) < 0.02
 # %% [markdown]
 # ## Music
 #
-# A pattern with keys of melodies is shown as a page that plays.
+# A pattern with keys of melodies is displayed as a page that plays.
 
 # %%
 melody = curve.with_settings(scale="dorian", tempo=96, instrument="flute")
@@ -103,7 +103,7 @@ print(len(notes), "notes,", notes.seconds(notes.end), "seconds, keys", notes.key
 # %% [markdown]
 # ## A family of plants
 #
-# Random seeds are settings, too; a pattern is read and compiled once.
+# The seed is a setting, too; the pattern is read and compiled only once.
 
 # %%
 plant = sikku.load("stochastic-branches")

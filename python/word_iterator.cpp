@@ -15,11 +15,11 @@ namespace py = pybind11;
 namespace sikku {
 namespace {
 
-constexpr std::chrono::milliseconds interval{50};  // between two looks for signals
+constexpr std::chrono::milliseconds interval{50};  // between two checks for signals
 
-constexpr std::size_t most_modules = 4096;  // of a list
+constexpr std::size_t most_modules = 4096;  // in a list
 
-/// All iterators, guarded by the global lock of Python.
+/// All iterators; guarded by the global lock of Python (GIL).
 std::set<WordIterator*>& living() {
     static std::set<WordIterator*> all;
     return all;
@@ -31,7 +31,7 @@ py::tuple to_tuple(std::span<const double> numbers) {
     return tuple;
 }
 
-/// As `sikku derive` limits words that are kept whole.
+/// The limit of `sikku derive` for words that are held in memory.
 DerivationOptions reading(const Grammar& grammar, bool interpreted) {
     DerivationOptions options;
     options.interpreted = interpreted;
@@ -59,7 +59,7 @@ WordIterator::~WordIterator() {
 
 void WordIterator::close() {
     living().erase(this);
-    // The thread of the parent does not exist in a child.
+    // The thread of the parent does not exist in a child process.
     if (process_ != ::getpid()) {
         static_cast<void>(stream_.release());
     } else {
@@ -102,7 +102,7 @@ py::object WordIterator::next_module() {
 }
 
 py::list WordIterator::next() {
-    // Readers in C, such as list(), do not look for signals.
+    // Readers in C, such as list(), do not check for signals.
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (symbol_ >= piece_.symbols.size()) read_piece();
     const std::size_t count = std::min(most_modules, piece_.symbols.size() - symbol_);

@@ -1,4 +1,4 @@
-// python/word_iterator.h: the modules of a word, list after list.
+// python/word_iterator.h: the modules of a word, in lists.
 #pragma once
 
 #include "engine/derivation/word_stream.h"
@@ -13,17 +13,17 @@
 
 namespace sikku {
 
-/// An iterator over the word of a document, which is derived while it is read. Modules that have no parameters of
-/// their own are made once. Not to be used after a fork().
+/// An iterator over the word of a document, which is derived as it is read. Modules without parameters are created
+/// only once. Must not be used after fork().
 class WordIterator {
 public:
-    /// @param interpreted  apply the productions under `interpret:`
+    /// @param interpreted  whether to apply the productions under `interpret:`
     WordIterator(const Document& document, bool interpreted);
     ~WordIterator();
     WordIterator(const WordIterator&) = delete;
     WordIterator& operator=(const WordIterator&) = delete;
 
-    /// The next modules, up to 4096, as a list of sikku.Module: calls from Python cost more than modules.
+    /// The next modules, up to 4096, as a list of sikku.Module, because a call from Python costs more than a module.
     /// @throws pybind11::stop_iteration, and what derive() throws
     pybind11::list next();
     /// Ends the derivation; no further modules follow.

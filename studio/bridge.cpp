@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The time at which a request has to stop.
+/// The deadline of a request.
 struct Deadline {
     Clock::time_point end;
 };
@@ -40,11 +40,11 @@ const Interpreter& interpreter_of(const Json& request) {
     const std::string name = text_of(request, "interpreter");
     if (name == "draw") return prints();
     if (name == "play") return scores();
-    throw BadRequest("'interpreter' has to be 'draw' or 'play'");
+    throw BadRequest("'interpreter' must be 'draw' or 'play'");
 }
 
-/// The options of a request, sorted by what they set. As in the program, the seed of the pattern is that of the
-/// player, too.
+/// Separates the options of a request from keys and defines. As in the program, the seed of the pattern also sets the
+/// option `seed`.
 Assignment assignment_of(const Json& request, const Interpreter& interpreter) {
     Assignment assigned = assign(interpreter, document_of(request), options_of(request));
     if (&interpreter != &scores()) return assigned;
@@ -223,7 +223,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     throw BadRequest("unknown request '" + what + "'");
 }
 
-/// What went wrong, as an answer.
+/// An answer that reports an error.
 Json failure(const std::string& kind, const std::string& message, Json more = Json::object()) {
     Json error = {{"kind", kind}, {"message", message}};
     error.update(more);
@@ -245,7 +245,7 @@ Json failure_of(const std::function<Json()>& work) {
     } catch (const ScoreError& error) {
         return failure("score", error.what());
     } catch (const Stopped&) {
-        return failure("stopped", "this takes too long, and was stopped");
+        return failure("stopped", "stopped: this takes too long");
     } catch (const BadRequest& error) {
         return failure("request", error.what());
     } catch (const JsonError& error) {
@@ -264,15 +264,16 @@ constexpr std::size_t most_bytes = std::size_t{64} << 20;
 Reply request(const std::string& json, const std::string& bytes) {
     Reply reply;
     const Json result = failure_of([&] {
-        if (json.size() > most_bytes || bytes.size() > most_bytes) throw BadRequest("over 64 MB");
+        if (json.size() > most_bytes || bytes.size() > most_bytes)
+            throw BadRequest("a request can have at most 64 MB");
         const Json asked = read_json(json);
-        if (!asked.is_object()) throw BadRequest("expected an object");
+        if (!asked.is_object()) throw BadRequest("the request must be an object");
         const double seconds = number_of(asked, "seconds", 60);
         Deadline deadline{Clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000))};
         return answer(asked, bytes, monitor_of(deadline), reply.bytes);
     });
     if (result.contains("error")) reply.bytes.clear();
-    // Messages may quote bytes of patterns that are no UTF-8.
+    // Messages may quote invalid UTF-8 from patterns.
     reply.json = result.dump(-1, ' ', false, Json::error_handler_t::replace);
     return reply;
 }

@@ -1,5 +1,5 @@
-// studio/bridge.h: the libraries behind one function of JSON and bytes, for hosts of other languages: the studio's
-// page and its tests.
+// studio/bridge.h: the libraries as one function of JSON and bytes, for callers in other languages: the studio page
+// and its tests.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace sikku {
 
 struct Reply {
     std::string json;   ///< UTF-8
-    std::string bytes;  ///< outputs one after another, pixels, numbers; see studio/page/protocol.ts
+    std::string bytes;  ///< outputs in sequence, pixels or numbers; see studio/page/protocol.ts
 };
 
-/// Answers one request. studio/page/protocol.ts describes requests and answers. Never throws: failures are answers,
-/// too. Keeps the documents of the last requests. For one thread.
-/// @param json   at most 64 MB  @param bytes  the file that the request is about, at most 64 MB
+/// Answers a request; studio/page/protocol.ts describes requests and answers. Never throws: errors are answers, too.
+/// Caches the documents of the last requests. Not thread-safe.
+/// @param json   at most 64 MB  @param bytes  the file that the request refers to, at most 64 MB
 Reply request(const std::string& json, const std::string& bytes);
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// studio/bridge_answers.h: reads requests, and answers those that take more than a few lines.
+// studio/bridge_answers.h: reading requests, and the answers that need more than a few lines.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -14,25 +14,25 @@ namespace sikku {
 
 using Json = nlohmann::ordered_json;
 
-/// A request that does not follow studio/page/protocol.ts.
+/// Reports a request that does not conform to studio/page/protocol.ts.
 class BadRequest : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// @throws BadRequest if there is no such member
+/// @throws BadRequest if the member is missing
 const Json& member(const Json& request, const std::string& name);
-/// @throws BadRequest if the member is not a text; without `otherwise`, if there is none
+/// @throws BadRequest if the member is not a string, or is missing and there is no `otherwise`
 std::string text_of(const Json& request, const std::string& name);
 std::string text_of(const Json& request, const std::string& name, const std::string& otherwise);
 double number_of(const Json& request, const std::string& name, double otherwise);
 bool flag_of(const Json& request, const std::string& name);
 
-/// Pairs of texts: `[["size", "A3"], …]`; none if there is no such member.
+/// Pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);
 
-/// The options of a request: `options`.
+/// The member `options` of a request.
 OptionValues options_of(const Json& request);
-/// The compiled pattern of a request, which is kept for the next ones. @throws PatternError
+/// The compiled pattern of a request, which is cached. @throws PatternError
 Document document_of(const Json& request);
 /// `curve.svg` for curve.lsys.
 std::string output_name(const Document& document, const std::string& format);
@@ -40,7 +40,7 @@ std::string output_name(const Document& document, const std::string& format);
 Json json_of(const std::vector<Remark>& remarks);
 Json json_of(const std::vector<Diagnostic>& diagnostics);
 
-// Answers by the name of the request.
+// One function for each kind of request.
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
 Json answer_origins(const Json& request);

@@ -1,4 +1,4 @@
-// studio/bridge_document.cpp: patterns of requests: reading, facts, pictures, files of other programs.
+// studio/bridge_document.cpp: requests about a pattern: facts, pictures, and files of other programs.
 #include "art/draw_settings.h"
 #include "art/drawing/seen_drawing.h"
 #include "art/prints.h"
@@ -33,7 +33,7 @@ const Json& member(const Json& request, const std::string& name) {
 
 std::string text_of(const Json& request, const std::string& name) {
     const Json& value = member(request, name);
-    if (!value.is_string()) throw BadRequest("'" + name + "' has to be a text");
+    if (!value.is_string()) throw BadRequest("'" + name + "' must be a string");
     return value.get<std::string>();
 }
 
@@ -44,7 +44,7 @@ std::string text_of(const Json& request, const std::string& name, const std::str
 double number_of(const Json& request, const std::string& name, double otherwise) {
     if (!request.contains(name)) return otherwise;
     const Json& value = request[name];
-    if (!value.is_number()) throw BadRequest("'" + name + "' has to be a number");
+    if (!value.is_number()) throw BadRequest("'" + name + "' must be a number");
     const auto number = value.get<double>();
     if (!(std::fabs(number) < 1e9)) throw BadRequest("'" + name + "' is too large");
     return number;
@@ -59,7 +59,7 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, c
     if (!request.contains(name)) return pairs;
     for (const Json& pair : request[name]) {
         if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) {
-            throw BadRequest("'" + name + "' has to be a list of pairs of texts");
+            throw BadRequest("'" + name + "' must be a list of pairs of strings");
         }
         pairs.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
     }
@@ -79,7 +79,7 @@ Document document_of(const Json& request) {
     };
     static std::deque<Kept> kept;
     constexpr std::size_t most = 16;
-    constexpr std::size_t largest = std::size_t{1} << 22;  // longer texts are compiled each time
+    constexpr std::size_t largest = std::size_t{1} << 22;  // longer patterns are not cached
     const Json& pattern = member(request, "pattern");
     const auto found =
         std::find_if(kept.begin(), kept.end(), [&](const Kept& each) { return each.pattern == pattern; });
@@ -123,7 +123,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics) {
 
 namespace {
 
-/// In the text of the pattern itself, not of a setting.
+/// True for a place in the text of the pattern, not in a setting.
 int line_of(const Document& document, const Span& span) {
     return span.source == &document.source() ? document.source().place(span.at).line : 0;
 }
@@ -172,10 +172,10 @@ std::string decimal_text(const Quantity& quantity) {
     return quantity.digits.empty() ? fmt::format("{}", quantity.value) : quantity.digits;
 }
 
-/// Length of the word, number of segments, and extent, as far as they are known without much work.
+/// Adds the length of the word, the number of segments and the extent, if they are cheap to compute.
 void add_measures(const Document& document, const Monitor& monitor, Json& answer) {
     constexpr double budget = 2e8;   // of a drawing
-    constexpr double at_once = 3e6;  // nodes that may be visited to tell the facts
+    constexpr double at_once = 3e6;  // nodes visited at most for the facts
     const Grammar& grammar = document.grammar();
     Json cost = {{"symbols", ""}, {"segments", ""}, {"is_derivable", true}, {"most", ""}};
     try {
@@ -193,8 +193,8 @@ void add_measures(const Document& document, const Monitor& monitor, Json& answer
             for (const Quantity& side : *measured.geometry->ink) extent.push_back(decimal_text(side));
             answer["extent"] = std::move(extent);
         }
-    } catch (const BudgetError&) {  // then they stay unknown
-    } catch (const WordError&) {    // the drawing reports it
+    } catch (const BudgetError&) {  // the facts stay unknown
+    } catch (const WordError&) {    // drawing reports the error
     }
     answer["cost"] = std::move(cost);
 }
@@ -257,7 +257,7 @@ Json answer_origins(const Json& request) {
         positions.emplace_back();
         std::from_chars(text.data(), text.data() + text.size(), positions.back());
     }
-    if (positions.size() > most) throw BadRequest(fmt::format("at most {} symbols in a request", most));
+    if (positions.size() > most) throw BadRequest(fmt::format("a request can have at most {} symbols", most));
     Json list = Json::array();
     for (const std::vector<Origin>& found : origins(document, positions)) {
         Json steps = Json::array();
@@ -275,7 +275,7 @@ Json answer_origins(const Json& request) {
 
 namespace {
 
-/// The options that concern the look of a drawing, and, for the whole page, the page; the others concern files.
+/// Selects the options that affect the look of a drawing and, for the whole page, its layout.
 OptionValues shown_options(const OptionValues& all, bool is_page) {
     static constexpr std::array look = {"mirror", "rotate", "dots", "dot-spacing", "colour-by", "budget", "view"};
     static constexpr std::array page = {"size", "margin", "landscape", "fit", "step", "window", "border"};
@@ -304,7 +304,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
     const double width = number_of(request, "width", 0);
     const double height = number_of(request, "height", 0);
     if (!(width >= 1 && height >= 1 && width <= most_side && height <= most_side && width * height <= most_pixels)) {
-        throw BadRequest("'width' and 'height' have to be 1 to 16384, and at most 40 million pixels");
+        throw BadRequest("'width' and 'height' must be 1 to 16384, with at most 40 million pixels in all");
     }
     const bool is_window = request.contains("window");
     OptionValues values = shown_options(options_of(request), !is_window);
@@ -312,7 +312,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
         const double dpi = dpi_of_css * number_of(request, "ratio", 1);
         std::string window;
         for (const Json& side : request["window"]) {
-            if (!side.is_string()) throw BadRequest("'window' has to be four texts");
+            if (!side.is_string()) throw BadRequest("'window' must be four strings");
             window += (window.empty() ? "" : ",") + side.get<std::string>();
         }
         const auto millimetres = [&](double pixels) {
@@ -378,7 +378,7 @@ Json answer_scale(const Json& request, const std::string& file) {
 }
 
 Json answer_show(const Json& request, const std::string& file) {
-    // The extension does not matter: formats are recognised by their first bytes.
+    // The name has no extension: formats are recognised by their first bytes.
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "sikku-shown-file";
     std::ofstream(path, std::ios::binary).write(file.data(), static_cast<std::streamsize>(file.size()));
     std::optional<Provenance> found;
@@ -399,7 +399,7 @@ Json answer_show(const Json& request, const std::string& file) {
 
 namespace {
 
-/// As a shell reads it.
+/// Quotes a text for the shell.
 std::string quoted(const std::string& text) {
     const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char byte) {
         return std::isalnum(byte) != 0 ||
@@ -442,7 +442,7 @@ Json answer_command(const Json& request) {
             command += " --" + value.name;
         } else {
             const OptionInfo* option = find_option(prints().options(), value.name);
-            const bool is_optional = option && option->value.starts_with('[');  // as `--dots[=SIZE COLOUR]`
+            const bool is_optional = option && option->value.starts_with('[');  // such as `--dots[=SIZE COLOUR]`
             command += " --" + value.name + (is_optional ? "=" : " ") + quoted(value.text);
         }
     }

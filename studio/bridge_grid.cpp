@@ -12,9 +12,9 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_dots = 10'000;  // that a page shows
+constexpr std::size_t most_dots = 10'000;  // on the kolam bench
 
-/// The lines as points: the middles of the sides of dots that they pass.
+/// The lines as points: the midpoints of the sides of dots that they cross.
 Json strands(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor) {
     Json all = Json::array();
     for (const ArcStep& start : line_starts(grid, crossings, monitor)) {
@@ -36,7 +36,7 @@ Json strands(const DotGrid& grid, const Crossings& crossings, const Monitor& mon
 
 Json answer_grid(const Json& request, const Monitor& monitor) {
     const DotGrid grid = parse_dot_grid(text_of(request, "grid"));
-    if (grid.dots().size() > most_dots) throw BadRequest(fmt::format("a grid has at most {} dots here", most_dots));
+    if (grid.dots().size() > most_dots) throw BadRequest(fmt::format("a grid has at most {} dots", most_dots));
     RandomKolam random;
     random.symmetry = parse_grid_symmetry(text_of(request, "symmetry", "none"));
     require_symmetry(grid, random.symmetry);

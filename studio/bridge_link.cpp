@@ -1,4 +1,4 @@
-// studio/bridge_link.cpp: works as links, and back.
+// studio/bridge_link.cpp: writes works as links, and reads links.
 #include "art/link/link.h"
 #include "studio/bridge_answers.h"
 
@@ -26,9 +26,9 @@ Json answer_link(const Json& request) {
     work.draw = values_of(shared, "draw");
     work.play = values_of(shared, "play");
     if (shared.contains("page")) {
-        if (!shared["page"].is_object()) throw BadRequest("'page' has to be an object");
+        if (!shared["page"].is_object()) throw BadRequest("'page' must be an object");
         for (const auto& [name, value] : shared["page"].items()) {
-            if (!value.is_string()) throw BadRequest("'page' has to be an object of texts");
+            if (!value.is_string()) throw BadRequest("'page' must be an object of strings");
             work.page[name] = value.get<std::string>();
         }
     }

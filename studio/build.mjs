@@ -1,6 +1,6 @@
-// Builds the studio: one file with its style, its script, its worker and the libraries as WebAssembly.
+// Builds the studio: one HTML file with its style sheet, script, worker and the libraries as WebAssembly.
 //     node build.mjs [--bridge FOLDER] [-o FILE] [--readable]
-// FOLDER holds sikku-bridge.cjs and sikku-bridge.wasm.
+// FOLDER contains sikku-bridge.cjs and sikku-bridge.wasm.
 import { build, transform } from "esbuild";
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -22,8 +22,8 @@ const { values } = parseArgs({
 });
 const bridge = resolve(values.bridge);
 
-// The bundle of one entry, as the text of a classic script: workers from a Blob are classic, so that the page also
-// works from a file.
+// Bundles one entry as the text of a classic script: workers made from a Blob are classic scripts, so that the page
+// also works from a file.
 async function bundle(entry) {
     const result = await build({
         entryPoints: [resolve(here, "page", entry)],
@@ -55,7 +55,7 @@ const notices_as_module = {
     },
 };
 
-// `worker:sound/file.ts` is the bundle of that file as a text.
+// `worker:sound/file.ts` imports the bundle of that file as a string.
 const workers_as_text = {
     name: "workers",
     setup(plugins) {
@@ -70,7 +70,7 @@ const workers_as_text = {
     },
 };
 
-// The tokens and widgets first, then the rules of each part.
+// The shared tokens and widgets come first, then the rules of each part.
 async function style() {
     const folder = join(here, "page");
     const files = readdirSync(folder, { recursive: true })
@@ -81,7 +81,7 @@ async function style() {
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
-// What the page unpacks when it opens: deflated, and four bytes in five letters. See page/embedded.ts.
+// Data that the page unpacks when it opens: deflated, with four bytes in five characters. See page/embedded.ts.
 function packed(contents) {
     const bytes = deflateRawSync(contents, { level: 9, memLevel: 9 });
     const padded = Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);

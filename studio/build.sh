@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the studio: build/studio/sikku-studio.html. `./demo --studio` installs what this needs.
+# Builds the studio: build/studio/sikku-studio.html. `./demo --studio` installs the packages that this needs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p build

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds and tests the studio. NATIVE_BUILD has bin/sikku and bin/sikku-bridge.
+# Builds and tests the studio. NATIVE_BUILD contains bin/sikku and bin/sikku-bridge.
 # Usage: studio/check.sh NATIVE_BUILD [--quick]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,10 +15,10 @@ if command -v chromium > /dev/null; then
     # Every timbre is rendered and measured.
     [ "${2:-}" = --quick ] || node studio/tests/sound_in_browser.mjs
 else
-    echo "skipped: the page in Chromium (it is not installed)"
+    echo "skipped: the page in Chromium (not installed)"
 fi
 if command -v firefox-esr > /dev/null; then
     node studio/tests/firefox.mjs $page
 else
-    echo "skipped: the page in Firefox (it is not installed)"
+    echo "skipped: the page in Firefox (not installed)"
 fi

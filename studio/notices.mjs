@@ -1,4 +1,4 @@
-// What the page contains of others, with the licences: packages of npm from their folders, C++ libraries by name.
+// Third-party software in the page, with licences: npm packages from their folders, C++ libraries by name.
 import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -77,7 +77,7 @@ const libraries = [
     },
 ];
 
-/// A list of {name, version, licence, text}.
+/// Returns a list of {name, version, licence, text}.
 export function notices(folder) {
     const packages = run_time
         .filter((name) => existsSync(join(folder, name)))

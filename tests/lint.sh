@@ -12,7 +12,7 @@ mapfile -t sources < <(find engine art music cli python studio tests -name node_
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files"
 
-# The web build alone compiles studio/wasm.
+# Only the web build compiles studio/wasm.
 mapfile -t wanted < <(find engine art music cli python studio/*.cpp -name '*.cpp' | sort)
 total=${#wanted[@]}
 if [ "$all" != --all ]; then

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the module of Python in a build folder, checks its types, and installs it as pip does.
+# Tests the Python module in a build folder, checks its types, and installs it as pip does.
 # Usage: python.sh BUILD_FOLDER [arguments of pytest]
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -49,7 +49,7 @@ struct DrawOptions : DrawingOptions {
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.
     std::optional<TileOptions> tiles;
-    /// Receives the picture instead of a file, which is left empty.
+    /// Receives the pixels of a picture; the output file stays empty.
     std::function<void(Rendering& rendering, const PixelSize& size)> show_pixels;
     int threads = 0;       ///< for raster formats; 0: all cores
     int compression = 6;   ///< PNG compression, 1 (fast) to 9 (small)

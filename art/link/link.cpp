@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view word = "sikku";
-constexpr std::string_view prefix = "sikku1.";  // with the version of what follows
-constexpr std::size_t longest_name = 255;       // bytes of a file's name
+constexpr std::string_view prefix = "sikku1.";  // includes the version of the format
+constexpr std::size_t longest_name = 255;       // bytes in a file name
 constexpr std::size_t most_pairs = 1000;        // settings, or options of one command
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 
@@ -64,20 +64,19 @@ std::string from_base64url(std::string_view text) {
     int bits = 0;
     for (const char letter : text) {
         const std::uint8_t digit = digits[static_cast<unsigned char>(letter)];
-        if (digit == not_a_digit)
-            throw LinkError("the link is damaged: it contains a character that links do not have");
+        if (digit == not_a_digit) throw LinkError("the link is damaged: it contains an invalid character");
         group = (group << 6 | digit) & 0xFFFFFFU;
         bits += 6;
         if (bits < 8) continue;
         bits -= 8;
         bytes += static_cast<char>(group >> bits & 255U);
     }
-    // One text for each sequence of bytes: no single digit at the end, no bits after the last byte.
+    // The encoding is unique: a single final digit and bits after the last byte are refused.
     if (text.size() % 4 == 1 || (group & ((1U << bits) - 1)) != 0) refuse_damaged();
     return bytes;
 }
 
-/// Decodes `%2D`, as programs that handle addresses may write it.
+/// Decodes percent-encoding such as `%2D`, which other programs may add to addresses.
 std::string percent_decoded(std::string_view text) {
     const auto value = [](char letter) {
         if (letter >= '0' && letter <= '9') return letter - '0';
@@ -164,7 +163,8 @@ std::string decompressed(std::string_view packed) {
     throw LinkError("the link is damaged: " + what);
 }
 
-/// A file name without folders, control characters and direction overrides: messages and outputs quote it.
+/// True for file names without folders, control characters and direction overrides, because messages and outputs
+/// quote them.
 bool is_file_name(std::string_view name) {
     return !name.empty() && name.size() <= longest_name && name != "." && name != ".." &&
            name.find('/') == std::string_view::npos && printable(name, longest_name) == name;
@@ -199,18 +199,18 @@ std::string text_of_json(const Json& json) {
     }
 }
 
-/// @throws LinkError if the value is not an object, or has other members
+/// @throws LinkError if the value is not an object or has unknown members
 void require_object(const Json& value, const char* name, std::initializer_list<std::string_view> known) {
-    if (!value.is_object()) refuse(fmt::format("'{}' has to be an object", name));
+    if (!value.is_object()) refuse(fmt::format("'{}' must be an object", name));
     for (const auto& [key, member] : value.items()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
-            refuse(fmt::format("'{}' has a member that is not known", name));
+            refuse(fmt::format("'{}' has an unknown member", name));
         }
     }
 }
 
 std::string text_of(const Json& value, const char* name) {
-    if (!value.is_string()) refuse(fmt::format("'{}' has to be a text", name));
+    if (!value.is_string()) refuse(fmt::format("'{}' must be a string", name));
     return value.get<std::string>();
 }
 
@@ -219,11 +219,11 @@ OptionValues pairs_of(const Json& object, const char* name) {
     const auto found = object.find(name);
     if (found == object.end()) return values;
     if (!found->is_array() || found->size() > most_pairs) {
-        refuse(fmt::format("'{}' has to be a list of at most {} pairs", name, most_pairs));
+        refuse(fmt::format("'{}' must be a list of at most {} pairs", name, most_pairs));
     }
     for (const Json& pair : *found) {
         if (!pair.is_array() || pair.size() != 2)
-            refuse(fmt::format("'{}' has to be a list of pairs of texts", name));
+            refuse(fmt::format("'{}' must be a list of pairs of strings", name));
         values.push_back({text_of(pair[0], name), text_of(pair[1], name)});
     }
     return values;
@@ -232,19 +232,19 @@ OptionValues pairs_of(const Json& object, const char* name) {
 SharedWork work_of(const Json& json) {
     require_object(json, "link", {"pattern", "draw", "play", "page"});
     const auto pattern = json.find("pattern");
-    if (pattern == json.end()) refuse("it has no 'pattern'");
+    if (pattern == json.end()) refuse("'pattern' is missing");
     require_object(*pattern, "pattern", {"name", "text", "variant", "settings"});
     if (!pattern->contains("name") || !pattern->contains("text")) refuse("'pattern' needs 'name' and 'text'");
     SharedWork work;
     work.name = text_of(pattern->at("name"), "name");
-    if (!is_file_name(work.name)) refuse("'name' has to be the name of a file");
+    if (!is_file_name(work.name)) refuse("'name' must be a file name");
     work.text = text_of(pattern->at("text"), "text");
     if (pattern->contains("variant")) work.variant = text_of(pattern->at("variant"), "variant");
     work.settings = pairs_of(*pattern, "settings");
     work.draw = pairs_of(json, "draw");
     work.play = pairs_of(json, "play");
     if (const auto page = json.find("page"); page != json.end()) {
-        if (!page->is_object()) refuse("'page' has to be an object");
+        if (!page->is_object()) refuse("'page' must be an object");
         for (const auto& [name, value] : page->items()) work.page[name] = text_of(value, "page");
     }
     return work;
@@ -264,13 +264,13 @@ std::string_view without_space(std::string_view text) {
     return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
-/// What follows the first `#`; the whole text without `#`.
+/// The part after the first `#`, or the whole text if it contains none.
 std::string_view fragment_of(std::string_view text) {
     const std::size_t at = text.find('#');
     return at == std::string_view::npos ? text : text.substr(at + 1);
 }
 
-/// `sikku`, a number and a dot.
+/// True if the fragment begins with `sikku`, a number and a dot.
 bool has_version(std::string_view fragment) {
     if (!fragment.starts_with(word)) return false;
     const std::size_t end = fragment.find_first_not_of("0123456789", word.size());
@@ -285,7 +285,7 @@ std::string shared_json(const SharedWork& work) {
 
 std::string link_of(const SharedWork& work) {
     if (!is_file_name(work.name)) {
-        throw LinkError("a link needs the name of a file, without folders and control characters");
+        throw LinkError("a link needs a file name without folders or control characters");
     }
     for (const OptionValues* values : {&work.settings, &work.draw, &work.play}) {
         if (values->size() > most_pairs) {
@@ -293,7 +293,7 @@ std::string link_of(const SharedWork& work) {
         }
     }
     const std::string json = text_of_json(json_of(work, false));
-    if (json.size() > most_link_bytes) throw LinkError("a link contains at most 64 MB");
+    if (json.size() > most_link_bytes) throw LinkError("the work is too large for a link: at most 64 MB of JSON");
     return std::string(prefix) + to_base64url(compressed(json));
 }
 
@@ -305,10 +305,10 @@ bool is_link(std::string_view text) {
 }
 
 SharedWork read_link(std::string_view link) {
-    if (link.size() > most_link_bytes) throw LinkError("a link has at most 64 MB");
+    if (link.size() > most_link_bytes) throw LinkError("the link is too long: at most 64 MB");
     link = without_space(link);
     if (is_address(link) && link.find('#') == std::string_view::npos) {
-        throw LinkError("this address contains no pattern: it has no part after '#'");
+        throw LinkError("this address contains no pattern: expected a part after '#'");
     }
     const std::string fragment = percent_decoded(fragment_of(link));
     if (!fragment.starts_with(prefix)) {

@@ -12,7 +12,7 @@ namespace sikku {
 
 enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, obj, glb };
 
-/// The contents of a format: they determine how it is drawn.
+/// Contents of a format, which determine how it is drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
 
 /// One file format. All code that depends on the format reads this row.

@@ -10,7 +10,7 @@
 namespace sikku {
 namespace {
 
-/// The file of the shared library that contains this function, or empty if a program contains it.
+/// The shared library that contains this function; empty if it is linked into a program.
 std::filesystem::path shared_library() {
 #ifdef __GLIBC__
     Dl_info info{};

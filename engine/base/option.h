@@ -78,8 +78,7 @@ void check_option(const OptionInfo& option, const std::string& text);
 /// Converts a checked text to its number.
 double to_number(const std::string& text);
 
-/// The row of a key of the language as an option, in help as its table states it. The text of the help lives as long
-/// as the program.
+/// Makes an option from a key of the language, with the help in the table of keys. The help text is never freed.
 OptionInfo key_option(std::string_view key, std::string_view group, bool is_alone);
 
 /// Reads a whole number. @throws SettingError if it does not fit

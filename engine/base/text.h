@@ -30,10 +30,10 @@ void append_utf8(std::uint32_t code, std::string& text);
 
 /// `; did you mean 'a', 'b' or 'c'?`, or empty without names.
 std::string did_you_mean(std::span<const std::string_view> names);
-/// The same for the nearest name, or for none if it is empty.
+/// The same for a single name; empty if `near` is empty.
 std::string did_you_mean(std::string_view near);
 
-/// `a, b or c`.
+/// Joins words as `a, b or c`.
 std::string alternatives(std::span<const std::string_view> words);
 
 /// `1 note`, `2 notes`.

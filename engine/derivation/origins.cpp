@@ -17,7 +17,7 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
     return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
 }
 
-/// The places of the symbols of a word in the text.
+/// Spans of the symbols of a word, in the text of the pattern.
 std::vector<Span> symbol_spans(const SymbolNames& names, const Span& word) {
     std::vector<Span> spans;
     WordScanner scanner(names, word, nullptr);
@@ -54,11 +54,12 @@ public:
             grammar_.is_plain() && !grammar_.cut() &&
             std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.context_free(); });
         if (!is_traced) {
-            throw std::runtime_error("the origins of symbols are known only without contexts, parameters and chance");
+            throw std::runtime_error(
+                "origins of symbols need productions without contexts, parameters and random choices");
         }
         if (levels_.count() > most_levels ||
             static_cast<std::size_t>(levels_.count() + 1) * symbols_ > most_lengths) {
-            throw std::runtime_error("the origins of symbols are known up to 10,000 steps");
+            throw std::runtime_error("origins of symbols are available up to 10,000 steps");
         }
         for (std::size_t i = 0; i < tables.size(); ++i) {
             add_table(tables[i], texts_of(pattern_, pattern_.tables.empty() ? nullptr : &pattern_.tables[i]));
@@ -86,7 +87,7 @@ public:
 
     std::vector<Origin> trace(std::uint64_t position) const {
         std::vector<Origin> found;
-        std::uint64_t before = position - 1;  // symbols of the part that are still before it
+        std::uint64_t before = position - 1;  // symbols of the part that precede it
         std::int64_t level = levels_.count();
         const Word* word = &grammar_.axiom();
         const std::vector<Span>* spans = &axiom_;
@@ -112,7 +113,7 @@ public:
     }
 
 private:
-    /// What a table makes of a symbol, in the text.
+    /// The successor of a symbol under a table, in the text.
     struct Made {
         Span production;
         std::vector<Span> spans;
@@ -146,7 +147,7 @@ private:
     std::vector<Span> axiom_;
     std::vector<const Table*> known_;
     std::vector<std::vector<Made>> made_;
-    std::vector<std::uint64_t> lengths_;  // of the expansion of a symbol at a level
+    std::vector<std::uint64_t> lengths_;  // of the expansion of each symbol at each level
 };
 
 }  // namespace

@@ -16,20 +16,20 @@ constexpr std::size_t piece_size = std::size_t{1} << 16;
 
 }  // namespace
 
-/// What the reader and the thread share.
+/// State shared by the reader and the thread.
 struct WordStream::State : public SymbolSink {
     std::shared_ptr<const Grammar> grammar;
     DerivationOptions options;
 
     std::mutex mutex;
     std::condition_variable changed;
-    WordPiece handed;  ///< to the reader, if `is_ready`
+    WordPiece handed;  ///< for the reader, if `is_ready`
     bool is_ready = false;
     bool is_finished = false;  ///< the thread has handed over its last piece
     std::exception_ptr error;
     std::atomic<bool> is_stopped{false};
 
-    WordPiece own;  ///< of the thread
+    WordPiece own;  ///< being filled by the thread
     std::mutex joining;
     std::thread thread;
 
@@ -54,7 +54,7 @@ struct WordStream::State : public SymbolSink {
         try {
             derive(*grammar, *this, options);
             if (!own.symbols.empty()) hand_over();
-        } catch (const Stopped&) {  // the reader has left
+        } catch (const Stopped&) {  // the reader has closed the stream
         } catch (...) {
             error = std::current_exception();
         }

@@ -1,4 +1,4 @@
-// engine/derivation/word_stream.h: the derived word as a stream that its reader pulls, piece by piece.
+// engine/derivation/word_stream.h: the derived word as a stream that is read piece by piece.
 #pragma once
 
 #include "engine/derivation/derivation.h"
@@ -10,15 +10,15 @@
 
 namespace sikku {
 
-/// A stretch of neighbouring symbols of a word.
+/// Consecutive symbols of a word.
 struct WordPiece {
     std::vector<Symbol> symbols;
     std::vector<double> arguments;  ///< SymbolInfo::arity values for each symbol, in order
 };
 
-/// Derives a word in a thread of its own, which waits while its reader has a piece to read. At most two pieces of
-/// about 65,536 symbols are in memory, and what derive() keeps. The destructor stops the thread, within milliseconds.
-/// One thread may read. After a fork() the child has to leave the stream alone.
+/// Derives a word in a separate thread, which waits until its reader has taken the last piece. Memory: two pieces of
+/// about 65,536 symbols, in addition to derive(). The destructor stops the thread within milliseconds. Only one
+/// thread may read. A child process must not use the stream after fork().
 class WordStream {
 public:
     /// @param options  `watch` may be called from the new thread; `pruner` is ignored
@@ -29,11 +29,11 @@ public:
     WordStream& operator=(const WordStream&) = delete;
 
     enum class Next : std::uint8_t { piece, end, waiting };
-    /// Reads the next piece into `piece`, whose memory is used again. Returns `waiting` if there is none after
+    /// Reads the next piece into `piece`, reusing its memory. Returns `waiting` if none is ready after
     /// `patience`. @throws what derive() throws, once; then the stream has ended
     Next next(WordPiece& piece, std::chrono::milliseconds patience);
 
-    /// Stops the thread; the stream has ended. May be called from any thread that does not read.
+    /// Stops the thread and ends the stream. May be called from any thread except while it reads.
     void stop();
 
 private:

@@ -11,14 +11,14 @@
 namespace sikku {
 namespace {
 
-/// Keeps strokes, as many as half of the memory holds.
+/// Stores strokes in up to half of the memory.
 template <class Point>
 class Keeper {
 public:
     explicit Keeper(const std::function<bool(const Pen&)>& draws)
         : draws_(draws), most_(static_cast<std::size_t>(available_memory() / 2 / sizeof(Point))) {}
 
-    /// @throws BudgetError if there are too many
+    /// @throws BudgetError if there are too many points
     void reserve(double points) {
         if (points > static_cast<double>(most_)) refuse();
         lines_.points.reserve(static_cast<std::size_t>(points));
@@ -91,7 +91,7 @@ public:
     Keeper<glm::dvec3> kept;
 };
 
-/// Derives the word for a turtle that draws into `kept`.
+/// Derives the word for a turtle that draws into a store of strokes.
 template <class Point, class MakeTurtle>
 Polylines<Point> traced(const Grammar& given, const TraceOptions& options, Keeper<Point>& kept,
                         const MakeTurtle& make_turtle) {

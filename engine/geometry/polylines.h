@@ -1,4 +1,4 @@
-// engine/geometry/polylines.h: the lines of a drawing as arrays of points, for programs that compute with them.
+// engine/geometry/polylines.h: the lines of a drawing as arrays of points.
 #pragma once
 
 #include "engine/derivation/derivation.h"
@@ -12,7 +12,7 @@
 
 namespace sikku {
 
-/// Strokes one after another, in drawing order, in turtle steps; the turtle starts at the origin.
+/// The strokes of a drawing in order, in turtle steps; the turtle starts at the origin.
 template <class Point>
 struct Polylines {
     std::vector<Point> points;
@@ -22,19 +22,19 @@ struct Polylines {
 };
 
 struct TraceOptions {
-    /// Steps that are not drawn belong to strokes, as in the control polygon of a spline.
+    /// Moves without drawing are part of strokes, as in the control polygon of a spline.
     bool moves_draw = false;
     std::function<bool(const Pen&)> draws = {};             ///< true for visible lines; null: all are visible
     double budget = 200e6;                                  ///< maximum number of derivation nodes visited
     std::function<void(std::uint64_t symbols)> watch = {};  ///< as DerivationOptions::watch
 };
 
-/// The lines that the turtle draws in the plane; polygons and discs are left out.
-/// Cost: about 15 ns and 16 bytes a point. @throws BudgetError, also for more points than half of the memory holds;
+/// Traces the lines that the turtle draws in the plane; polygons and discs are left out.
+/// Cost: about 15 ns and 16 bytes per point. @throws BudgetError, also for more points than half of the memory holds;
 /// WordError; what `watch` throws
 Polylines<glm::dvec2> trace(const Grammar& grammar, const TraceOptions& options);
 
-/// The same in space, 24 bytes a point, for grammars with Grammar::is_spatial(). `moves_draw` has no effect.
+/// The same in space, with 24 bytes per point, for grammars with Grammar::is_spatial(). `moves_draw` has no effect.
 Polylines<glm::dvec3> trace_in_space(const Grammar& grammar, const TraceOptions& options);
 
 }  // namespace sikku

@@ -18,9 +18,9 @@ struct CommandSettings {
     bool plus_turns_left = false;
 };
 
-/// Symbols of the turtle as help describes them.
+/// Help for commands of the turtle.
 struct SymbolHelp {
-    std::string_view symbols;  ///< separated by blanks: `[ ]`
+    std::string_view symbols;  ///< separated by spaces: `[ ]`
     std::string_view help;
 };
 /// In the order of the manual.

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-/// Beside the program or module, in a build folder as after installation.
+/// The folder of patterns beside the program or module, in the build folder or as installed.
 std::filesystem::path bundled_folder() {
     std::error_code error;
     const std::filesystem::path beside = binary_folder();

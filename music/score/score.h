@@ -28,7 +28,7 @@ struct Note {
     std::uint8_t velocity = 80;  ///< 1 to 127
     glm::dvec2 from{0.0};        ///< the piece of the curve it comes from, in turtle steps
     glm::dvec2 to{0.0};
-    std::uint64_t symbol = 0;  ///< the symbol of the word at which it begins, counted from 1; 0: unknown
+    std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
 };
 
 /// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any order

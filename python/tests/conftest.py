@@ -1,4 +1,4 @@
-"""Runs the command-line program, to compare with."""
+"""Runs the command-line program for comparison."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ KOLAMS = [pattern.name for pattern in sikku.patterns() if pattern.kind == "kolam
 
 
 def exact(value: Any) -> Any:
-    """Texts of digits as whole numbers."""
+    """Converts strings of digits to integers."""
     if isinstance(value, str) and value.lstrip("-").isdigit():
         return int(value)
     if isinstance(value, list):

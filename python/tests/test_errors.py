@@ -109,7 +109,7 @@ def damaged() -> list[bytes]:
 @pytest.mark.filterwarnings("ignore::sikku.SikkuWarning")
 @pytest.mark.parametrize("text", damaged(), ids=lambda text: str(len(text)))
 def test_damaged_texts(text: bytes) -> None:
-    """Each is a pattern, or an error of sikku; nothing else is raised."""
+    """Each text is a valid pattern or raises an error of sikku; nothing else is raised."""
     try:
         pattern = sikku.load(text=text)
         pattern.measure(budget=1e5)
@@ -126,7 +126,7 @@ def test_surrogates_are_invalid_utf8() -> None:
         sikku.load(text="axiom: F\ud800\n")
 
 
-# Long words of which nothing is kept.
+# Long words that are not stored.
 TURNS = "sikku.load(text='axiom: X\\nX --> X+X\\n')"
 CHANCE = "sikku.load(text='axiom: F\\nF --> FF : 1\\nF --> F+F : 1\\nderivation length: 60\\n')"
 

@@ -63,7 +63,7 @@ def test_options_are_those_of_the_program(run: Run, tmp_path: Path) -> None:
     assert drawn == file.read_text()
     assert run("draw", "snake-kolam", "--dots", "--animate", "-o", str(file)).returncode == 0
     assert sikku.load("snake-kolam").draw(dots=True, animate=True) == file.read_text()
-    # Keys of the pattern may be options, too.
+    # Options may include keys of the pattern.
     assert sikku.load("snake-kolam").draw(derivation_length=3, stroke="0.4mm navy") == sikku.load(
         "snake-kolam", n=3, stroke="0.4mm navy"
     ).draw()

@@ -1,4 +1,4 @@
-// studio/wasm/image_file.cpp: pictures of the web build, which has no OpenImageIO: PNG alone.
+// studio/wasm/image_file.cpp: writes PNG in the web build, which has no OpenImageIO.
 // Source: ISO/IEC 15948 (PNG), sections 5, 9 and 11.
 #include "art/image/image_file.h"
 
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18;
 
 [[noreturn]] void refuse() {
-    throw std::runtime_error("the studio writes pictures as PNG; `sikku draw` writes the other formats");
+    throw std::runtime_error("the studio writes pictures only as PNG; `sikku draw` writes the other formats");
 }
 
 void append_number(std::string& bytes, std::uint32_t number) {
@@ -91,12 +91,12 @@ private:
         write(length + body + sum);
     }
 
-    /// Uncompressed international text in UTF-8.
+    /// An iTXt chunk: uncompressed text in UTF-8.
     void text(const std::string& keyword, const std::string& value) {
         if (!value.empty()) chunk("iTXt", keyword + std::string(5, '\0') + value);
     }
 
-    /// The filter whose differences have the smallest sum, of none, left and up: drawings have large even areas.
+    /// Chooses the filter whose differences have the smallest sum: none, left or up. Drawings have large even areas.
     void filter(std::span<const std::uint8_t> line) {
         std::uint64_t least = ~std::uint64_t{0};
         for (std::uint8_t type = 0; type < 3; ++type) {

@@ -1,11 +1,11 @@
-# Packages of the web build, under the names that find_package() gives them elsewhere. Debian's libraries that consist
-# of headers alone serve both builds; oneTBB and zlib have stand-ins in studio/wasm/include.
+# Packages of the web build, under the names that find_package() gives them elsewhere. Debian's header-only libraries
+# serve both builds; studio/wasm/include replaces oneTBB and zlib.
 set(web_headers ${PROJECT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${web_headers})
-# One folder with these alone: /usr/include itself has the headers of another C library.
+# A folder with only these headers: /usr/include contains the headers of another C library.
 foreach(name glm fmt boost nlohmann fast_float toml++)
     if(NOT EXISTS /usr/include/${name})
-        message(FATAL_ERROR "missing: /usr/include/${name}; ./demo --studio installs it")
+        message(FATAL_ERROR "missing: /usr/include/${name}; run ./demo --studio to install it")
     endif()
     file(CREATE_LINK /usr/include/${name} ${web_headers}/${name} SYMBOLIC)
 endforeach()
@@ -17,11 +17,11 @@ endforeach()
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 set(tomlplusplus_INCLUDE_DIR ${web_headers} CACHE PATH "")
 
-# find_package() finds an empty module of each, as the targets are there.
+# The targets exist already, so find_package() finds an empty module for each.
 foreach(name glm fmt Boost TBB ZLIB nlohmann_json)
     file(WRITE ${PROJECT_BINARY_DIR}/packages/Find${name}.cmake "set(${name}_FOUND TRUE)\n")
 endforeach()
 list(PREPEND CMAKE_MODULE_PATH ${PROJECT_BINARY_DIR}/packages)
 
-# Sizes have 32 bits; what may be larger is checked against the memory.
+# Sizes have 32 bits; larger values are checked against the available memory.
 add_compile_options(-fwasm-exceptions -Wno-shorten-64-to-32)

@@ -1,4 +1,4 @@
-// tests/art/link_test.cpp: works as links, and links of any bytes.
+// tests/art/link_test.cpp: works as links, and links with arbitrary bytes.
 #include "art/link/link.h"
 
 #include "tests/fuzz/link_targets.h"
@@ -35,7 +35,7 @@ std::string message_of(std::string_view link) {
     return "";
 }
 
-/// The fragment that holds this JSON, whatever it is.
+/// The fragment that contains this JSON, valid or not.
 std::string link_with(const std::string& json) {
     std::string packed(json.size() + 1000, '\0');
     z_stream stream{};
@@ -66,7 +66,7 @@ TEST(Link, WorksComeBack) {
     EXPECT_TRUE(back.settings.empty() && back.draw.empty() && back.play.empty() && back.page.empty());
 }
 
-/// Links of earlier versions have to remain readable, and the same work has to give the same link everywhere.
+/// Links of earlier versions must remain readable, and equal works must give equal links on every machine.
 TEST(Link, BytesStayTheSame) {
     SharedWork work;
     work.name = "curve.lsys";
@@ -104,15 +104,15 @@ TEST(Link, EveryForm) {
 
 TEST(Link, HostileInputIsRefused) {
     const std::string link = link_of(rich_work());
-    EXPECT_EQ(message_of("https://example.org/"), "this address contains no pattern: it has no part after '#'");
+    EXPECT_EQ(message_of("https://example.org/"), "this address contains no pattern: expected a part after '#'");
     EXPECT_EQ(message_of("https://example.org/#top"), "this link contains no pattern: expected '#sikku1.…'");
     EXPECT_EQ(message_of(""), "this link contains no pattern: expected '#sikku1.…'");
     EXPECT_EQ(message_of("sikku2." + link.substr(7)), "this link was made by a newer version of Sikku");
     EXPECT_EQ(message_of("sikku1."), "the link is damaged or incomplete");
     EXPECT_EQ(message_of(link + "%4"), "the link is damaged: '%' without two hexadecimal digits");
     EXPECT_EQ(message_of(link + "%zz"), "the link is damaged: '%' without two hexadecimal digits");
-    EXPECT_EQ(message_of(link + "="), "the link is damaged: it contains a character that links do not have");
-    EXPECT_EQ(message_of(link + "%00"), "the link is damaged: it contains a character that links do not have");
+    EXPECT_EQ(message_of(link + "="), "the link is damaged: it contains an invalid character");
+    EXPECT_EQ(message_of(link + "%00"), "the link is damaged: it contains an invalid character");
     for (std::size_t length = 7; length < link.size(); ++length) {
         EXPECT_NE(message_of(link.substr(0, length)), "") << length;
     }
@@ -162,7 +162,7 @@ TEST(Link, ContentsAreChecked) {
 TEST(Link, SizesAreLimited) {
     // 70 MB of blanks become 70 kB.
     EXPECT_EQ(message_of(link_with(std::string(std::size_t{70} << 20, ' '))), "the link contains more than 64 MB");
-    EXPECT_EQ(message_of(std::string(most_link_bytes + 1, 'A')), "a link has at most 64 MB");
+    EXPECT_EQ(message_of(std::string(most_link_bytes + 1, 'A')), "the link is too long: at most 64 MB");
     SharedWork work = rich_work();
     work.text = std::string(most_link_bytes, ' ');
     EXPECT_THROW(link_of(work), LinkError);

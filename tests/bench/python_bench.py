@@ -1,4 +1,4 @@
-"""Times the module of Python: PYTHONPATH=build/python/python python3 tests/bench/python_bench.py"""
+"""Times the Python module: PYTHONPATH=build/python/python python3 tests/bench/python_bench.py"""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import sikku
 
 
 def best(work: Callable[[], object], repeats: int = 5) -> float:
-    """Seconds of the fastest of several runs."""
+    """Seconds taken by the fastest of several runs."""
     times = []
     for _ in range(repeats):
         began = time.perf_counter()

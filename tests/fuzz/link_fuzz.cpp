@@ -1,4 +1,4 @@
-// tests/fuzz/link_fuzz.cpp: links of any bytes, and with any contents.
+// tests/fuzz/link_fuzz.cpp: links with arbitrary bytes and with arbitrary contents.
 #include "tests/fuzz/link_targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-// tests/fuzz/link_targets.h: what the fuzzers do with any bytes as a link, and as the contents of one.
+// tests/fuzz/link_targets.h: fuzz targets that read arbitrary bytes as a link and as the contents of one.
 #pragma once
 
 #include "art/link/link.h"
@@ -22,7 +22,7 @@ inline std::string base64url(std::string_view bytes) {
     return text;
 }
 
-/// Reads a link. What is read makes a link with the same contents.
+/// Reads a link, and checks that its contents make an equivalent link.
 inline void try_link(std::string_view link) {
     try {
         is_link(link);
@@ -36,10 +36,10 @@ inline void try_link(std::string_view link) {
     }
 }
 
-/// Reads the bytes as the compressed contents of a link, and as contents that were compressed.
+/// Reads the bytes as the contents of a link, compressed or not yet compressed.
 inline void try_contents(std::string_view bytes) {
     try_link("#sikku1." + base64url(bytes));
-    // Stored blocks of deflate: the fuzzer sees through them.
+    // Stored blocks of deflate leave the bytes visible to the fuzzer.
     std::string stored;
     constexpr std::size_t most = 0xFFFF;
     for (std::size_t at = 0; at <= bytes.size(); at += most) {

@@ -27,7 +27,7 @@ std::vector<Include> includes_of(const std::string& folder) {
     using Iterator = std::filesystem::recursive_directory_iterator;
     for (Iterator each(root / folder); each != Iterator(); ++each) {
         const auto& entry = *each;
-        // Packages of the studio's page, and stand-ins for libraries.
+        // npm packages of the studio page, and replacements for libraries.
         const std::string name = entry.path().filename();
         if (name == "node_modules" || name == "include") each.disable_recursion_pending();
         const std::string extension = entry.path().extension();

@@ -1,5 +1,5 @@
-// tests/program/link_program_test.cpp: links of the studio in the place of patterns. The program and the studio's
-// libraries make the same bytes from them.
+// tests/program/link_program_test.cpp: studio links instead of patterns. The program and the studio's libraries make
+// the same bytes from them.
 #include "art/link/link.h"
 #include "tests/program.h"
 
@@ -119,7 +119,7 @@ TEST(LinkProgram, ACommandWithTheSameOptionsMakesTheSameBytes) {
          "svg");
     same({"play", link},
          {"play", "hilbert", "-n", "4", "--seed", "7", "--set", "angle factor=4", "--humanise", "0.5"}, "mid");
-    // The command line wins.
+    // The command line takes precedence.
     same({"draw", link, "-n", "3", "--seed", "8", "--set", "angle factor=6", "--size", "A4"},
          {"draw", "hilbert", "-n", "3", "--seed", "8", "--set", "angle factor=6", "--size", "A4"}, "svg");
     same({"play", link, "-n", "3", "--seed", "8", "--humanise", "0.2"},
@@ -172,7 +172,7 @@ TEST(LinkProgram, FaultsAreReported) {
     work["pattern"]["text"] = "axiom: F\nF -> F\n";
     refused({"draw", link_to(work), "-o", out}, "hilbert.lsys:2:");
     EXPECT_FALSE(std::filesystem::exists(out));
-    // A file of that name comes first.
+    // A file of that name takes precedence.
     folder.write("sikku1.file", "axiom: F\n");
     EXPECT_EQ(run({"derive", "sikku1.file"}, {.folder = folder.path()}).output, "F\n");
 }

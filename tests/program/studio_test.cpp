@@ -1,4 +1,4 @@
-// tests/program/studio_test.cpp: `sikku studio`, with a small page in the place of the studio.
+// tests/program/studio_test.cpp: `sikku studio`, with a small page instead of the studio.
 #include "art/link/link.h"
 #include "tests/program.h"
 
@@ -34,7 +34,7 @@ protected:
 
     void set_page(const std::string& text) { folder_.write("share/sikku/sikku-studio.html", text); }
 
-    /// A program of that name that writes down its argument.
+    /// A program of that name that records its argument.
     void set_opener(const std::string& script) {
         const std::string file = folder_.write("path/xdg-open", "#!/bin/sh\n" + script);
         ::chmod(file.c_str(), 0755);
@@ -123,7 +123,7 @@ TEST_F(Studio, ThePageIsWrittenWithPatterns) {
                              {"variant", ""},
                              {"settings", Json::array({Json::array({"seed", "7"})})},
                              {"draw", Json::array({Json::array({"size", "A3"})})}}));
-    // A page that has patterns already gets others.
+    // The patterns of a page are replaced.
     set_page(contents(folder_ / "work/out.html"));
     EXPECT_EQ(studio({"-o", "empty.html"}).status, 0);
     EXPECT_EQ(contents(folder_ / "work/empty.html"), before + "[]" + after);
@@ -140,7 +140,7 @@ TEST_F(Studio, FaultsAreReported) {
     set_page("<html>");
     const Outcome other = studio({"hilbert", "-o", "x.html"});
     EXPECT_EQ(other.status, 1);
-    EXPECT_TRUE(has(other.errors, "this is not a page of the studio"));
+    EXPECT_TRUE(has(other.errors, "not a studio page"));
     EXPECT_FALSE(fs::exists(folder_ / "work/x.html"));
 }
 

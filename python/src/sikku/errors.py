@@ -18,7 +18,7 @@ __all__ = [
 
 
 class Diagnostic(NamedTuple):
-    """An error or a warning at a place of a pattern."""
+    """An error or a warning at a place in a pattern."""
 
     file: str
     """Name of the text: a path, a bundled pattern, or the name of a setting."""
@@ -29,9 +29,9 @@ class Diagnostic(NamedTuple):
     message: str
     """What is wrong, and what is expected."""
     excerpt: str
-    """The line of the pattern, and below it a caret at the place."""
+    """The line of the pattern, with a caret below the place."""
     is_warning: bool
-    """True for warnings, with which the pattern can be used."""
+    """True for warnings, which do not prevent the use of the pattern."""
 
     def __str__(self) -> str:
         kind = "warning: " if self.is_warning else ""
@@ -40,13 +40,13 @@ class Diagnostic(NamedTuple):
 
 
 class Error(Exception):
-    """Base class of the errors of sikku; raised itself if a file cannot be read or written, or nothing is drawn."""
+    """A file cannot be read or written, or nothing is drawn. Base class of the errors of sikku."""
 
 
 class PatternError(Error, ValueError):
     """A pattern has errors. `file`, `line`, `column` and `message` are those of the first one.
 
-    For an error in a setting `line` is 0, and `file` holds the setting and its value: `angle factor x`.
+    For an error in a setting, `line` is 0 and `file` is the setting and its value: `angle factor x`.
     """
 
     def __init__(self, text: str, diagnostics: list[Diagnostic]) -> None:
@@ -81,19 +81,19 @@ class SettingError(Error, ValueError):
 
 
 class NotFoundError(Error, LookupError):
-    """Neither a file nor a bundled pattern has that name."""
+    """No file or bundled pattern has the name."""
 
 
 class BudgetError(Error):
-    """The work is above its budget: `budget=1e9` raises it."""
+    """The work exceeds its budget; `budget=1e9` sets a larger one."""
 
 
 class WordError(Error, ValueError):
-    """The word cannot be drawn or played: unmatched brackets, positions that are not finite."""
+    """The word cannot be drawn or played, because of unmatched brackets or positions that are not finite."""
 
 
 class ScoreError(Error, ValueError):
-    """The score cannot be written: no notes, or too many for the format."""
+    """The score cannot be written, because it has no notes or too many for the format."""
 
 
 class SikkuWarning(UserWarning):

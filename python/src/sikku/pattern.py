@@ -1,4 +1,4 @@
-"""Patterns: drawn, played, measured, and as data."""
+"""Patterns, and the prints, scores, measures and data made from them."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ class Module(NamedTuple):
     name: str
     """The symbol without parameters: `F`, `+`, `@o`."""
     parameters: tuple[float, ...]
-    """Its parameters; empty for most symbols."""
+    """Parameters; empty for most symbols."""
 
     def __str__(self) -> str:
-        """The module as patterns write it: `F(2.5)`."""
+        """The module as written in patterns: `F(2.5)`."""
         return f"{self.name}({','.join(map(number_text, self.parameters))})" if self.parameters else self.name
 
 
@@ -45,33 +45,33 @@ class Path(NamedTuple):
     """The lines of a drawing, in turtle steps; the turtle starts at the origin."""
 
     points: Numbers
-    """float64 of shape (points, 2), or (points, 3) if the drawing pitches, rolls or bends."""
+    """float64 of shape (points, 2), or (points, 3) for drawings in space."""
     strokes: Wholes
-    """int64 of shape (strokes + 1,): stroke i is `points[strokes[i]:strokes[i + 1]]`, at least two points."""
+    """int64 of shape (strokes + 1,): stroke i consists of `points[strokes[i]:strokes[i + 1]]`, at least two points."""
 
 
 @dataclass(frozen=True)
 class Notes:
-    """The notes of a score, by onset and then by voice. Arrays have an entry for each note."""
+    """The notes of a score, sorted by onset, then by voice. Each array has one entry per note."""
 
     onset: Wholes
-    """Beginnings in ticks, int64. A quarter note has 480 ticks."""
+    """Onsets in ticks, int64. A quarter note has 480 ticks."""
     duration: Wholes
-    """Durations in ticks, int64, above 0."""
+    """Durations in ticks, int64, greater than 0."""
     key: Numbers
-    """MIDI keys, float64, 60 is C4; fractions are microtones."""
+    """MIDI keys, float64; 60 is C4, fractions are microtones."""
     velocity: numpy.typing.NDArray[numpy.uint8]
     """Loudness, 1 to 127."""
     voice: numpy.typing.NDArray[numpy.int16]
     """Voices, counted from 0."""
     curve: Numbers
-    """Pieces of the curve that the notes come from, float64 of shape (notes, 2, 2), in turtle steps."""
+    """Pieces of the curve that produce the notes, float64 of shape (notes, 2, 2), in turtle steps."""
     end: int
     """End of the score in ticks, rests included."""
     tempo: float
-    """Quarter notes a minute."""
+    """Quarter notes per minute."""
     meter: tuple[int, int]
-    """Beats of a bar and their unit: (6, 8)."""
+    """Beats per bar and their unit: (6, 8)."""
 
     def __len__(self) -> int:
         return len(self.onset)
@@ -89,7 +89,7 @@ class PatternInfo(NamedTuple):
     """Name of its folder: kolams, tilings, curves, plants, words or melodies."""
     title: str
     source: str
-    """Where the literature describes it."""
+    """Source of the pattern in the literature."""
 
 
 def _warn(remarks: list[tuple[bool, str]]) -> list[str]:
@@ -101,7 +101,7 @@ def _warn(remarks: list[tuple[bool, str]]) -> list[str]:
 
 
 def _exact(value: object) -> object:
-    """The texts of digits with which JSON writes large whole numbers, in lists and dicts too, as int."""
+    """Converts strings of digits, which JSON contains for large integers, to int, also in lists and dicts."""
     if isinstance(value, str):
         # Python refuses to convert more than 4300 digits at once (CVE-2020-10735).
         return _whole_of_digits(value) if re.fullmatch(r"-?[0-9]+", value) else value
@@ -140,15 +140,15 @@ def _format_of(path: str) -> tuple[str, str]:
 class Pattern:
     """A pattern that was read, checked and compiled. Immutable; several threads may use it at once.
 
-    Methods that take options take those of `sikku draw` and `sikku play`, with underscores instead of hyphens
-    (`dot_spacing="7mm"`), and keys and defines of the pattern (`angle_factor=6`). Flags are True or False, numbers may
-    be numbers. Long calls let other threads run, and stop on ctrl-C with KeyboardInterrupt; then nothing is written.
+    Options of methods are those of `sikku draw` and `sikku play`, with underscores instead of hyphens
+    (`dot_spacing="7mm"`), and keys and defines of the pattern (`angle_factor=6`). Flags are True or False; numbers may
+    be numbers or text. Long calls let other threads run, and stop on Ctrl-C with KeyboardInterrupt and write nothing.
     """
 
     __slots__ = ("_document", "__weakref__")
 
     def __init__(self, document: _core.Document) -> None:
-        """Use sikku.load()."""
+        """Not public; use sikku.load()."""
         self._document = document
 
     @property
@@ -158,17 +158,17 @@ class Pattern:
 
     @property
     def title(self) -> str:
-        """Value of the key `title`, or an empty text."""
+        """Value of the key `title`, or an empty string."""
         return self._document.key("title")
 
     @property
     def source(self) -> str:
-        """Value of the key `source`, where the literature describes the pattern, or an empty text."""
+        """Value of the key `source`, which cites the literature, or an empty string."""
         return self._document.key("source")
 
     @property
     def text(self) -> str:
-        """Text of the pattern, as it was read."""
+        """Text of the pattern as read."""
         return self._document.source_text
 
     @property
@@ -178,7 +178,7 @@ class Pattern:
 
     @property
     def is_melody(self) -> bool:
-        """True if the pattern sets keys of melodies, such as `scale`."""
+        """True if the pattern sets a key of melodies, such as `scale`."""
         return self._document.is_melody
 
     def __repr__(self) -> str:
@@ -187,7 +187,7 @@ class Pattern:
     def with_settings(
         self, *, n: Optional[int] = None, seed: Optional[int] = None, **settings: Value
     ) -> Pattern:
-        """Returns the same pattern with another derivation length, seed, keys or defines.
+        """Returns a copy of the pattern with another derivation length, seed, keys or defines.
 
         Raises PatternError.
         """
@@ -218,12 +218,12 @@ class Pattern:
     def save(self, path: PathName, **options: Value) -> list[str]:
         """Writes a print, a model or a score; the extension of `path` selects the format.
 
-        Each file appears whole or not at all: it is written beside its place and renamed. Some outputs have several
-        files, such as models (.obj and .mtl) and prints that are cut into sheets (`tile="A4"`). `x.notes.svg` shows
-        the notes of a melody.
+        Each file appears whole or not at all, because it is written to a temporary name and renamed. Some outputs have
+        several files, such as models (.obj and .mtl) and tiled prints (`tile="A4"`). The extension `.notes.svg` selects
+        the curve and the piano roll of a melody.
 
         Returns facts about the output, such as the length that a plotter draws. Options, warnings and errors are those
-        of draw() and play(); Error if a file cannot be written.
+        of draw() and play(). Raises Error if a file cannot be written.
         """
         interpreter, format = _format_of(os.fsdecode(path))
         remarks = _core.write(
@@ -232,11 +232,11 @@ class Pattern:
         return _warn(remarks)
 
     def measure(self, *, budget: float = 2e8) -> dict[str, Any]:
-        """Measures the word without deriving it, if the system has no contexts: n = 60 costs as little as n = 6.
+        """Measures the word, without deriving it if productions have no contexts: n = 60 costs as little as n = 6.
 
-        Returns what `sikku measure --json` prints: title, n, symbols, counts, drawn, moves, length, box, ink, end,
-        heading, closed, depth, derived. Whole numbers are exact, of any size; above 10,000 digits they are a text,
-        "about 10^k". Lengths are in turtle steps, headings in degrees.
+        Returns the output of `sikku measure --json`: title, n, symbols, counts, drawn, moves, length, box, ink, end,
+        heading, closed, depth, derived. Integers are exact and of any size; those above 10,000 digits are given as
+        text, "about 10^k". Lengths are in turtle steps, headings in degrees.
 
         budget: maximum number of derivation nodes visited, if the word has to be derived.
         Raises BudgetError, WordError.
@@ -247,7 +247,7 @@ class Pattern:
     def kolam(self, *, budget: float = 2e8) -> dict[str, Any]:
         """Examines the drawing as a kolam: lines, crossings, faces, symmetry, dots.
 
-        Returns what `sikku kolam --json` prints (docs/commands.md). A million segments take 3 s and 250 MB.
+        Returns the output of `sikku kolam --json` (docs/commands.md). A million segments take 3 s and 250 MB.
 
         Raises BudgetError, WordError, and Error if nothing is drawn.
         """
@@ -255,33 +255,33 @@ class Pattern:
         return facts
 
     def word(self, n: Optional[int] = None, *, interpreted: bool = False) -> Iterator[Module]:
-        """Returns an iterator over the modules of the word, which is derived while it is read.
+        """Returns an iterator over the modules of the word, which is derived as it is read.
 
-        Words of any length need little memory, unless productions look at their neighbours. The iterator may be
-        dropped at any place, which ends the derivation; it cannot be used after os.fork(). About 10 ns a module.
+        Words of any length need little memory, unless productions have contexts. Discarding the iterator ends the
+        derivation. The iterator cannot be used after os.fork(). Cost: about 10 ns per module.
 
         n: derivation length, instead of the pattern's.
-        interpreted: apply the productions under `interpret:`.
-        Raises PatternError; while it is read BudgetError, WordError.
+        interpreted: whether to apply the productions under `interpret:`.
+        Raises PatternError; the iterator raises BudgetError, WordError.
         """
         return itertools.chain.from_iterable(_core.WordIterator(self._derived(n), interpreted))
 
     def path(self, n: Optional[int] = None, *, budget: float = 2e8) -> Path:
-        """Returns the lines that the turtle draws, as arrays of numpy.
+        """Returns the lines that the turtle draws, as NumPy arrays.
 
-        Splines (`line: spline`) are given by their control polygons; polygons and discs are left out. About 20 ns and
-        16 bytes a point.
+        Splines (`line: spline`) are given as control polygons; polygons and discs are left out. Cost: about 20 ns
+        and 16 bytes per point.
 
         n: derivation length, instead of the pattern's.
         budget: maximum number of derivation nodes visited.
-        Raises PatternError, WordError, BudgetError (also for more points than half of the memory holds).
+        Raises PatternError, WordError, BudgetError (also if the points would take more than half of the memory).
         """
         return Path(*_core.path(self._derived(n), budget))
 
     def notes(self, **options: Value) -> Notes:
-        """Returns the notes of the score that play() writes with the same options, as arrays of numpy.
+        """Returns the notes of the score that play() writes with the same options, as NumPy arrays.
 
-        About 200 bytes a note while they are listed. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
+        Cost: about 200 bytes per note. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
         """
         arrays, end, tempo, beats, unit = _core.notes(self._document, to_options("scores", options))
         onset, duration, key, velocity, voice, curve = arrays
@@ -299,13 +299,13 @@ class Pattern:
         return content
 
     def _repr_svg_(self) -> Optional[str]:
-        """The drawing, for notebooks; nothing for melodies and drawings of more than 2 million nodes."""
+        """The drawing, for notebooks; None for melodies and drawings of more than 2 million nodes."""
         if self.is_melody:
             return None
         return self._shown("prints", "svg")
 
     def _repr_html_(self) -> Optional[str]:
-        """A page that plays a melody, in a frame, for notebooks; nothing for other patterns."""
+        """A page that plays the melody, in a frame, for notebooks; None for other patterns."""
         if not self.is_melody:
             return None
         page = self._shown("scores", "html")
@@ -319,7 +319,7 @@ class Pattern:
     def _shown(self, interpreter: str, format: str) -> Optional[str]:
         try:
             outputs, _ = _core.make(self._document, interpreter, format, [("budget", str(_most_shown))])
-        except errors.Error:  # too much to show, or nothing to be seen
+        except errors.Error:  # over the budget, or nothing is drawn
             return None
         return str(next(iter(outputs.values())))
 
@@ -366,5 +366,5 @@ def load(
 
 
 def patterns() -> list[PatternInfo]:
-    """Lists the bundled patterns, sorted by kind and name. About 10 ms."""
+    """Lists the bundled patterns, sorted by kind and name. Takes about 10 ms."""
     return [PatternInfo(*one) for one in _core.patterns()]

@@ -13,14 +13,14 @@ from sikku.lib import _core
 __all__ = ["Value", "to_options", "to_settings"]
 
 Value = Union[str, bool, float, None, Iterable[object]]
-"""Text as on the command line, a flag, a number, or several: numbers of one value (`window=(0, 0, 8, 8)`), or the
-values of an option that may be repeated. None leaves the setting out."""
+"""Text as on the command line, a flag, a number, or a sequence: the numbers of one value (`window=(0, 0, 8, 8)`) or the
+values of an option that may be repeated. None omits the setting."""
 
 Texts = list[tuple[str, str]]
 
 
 def number_text(number: float) -> str:
-    """The shortest decimal digits that read back as the same number."""
+    """The shortest decimal text that reads back as the same number."""
     if isinstance(number, numbers.Integral):
         return str(int(number))
     text = repr(float(number))
@@ -47,7 +47,7 @@ def _keys() -> frozenset[str]:
 
 @functools.lru_cache(maxsize=None)
 def _options(interpreter: str) -> dict[str, tuple[bool, bool]]:
-    """For the name of each option: it may be repeated, its value may be left out."""
+    """For the name of each option: whether it may be repeated, and whether its value may be omitted."""
     return {
         name: (is_list, value.startswith("[")) for name, is_list, _, value, _ in _core.options(interpreter)
     }
@@ -86,7 +86,7 @@ def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
 
 
 def whole(option: str, value: object) -> str:
-    """The text of a whole number of any kind, such as numpy's. Raises SettingError for other values."""
+    """The text of an integer of any type, including NumPy's. Raises SettingError for other values."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise SettingError(option, str(value), "expected a whole number")
     return str(int(value))

@@ -1,5 +1,5 @@
-// studio/wasm/include/zlib.h: what the libraries use of zlib, served by pako, zlib in JavaScript, which makes the
-// same bytes: see studio/page/zlib.ts.
+// studio/wasm/include/zlib.h: the parts of zlib that the libraries use, implemented by pako, a port of zlib to
+// JavaScript that writes the same bytes: see studio/page/zlib.ts.
 #pragma once
 
 #include <cstddef>

@@ -1,1 +1,1 @@
-"""The compiled part of sikku, and what it loads."""
+"""The compiled part of sikku, with the libraries and data that it loads."""

@@ -1,5 +1,5 @@
-// studio/wasm/include/oneapi/tbb: what the libraries use of oneTBB, on one thread. The headers beside this one
-// include it under the names of oneTBB.
+// studio/wasm/include/oneapi/tbb: the parts of oneTBB that the libraries use, on one thread. The headers beside this
+// one include it under the names of oneTBB.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class global_control {
 public:
     enum parameter { max_allowed_parallelism };
     global_control(parameter /*limited*/, std::size_t /*value*/) {}
-    ~global_control() {}  // not trivial: variables of this type are never called unused
+    ~global_control() {}  // not trivial, so that compilers do not report unused variables
 };
 
 class task_arena {
