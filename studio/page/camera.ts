@@ -20,6 +20,15 @@ export function limited(scale: number): number {
     return Math.min(coarsestScale, Math.max(finestScale, scale));
 }
 
+/// The camera of a place as works and links contain it; null if it is no place.
+export function cameraOf(place: unknown): Camera | null {
+    const { x, y, scale } = (place ?? {}) as Record<string, unknown>;
+    if (typeof x !== "string" || typeof y !== "string" || typeof scale !== "number") return null;
+    const [across, up] = [readExact(x), readExact(y)];
+    if (across === null || up === null || !(scale > 0) || !Number.isFinite(scale)) return null;
+    return { x: across, y: up, scale: limited(scale) };
+}
+
 /// The point of the plane under a pixel of the view, from its top left corner.
 export function pointAt(camera: Camera, size: Size, left: number, top: number): { x: Exact; y: Exact } {
     return {

@@ -1,6 +1,6 @@
 // The map: what it shows, and when pictures are asked for. The drawing never disappears: what was there last stays,
 // moved and scaled, until better pictures have come.
-import { decimalsOf, fitting, limited, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
+import { cameraOf, decimalsOf, fitting, limited, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { exactOf, exactText, readExact } from "./decimal";
 import { layersOf } from "./layers";
@@ -178,11 +178,10 @@ export class MapView {
             this.mode = "page";
             return;
         }
-        const x = readExact(place.x);
-        const y = readExact(place.y);
-        if (x === null || y === null || !(place.scale > 0)) return;
+        const camera = cameraOf(place);
+        if (!camera) return;
         this.mode = "plane";
-        this.motion.jump({ x, y, scale: limited(place.scale) });
+        this.motion.jump(camera);
     }
 
     private keepSoon(): void {

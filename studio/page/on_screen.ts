@@ -1,20 +1,17 @@
 // What is on the screen, as options of `sikku draw`: the options of the work, and the window that the map shows.
-import { windowOf } from "./camera";
+import { cameraOf, windowOf } from "./camera";
 import type { Studio } from "./context";
-import { readExact } from "./decimal";
 import type { Options } from "./protocol";
 
 const usual = { width: 1000, height: 800 }; // if the map has not been shown yet
 
 /// The window of the map; null while it shows the whole page.
 export function windowOnScreen(studio: Studio): string | null {
-    const { place } = studio.store.work;
-    if (!place || !studio.opened?.facts.has_view) return null;
-    const [x, y] = [readExact(place.x), readExact(place.y)];
-    if (x === null || y === null) return null;
+    const camera = cameraOf(studio.store.work.place);
+    if (!camera || !studio.opened?.facts.has_view) return null;
     const canvas = document.querySelector<HTMLElement>(".map-canvas");
     const size = canvas?.clientWidth ? { width: canvas.clientWidth, height: canvas.clientHeight } : usual;
-    return windowOf({ x, y, scale: place.scale }, size).join(",");
+    return windowOf(camera, size).join(",");
 }
 
 export function drawOptions(studio: Studio, withWindow: boolean): Options {

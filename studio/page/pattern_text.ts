@@ -2,6 +2,9 @@
 // values are written.
 import type { PatternRequest } from "./protocol";
 
+// Texts come from anywhere. `[ \t]` instead of `\s`, which matches line breaks, keeps the time linear: otherwise all of a
+// million empty lines would be read again from each of them.
+
 // Expressions as they stand in `define r = 0.75` or `variant a: r = 0.8, derivation length = 9`.
 function written(line: string, name: string): string | null {
     const [given, value] = [line.slice(0, line.indexOf("=")).trim(), line.slice(line.indexOf("=") + 1).trim()];
@@ -12,18 +15,27 @@ function escaped(name: string): string {
     return name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 }
 
+// What stands before the value of a key or define, as the source of a regular expression.
+function startOf(name: string): string {
+    return `[ \\t]*(?:define[ \\t]+${escaped(name)}[ \\t]*=|${escaped(name)}[ \\t]*:)`;
+}
+
+function withoutLastBreaks(text: string): string {
+    let end = text.length;
+    while (end > 0 && text[end - 1] === "\n") --end;
+    return text.slice(0, end);
+}
+
 /// The value that a key or define has in the text, the chosen variant included; null if the text does not set it.
 export function valueInText(pattern: PatternRequest, name: string): string | null {
     if (pattern.variant) {
-        const line = new RegExp(`^\\s*variant\\s+${escaped(pattern.variant)}\\s*:(.*)$`, "mu").exec(pattern.text);
+        const line = new RegExp(`^[ \\t]*variant[ \\t]+${escaped(pattern.variant)}[ \\t]*:(.*)$`, "mu").exec(pattern.text);
         for (const part of line?.[1]!.split(",") ?? []) {
             const value = written(part, name);
             if (value !== null) return value;
         }
     }
-    const key = new RegExp(`^\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)(.*)$`, "mu").exec(
-        pattern.text,
-    );
+    const key = new RegExp(`^${startOf(name)}(.*)$`, "mu").exec(pattern.text);
     return key ? key[1]!.trim() : null;
 }
 
@@ -31,9 +43,9 @@ export function valueInText(pattern: PatternRequest, name: string): string | nul
 export function withSettings(pattern: PatternRequest): string {
     let { text } = pattern;
     for (const [name, value] of pattern.settings ?? []) {
-        const line = new RegExp(`^(\\s*(?:define\\s+${escaped(name)}\\s*=|${escaped(name)}\\s*:)\\s*)(.*)$`, "mu");
+        const line = new RegExp(`^(${startOf(name)}[ \\t]*)(.*)$`, "mu");
         if (line.test(text)) text = text.replace(line, (_, start: string) => start + value);
-        else text = `${text.replace(/\n*$/, "\n")}${name}: ${value}\n`;
+        else text = `${withoutLastBreaks(text)}\n${name}: ${value}\n`;
     }
     return text;
 }

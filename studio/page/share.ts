@@ -1,9 +1,11 @@
 // A link that holds everything, with a QR code; and links that come in, which are shown before they are opened.
 import { generate } from "lean-qr";
 import type { Application } from "./application";
-import { RequestFailed, type Work } from "./context";
-import { openDialog } from "./dialog";
+import { RequestFailed } from "./context";
+import { copyText } from "./clipboard";
+import { openDialog, type Dialog } from "./dialog";
 import { button, element } from "./elements";
+import { excerpt, readLocked, readPlace, unknownOptions } from "./link_contents";
 import { count } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { openPattern } from "./opening";
@@ -12,6 +14,9 @@ import type { Link, PatternRequest, ReadLink, Shared } from "./protocol";
 
 const quiet_zone = 4; // modules of white around a code
 const code_width = 280; // pixels, for whole pixels in each module
+const most_text = 20_000; // characters of a link that are shown; short links can hold many megabytes
+const most_value = 500; // characters
+const most_rows = 100; // values
 
 const isServed = () => /^https?:$/.test(location.protocol);
 
@@ -33,7 +38,7 @@ export function openShare(application: Application): void {
     box.checked = hasView;
     const view = element("label", { class: "switch" }, box, "Include the part in view");
     view.hidden = !hasView;
-    const copy = button("Copy the link", () => void copyText(application, address), { kind: "primary" });
+    const copy = button("Copy the link", () => void copyLink(application, address), { kind: "primary" });
 
     const make = async () => {
         try {
@@ -70,15 +75,10 @@ export function openShare(application: Application): void {
     void make();
 }
 
-async function copyText(application: Application, field: HTMLTextAreaElement): Promise<void> {
-    try {
-        await navigator.clipboard.writeText(field.value);
-    } catch {
-        // a page from a file may not have a clipboard
-        field.select();
-        document.execCommand("copy");
-    }
-    application.say("The link is copied.");
+async function copyLink(application: Application, field: HTMLTextAreaElement): Promise<void> {
+    if (await copyText(field.value)) return application.say("The link is copied.");
+    field.select();
+    application.say("The browser does not let the page copy; the link is selected.", "warning");
 }
 
 function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): void {
@@ -96,39 +96,54 @@ function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): 
     }
 }
 
-function readPlace(text: string | undefined): Work["place"] {
-    try {
-        const place = JSON.parse(text ?? "null") as Work["place"];
-        return place && typeof place.x === "string" && typeof place.y === "string" && place.scale > 0 ? place : null;
-    } catch {
-        return null;
-    }
-}
+let inspected: Dialog | null = null; // a later link replaces it
+let inspections = 0;
 
 /// Shows what a link contains. Nothing of it is derived or drawn before the user opens it.
 export async function inspectLink(application: Application, link: string): Promise<void> {
+    const inspection = ++inspections;
+    const { hash } = location;
+    const forget = () => forgetHash(hash);
     let contents: Shared;
     try {
         contents = (await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") }))
             .json.shared;
+        if (inspection !== inspections) return;
+        const unknown = unknownOptions(contents, application.help);
+        if (unknown.length > 0) {
+            const names = excerpt(unknown.join(", "), 200).text;
+            throw new Error(`it sets options that this studio does not know: ${names}`);
+        }
     } catch (error) {
+        if (inspection !== inspections) return;
         application.say(
-            `The link cannot be read: ${error instanceof RequestFailed ? error.failure.message : String(error)}`,
+            `The link cannot be read: ${error instanceof Error ? error.message : String(error)}`,
             "error",
         );
         forget();
         return;
     }
     const { pattern } = contents;
-    const dialog = openDialog("This link contains a pattern", { closed: forget });
+    const shown = excerpt(pattern.text, most_text);
+    inspected?.close();
+    const dialog = openDialog("This link contains a pattern", {
+        closed: () => {
+            if (inspected === dialog) inspected = null;
+            forget();
+        },
+    });
+    inspected = dialog;
     dialog.body.append(
         element(
             "p",
             {},
-            element("strong", {}, titleOf(pattern)),
+            element("strong", {}, excerpt(titleOf(pattern), most_value).text),
             ". It has not been run. A pattern is only data: it can draw and play, nothing else.",
         ),
-        element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, pattern.text),
+        element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, shown.text),
+        ...(shown.rest > 0
+            ? [element("p", { class: "note warning" }, `${count(String(shown.rest))} more characters are not shown.`)]
+            : []),
         ...values(contents, pattern),
     );
     const open = button(
@@ -140,6 +155,7 @@ export async function inspectLink(application: Application, link: string): Promi
                 draw: draw.filter(([name]) => name !== "window"),
                 play,
                 place: readPlace(page["place"]),
+                locked: readLocked(page["locked"]),
             });
         },
         { kind: "primary" },
@@ -164,14 +180,21 @@ function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
         element(
             "ul",
             { class: "link-values" },
-            ...rows.map(([name, value]) => element("li", {}, element("code", {}, `${name}: ${value}`))),
+            ...rows
+                .slice(0, most_rows)
+                .map(([name, value]) =>
+                    element("li", {}, element("code", {}, excerpt(`${name}: ${value}`, most_value).text)),
+                ),
         ),
+        ...(rows.length > most_rows
+            ? [element("p", { class: "note warning" }, `${rows.length - most_rows} more are not shown.`)]
+            : []),
     ];
 }
 
-// The link has been answered: a reload does not ask again.
-function forget(): void {
-    if (location.hash) history.replaceState(null, "", location.href.replace(/#.*$/s, ""));
+// The link has been answered: a reload does not ask again. A link that came in the meantime stays.
+function forgetHash(hash: string): void {
+    if (hash && location.hash === hash) history.replaceState(null, "", location.href.replace(/#.*$/s, ""));
 }
 
 export function watchLinks(application: Application): void {
