@@ -48,6 +48,12 @@ async function main(): Promise<void> {
     const store = new History(first);
     const engine = await startEngine();
     const application = new Application(engine, store);
+    store.onUnsaved(() =>
+        application.say(
+            "The browser has no room to keep this work: a reload would lose it. Export the pattern to keep it.",
+            "warning",
+        ),
+    );
     restoreScales(engine);
     new Editor(application);
     new Controls(application);

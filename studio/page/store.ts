@@ -4,6 +4,7 @@ import type { Store, Work } from "./context";
 const most_steps = 100;
 const merge_milliseconds = 1000;
 const most_saved = 4_000_000; // characters; browsers keep about five million
+const most_tried = 3 * most_saved; // characters of a single step
 const storage_key = "sikku-studio";
 
 /// A state that undo returns to.
@@ -29,6 +30,8 @@ export class History implements Store {
     private timer = 0;
     private readonly listeners = new Set<Listener>();
     private readonly watchers = new Set<() => void>();
+    private isSaved = true; // as far as we know
+    private warn = () => {};
 
     constructor(first: Work) {
         const saved = read();
@@ -98,7 +101,9 @@ export class History implements Store {
         const before = this.work;
         this.merging = "";
         this.at = position;
-        this.steps[position]!.work = { ...this.work, panel: before.panel };
+        const to = this.work;
+        const place = isAnotherView(before, to) ? to.place : before.place;
+        this.steps[position]!.work = { ...to, place, panel: before.panel };
         this.tell(before);
     }
 
@@ -122,6 +127,11 @@ export class History implements Store {
         return () => this.watchers.delete(watcher);
     }
 
+    /// Called when the work does not fit the browser's storage; again only after it did fit.
+    onUnsaved(warn: () => void): void {
+        this.warn = warn;
+    }
+
     private tell(before: Work): void {
         for (const listener of this.listeners) listener(this.work, before);
         for (const watcher of this.watchers) watcher();
@@ -133,27 +143,61 @@ export class History implements Store {
         this.timer = window.setTimeout(() => this.save(), 400);
     }
 
-    // The storage is small: if all does not fit, the newest steps are kept.
+    // The storage is small: if all does not fit, the newest steps are kept, and steps rather than their thumbnails.
     private save(): void {
         clearTimeout(this.timer);
+        const isSaved = this.attempts().some(store);
+        if (!isSaved && this.isSaved) this.warn();
+        this.isSaved = isSaved;
+    }
+
+    private attempts(): Saved[] {
+        const { steps, at } = this;
+        const newest = (count: number): Saved => {
+            const from = Math.max(0, Math.min(at, steps.length - count));
+            return { steps: steps.slice(from, from + count), at: Math.min(at - from, count - 1) };
+        };
         let room = most_saved;
         let kept = 0;
-        for (; kept < this.steps.length && room > 0; ++kept) room -= sizeOf(this.steps[this.steps.length - 1 - kept]!);
-        for (; kept > 0; kept = Math.floor(kept / 2)) {
-            const from = Math.max(0, Math.min(this.at, this.steps.length - kept));
-            const saved: Saved = { steps: this.steps.slice(from, from + kept), at: Math.min(this.at - from, kept - 1) };
-            try {
-                localStorage.setItem(storage_key, JSON.stringify(saved));
-                return;
-            } catch {
-                // fewer
-            }
-        }
+        while (kept < steps.length && (room -= sizeOf(steps[steps.length - 1 - kept]!)) >= 0) ++kept;
+        const all = newest(Math.max(1, kept));
+        const attempts = [withPictures(all, most_saved), withPictures(all, 0)];
+        for (kept >>= 1; kept > 0; kept >>= 1) attempts.push(withPictures(newest(kept), 0));
+        return attempts;
+    }
+}
+
+function store(saved: Saved): boolean {
+    if (saved.steps.length === 1 && sizeOf(saved.steps[0]!) > most_tried) return false;
+    try {
+        localStorage.setItem(storage_key, JSON.stringify(saved));
+        return true;
+    } catch {
+        return false;
     }
 }
 
 function sizeOf(step: Step): number {
-    return step.work.pattern.text.length + (step.picture?.length ?? 0) + 1000;
+    return step.work.pattern.text.length + 1000;
+}
+
+// The thumbnails that fit beside the steps, those of the newest first.
+function withPictures({ steps, at }: Saved, most: number): Saved {
+    let room = most;
+    for (const step of steps) room -= sizeOf(step);
+    const kept = steps.toReversed().map((step): Step => {
+        room -= step.picture?.length ?? 0;
+        if (room >= 0) return step;
+        const { picture: _, ...rest } = step;
+        return rest;
+    });
+    return { steps: kept.reverse(), at };
+}
+
+// Between versions of a pattern one looks at the same place; another pattern has its own, and so has a step that moved
+// the view and did nothing else.
+function isAnotherView(one: Work, other: Work): boolean {
+    return one.pattern.name !== other.pattern.name || isSame({ ...one, place: other.place, panel: other.panel }, other);
 }
 
 // Texts are compared as such: a pattern may be long.
@@ -172,8 +216,13 @@ function isWork(work: Work): boolean {
 
 /// Puts the work of earlier visits aside, for a page that cannot start with it.
 export function putAside(): void {
-    localStorage.setItem(`${storage_key}-aside`, localStorage.getItem(storage_key) ?? "");
+    const saved = localStorage.getItem(storage_key) ?? "";
     localStorage.removeItem(storage_key);
+    try {
+        localStorage.setItem(`${storage_key}-aside`, saved);
+    } catch {
+        // a copy is good to have, a page that starts is better
+    }
 }
 
 function read(): Saved | null {
