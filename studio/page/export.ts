@@ -1,5 +1,6 @@
 // Export of what is on the screen, in every format of the program, or as the command that makes the same file.
 import type { Application } from "./application";
+import { copyText } from "./clipboard";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, element } from "./elements";
@@ -23,8 +24,8 @@ const groups: [string, Interpreter, RegExp][] = [
     ["Model", "draw", /^(obj|glb|gltf)$/],
     ["Score", "play", /./],
 ];
-// Pictures other than PNG and sound files need libraries that the page does without.
-const by_the_program = new Set(["tif", "jpg", "exr", "wav", "flac"]);
+// Pictures other than PNG, animations and sound files need libraries that the page does without.
+const by_the_program = new Set(["tif", "jpg", "exr", "gif", "wav", "flac"]);
 const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true };
 const types: Record<string, string> = {
     svg: "image/svg+xml",
@@ -86,6 +87,7 @@ class Export {
     private readonly choices: Choice[];
     private choice: Choice;
     private timer = 0;
+    private generation = 0; // of the choice and its options: answers for an earlier one are dropped
     private made: { names: string[]; parts: Uint8Array[] } | null = null;
     private isWindow: boolean;
 
@@ -111,18 +113,12 @@ class Export {
             wide: true,
             closed: () => {
                 unsubscribe();
+                ++this.generation;
                 clearTimeout(this.timer);
             },
         });
         this.dialog.body.classList.add("export");
-        const copy = button(
-            "Copy",
-            () =>
-                void navigator.clipboard
-                    .writeText(this.command.textContent ?? "")
-                    .then(() => application.say("The command is copied.")),
-            { kind: "quiet" },
-        );
+        const copy = button("Copy", () => void this.copyCommand(), { kind: "quiet" });
         this.dialog.body.append(
             this.formats(),
             this.options,
@@ -140,6 +136,12 @@ class Export {
         );
         this.choose(this.choice);
         this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
+    }
+
+    private async copyCommand(): Promise<void> {
+        if (await copyText(this.command.textContent ?? "")) return this.application.say("The command is copied.");
+        getSelection()?.selectAllChildren(this.command);
+        this.application.say("The browser does not let the page copy; the command is selected.", "warning");
     }
 
     private nameOf(choice: Choice): string {
@@ -209,11 +211,14 @@ class Export {
 
     private refreshSoon(): void {
         clearTimeout(this.timer);
+        ++this.generation;
         this.save.disabled = true;
         this.timer = window.setTimeout(() => this.refresh(), pause);
     }
 
     private refresh(): void {
+        clearTimeout(this.timer);
+        ++this.generation;
         this.save.disabled = true;
         this.save.textContent = "Making…";
         this.made = null;
@@ -231,6 +236,7 @@ class Export {
     private async make(): Promise<void> {
         const { interpreter, format } = this.choice;
         const { engine, store } = this.application;
+        const { generation } = this;
         const request = {
             interpreter,
             format: format.extension,
@@ -249,6 +255,7 @@ class Export {
                 { do: "make", ...request },
                 { key: "export", seconds: 60 },
             );
+            if (generation !== this.generation) return;
             let from = 0;
             const parts = json.outputs.map(({ size }) => bytes.subarray(from, (from += size)));
             this.offer(
@@ -257,7 +264,7 @@ class Export {
             );
             this.showRemarks(json.remarks);
         } catch (error) {
-            if (!(error instanceof RequestFailed)) return;
+            if (generation !== this.generation || !(error instanceof RequestFailed)) return;
             this.save.textContent = "Save";
             const { option, message } = error.failure;
             const text = option && !message.startsWith(option) ? `${option}: ${message}` : message;
@@ -295,15 +302,17 @@ class Export {
         options: Options;
         pattern: PatternRequest;
     }): Promise<void> {
+        const { generation } = this;
         try {
             const { json } = await this.application.engine.request<Command>(
                 { do: "command", ...request },
                 { key: "export-command" },
             );
+            if (generation !== this.generation) return;
             this.command.textContent = json.command;
             this.command.parentElement!.hidden = false;
         } catch {
-            this.command.parentElement!.hidden = true;
+            if (generation === this.generation) this.command.parentElement!.hidden = true;
         }
     }
 

@@ -5,7 +5,6 @@ import type { OptionHelp, Options } from "./protocol";
 
 // What the page itself takes care of.
 const elsewhere = new Set(["fit", "steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help"]);
-const page_sizes = ["A0", "A1", "A2", "A3", "A4", "A5", "A6", "letter", "legal", "tabloid"];
 
 export interface OptionAct {
     (name: string, value: string | null): void;
@@ -20,6 +19,17 @@ export function offered(options: OptionHelp[]): OptionHelp[] {
 // The help ends in the default: `page size (A4)`.
 function defaultOf(option: OptionHelp): string {
     return option.value.includes(",") ? "" : (/\(([^()]+)\)$/.exec(option.help)?.[1] ?? "");
+}
+
+/// The values that the help names: `page size: A0 to A6, letter, legal, or WIDTHxHEIGHT`.
+export function namedValues(help: string): string[] {
+    const list = /: (.+?),? or /.exec(help)?.[1] ?? "";
+    return list.split(", ").flatMap((part) => {
+        const range = /^([A-Z])(\d) to \1(\d)$/.exec(part);
+        if (!range) return part === "" ? [] : [part];
+        const [first, last] = [Number(range[2]), Number(range[3])];
+        return Array.from({ length: Math.max(0, last - first + 1) }, (_, at) => `${range[1]}${first + at}`);
+    });
 }
 
 // Values that are listed: `grbl|z`.
@@ -81,7 +91,11 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
     if (option.name === "size") {
         input.setAttribute("list", `${id}-list`);
         field.append(
-            element("datalist", { id: `${id}-list` }, ...page_sizes.map((each) => element("option", { value: each }))),
+            element(
+                "datalist",
+                { id: `${id}-list` },
+                ...namedValues(option.help).map((each) => element("option", { value: each })),
+            ),
         );
     }
     return field;
