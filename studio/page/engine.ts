@@ -14,6 +14,7 @@ export type FromWorker =
 
 const patience = 150; // milliseconds that a replaced request may go on for: a new worker costs about as much
 const most_workers = 4;
+const most_starts = 2; // failures in a row, after which no further worker is started
 const most_memory = 64 * 1024 * 1024; // bytes of a worker that is kept for further requests
 
 interface Job {
@@ -32,6 +33,7 @@ interface Seat {
     job: Job | null;
     timer: number;
     isReady: boolean;
+    isDead: boolean; // did not start, and is not started again
 }
 
 function aborted(): DOMException {
@@ -42,11 +44,17 @@ function stopped(seconds: number): RequestFailed {
     return new RequestFailed({ kind: "stopped", message: `stopped after ${seconds} seconds` });
 }
 
+function isOutOfMemory({ error }: Partial<Failure>): boolean {
+    return error?.kind === "other" && error.message === "not enough memory";
+}
+
 export class Pool implements Engine {
     private readonly seats: Seat[] = [];
     private readonly waiting: { front: Job[]; back: Job[] } = { front: [], back: [] };
     private readonly scales = new Map<string, { json: string; bytes: Uint8Array }>(); // files that every worker knows
     private last = 0;
+    private failures = 0; // of starts, in a row
+    private broken: RequestFailed | null = null; // why no worker starts
 
     constructor(
         private readonly module: WebAssembly.Module,
@@ -58,6 +66,7 @@ export class Pool implements Engine {
 
     request<T>(request: Request, options: RequestOptions = {}): Promise<Answer<T>> {
         if (options.signal?.aborted) return Promise.reject(aborted());
+        if (this.broken) return Promise.reject(this.broken);
         return new Promise<Answer<T>>((resolve, reject) => {
             const job: Job = {
                 id: ++this.last,
@@ -70,7 +79,7 @@ export class Pool implements Engine {
                 reject,
             };
             options.signal?.addEventListener("abort", () => this.abort(job), { once: true });
-            if (request.do === "scale" && options.bytes) this.share(request.name, job.json, options.bytes);
+            if (request.do === "scale" && options.bytes) this.share(request.name, job, options.bytes);
             const lane = this.waiting[options.lane ?? "front"];
             if (options.key !== undefined) this.replace(options.key);
             lane.push(job);
@@ -125,9 +134,27 @@ export class Pool implements Engine {
         this.seats[this.seats.indexOf(seat)] = this.seat();
     }
 
+    // A worker did not start: its job learns why. Another takes its place, unless the one before failed, too.
+    private bury(seat: Seat, cause: string): void {
+        const message = `the libraries do not start: ${cause}`;
+        if (++this.failures < most_starts) return this.stop(seat, new RequestFailed({ kind: "other", message }));
+        clearTimeout(seat.timer);
+        seat.worker.terminate();
+        seat.isDead = true;
+        const { job } = seat;
+        seat.job = null;
+        const error = new RequestFailed({ kind: "other", message });
+        job?.reject(error);
+        if (this.seats.some((each) => !each.isDead)) return this.next();
+        this.broken = error;
+        for (const lane of [this.waiting.front, this.waiting.back]) {
+            for (const each of lane.splice(0)) each.reject(error);
+        }
+    }
+
     // Idle seats for this lane: the front prefers the first, which has its pattern at hand; the back leaves one free.
     private idle(lane: "front" | "back"): Seat | undefined {
-        const free = this.seats.filter((seat) => !seat.job);
+        const free = this.seats.filter((seat) => !seat.job && !seat.isDead);
         if (lane === "front") return free.find((seat) => seat.isReady) ?? free[0];
         const busy = this.seats.filter((seat) => seat.job?.options.lane === "back").length;
         return busy < this.workers - 1 && free.length > 0 ? free[free.length - 1] : undefined;
@@ -160,11 +187,13 @@ export class Pool implements Engine {
 
     private seat(): Seat {
         const worker = new Worker(this.address);
-        const seat: Seat = { worker, job: null, timer: 0, isReady: false };
+        const seat: Seat = { worker, job: null, timer: 0, isReady: false, isDead: false };
         worker.onmessage = (event: MessageEvent<FromWorker>) => this.receive(seat, event.data);
         worker.onerror = (event) => {
             event.preventDefault();
-            if (seat.job) this.stop(seat, new RequestFailed({ kind: "other", message: event.message }));
+            if (!this.isSeated(seat)) return;
+            if (!seat.isReady) this.bury(seat, event.message);
+            else if (seat.job) this.stop(seat, new RequestFailed({ kind: "other", message: event.message }));
         };
         worker.postMessage({ module: this.module } satisfies ToWorker);
         for (const { json, bytes } of this.scales.values()) {
@@ -173,20 +202,33 @@ export class Pool implements Engine {
         return seat;
     }
 
-    private share(name: string, json: string, bytes: Uint8Array): void {
+    // False for a worker that has been replaced.
+    private isSeated(seat: Seat): boolean {
+        return this.seats.includes(seat) && !seat.isDead;
+    }
+
+    // New workers learn the file, too, unless it has errors.
+    private share(name: string, job: Job, bytes: Uint8Array): void {
+        const { json, reject } = job;
+        const before = this.scales.get(name);
         this.scales.set(name, { json, bytes });
-        for (const seat of this.seats) seat.worker.postMessage({ id: 0, json, bytes } satisfies ToWorker);
+        job.reject = (error) => {
+            if (before) this.scales.set(name, before);
+            else this.scales.delete(name);
+            reject(error);
+        };
+        const message: ToWorker = { id: 0, json, bytes };
+        for (const seat of this.seats) if (!seat.isDead) seat.worker.postMessage(message);
     }
 
     private receive(seat: Seat, message: FromWorker): void {
+        if (!this.isSeated(seat)) return;
         if ("ready" in message) {
             seat.isReady = true;
+            this.failures = 0;
             return;
         }
-        if ("failed" in message) {
-            if (seat.job) this.stop(seat, new RequestFailed({ kind: "other", message: message.failed }));
-            return;
-        }
+        if ("failed" in message) return this.bury(seat, message.failed);
         const job = seat.job;
         if (!job || job.id !== message.id) return;
         if ("broken" in message) {
@@ -195,9 +237,9 @@ export class Pool implements Engine {
         }
         clearTimeout(seat.timer);
         seat.job = null;
-        if (message.memory > most_memory) this.renew(seat);
+        const failure = message.json as Partial<Failure>;
+        if (message.memory > most_memory || isOutOfMemory(failure)) this.renew(seat);
         if (!job.isUnwanted) {
-            const failure = message.json as Partial<Failure>;
             if (failure.error) job.reject(new RequestFailed(failure.error));
             else job.resolve({ json: message.json, bytes: message.bytes });
         }

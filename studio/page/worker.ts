@@ -23,8 +23,12 @@ function send(message: FromWorker, transfer: Transferable[] = []): void {
 async function answer(message: ToWorker): Promise<void> {
     if ("module" in message) {
         bridge = start(message.module);
-        await bridge;
-        send({ ready: true });
+        try {
+            await bridge;
+            send({ ready: true });
+        } catch (error) {
+            send({ failed: String(error) });
+        }
         return;
     }
     try {
