@@ -1,4 +1,5 @@
-// Files from outside: patterns, collections of Fractint, files of cpfg, scales, and prints that contain their pattern.
+// Files from outside: patterns, collections of Fractint, files of cpfg, scales and key maps, and prints that contain
+// their pattern.
 import { RequestFailed, type Studio } from "./context";
 import { openDialog } from "./dialog";
 import { byId, element } from "./elements";
@@ -27,7 +28,7 @@ async function openFile(studio: Studio, file: File, all: File[]): Promise<void> 
     }
     try {
         const bytes = new Uint8Array(await file.arrayBuffer());
-        if (/\.scl$/i.test(file.name)) await openScale(studio, file.name, bytes);
+        if (/\.(scl|kbm)$/i.test(file.name)) await openScale(studio, file.name, bytes);
         else if (/\.(l|frm|map)$/i.test(file.name)) await openCollection(studio, file.name, bytes, all);
         else if (/\.(lsys|txt)$/i.test(file.name)) openText(studio, file.name, bytes);
         else await openPrint(studio, file.name, bytes);
@@ -42,10 +43,12 @@ function openText(studio: Studio, name: string, bytes: Uint8Array): void {
 }
 
 async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
+    const isMap = /\.kbm$/i.test(name);
     await studio.engine.request({ do: "scale", name }, { bytes });
     keepScale(name, bytes);
-    studio.store.setting("scale", name);
-    studio.say(`The melody now uses the scale ${name}.`);
+    studio.store.setting(isMap ? "keyboard" : "scale", name);
+    studio.store.change({ panel: "play" });
+    studio.say(`The melody now uses the ${isMap ? "key map" : "scale"} ${name}.`);
 }
 
 async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {

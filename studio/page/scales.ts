@@ -11,9 +11,23 @@ function saved(): Record<string, string> {
     }
 }
 
+/// Each byte as a letter.
+export function lettersOf(bytes: Uint8Array): string {
+    const part = 8192; // bytes: a call takes only so many arguments
+    let letters = "";
+    for (let from = 0; from < bytes.length; from += part) {
+        letters += String.fromCharCode(...bytes.subarray(from, from + part));
+    }
+    return letters;
+}
+
+export function bytesOf(letters: string): Uint8Array {
+    return Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
+}
+
 export function keepScale(name: string, bytes: Uint8Array): void {
     try {
-        localStorage.setItem(storage_key, JSON.stringify({ ...saved(), [name]: String.fromCharCode(...bytes) }));
+        localStorage.setItem(storage_key, JSON.stringify({ ...saved(), [name]: lettersOf(bytes) }));
     } catch {
         // the scale lasts as long as the page
     }
@@ -21,7 +35,6 @@ export function keepScale(name: string, bytes: Uint8Array): void {
 
 export function restoreScales(engine: Engine): void {
     for (const [name, text] of Object.entries(saved())) {
-        const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
-        engine.request({ do: "scale", name }, { bytes }).catch(() => {});
+        engine.request({ do: "scale", name }, { bytes: bytesOf(text) }).catch(() => {});
     }
 }
