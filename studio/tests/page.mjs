@@ -311,6 +311,29 @@ test("files can be dropped", async ({ page }) => {
     await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
 });
 
+test("a scale that is dropped is played", async ({ page }) => {
+    const settings = () =>
+        page.evaluate(() => {
+            dispatchEvent(new Event("pagehide")); // saves at once
+            const { steps, at } = JSON.parse(localStorage.getItem("sikku-studio"));
+            return Object.fromEntries(steps[at].work.pattern.settings);
+        });
+    await dropFile(page, "bad.scl", "nonsense");
+    await page.locator("#message[data-kind=error]", { hasText: "bad.scl" }).waitFor();
+    assert.equal((await settings()).scale, undefined);
+    await dropFile(page, "five.scl", "! five.scl\n!\nfive equal steps\n 5\n!\n240.\n480.\n720.\n960.\n2/1\n");
+    await page.locator("#message", { hasText: "The melody now uses the scale five.scl" }).waitFor();
+    assert.equal((await settings()).scale, "five.scl");
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    await page.locator("#panel-play:visible", { hasText: "five from" }).waitFor();
+    await page.reload();
+    await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    await page.locator("#panel-play:visible", { hasText: "five from" }).waitFor();
+    await page.getByRole("button", { name: /^Undo/ }).click();
+    await page.getByRole("tab", { name: "Picture" }).click();
+    assert.equal((await settings()).scale, undefined);
+});
+
 test("export writes the file and tells the command", async ({ page }) => {
     await page.getByRole("button", { name: "Export" }).click();
     const dialog = page.getByRole("dialog", { name: "Export" });
@@ -328,6 +351,19 @@ test("export writes the file and tells the command", async ({ page }) => {
     await screenshot(page, "export");
     await dialog.getByText("G-code", { exact: true }).click();
     await dialog.locator(".remarks", { hasText: "drawn" }).waitFor();
+    await dialog.getByRole("button", { name: /^Save .*\.gcode/ }).waitFor();
+    // A choice made while another is being written, and a format that only the program writes.
+    await dialog.getByText("SVG", { exact: true }).click();
+    await dialog.getByText("GIF", { exact: true }).click();
+    await dialog.locator(".remarks", { hasText: "Only the program writes this format" }).waitFor();
+    await page.waitForTimeout(800);
+    assert.ok(await dialog.getByRole("button", { name: "Save", exact: true }).isDisabled());
+    await dialog.locator(".command", { hasText: ".gif" }).waitFor();
+    await page.evaluate(() => Object.defineProperty(navigator, "clipboard", { value: undefined, configurable: true }));
+    await dialog.getByRole("button", { name: "Copy" }).click();
+    await page.locator("#message", { hasText: "The command is copied." }).waitFor();
+    await page.evaluate(() => delete navigator.clipboard);
+    await dialog.getByText("G-code", { exact: true }).click();
     await dialog.getByRole("button", { name: /^Save .*\.gcode/ }).waitFor();
     await checkAccess(page, "export");
     await page.keyboard.press("Escape");
@@ -381,6 +417,47 @@ test("a link holds everything and runs nothing before it is opened", async ({ pa
     assert.equal(await other.evaluate(() => location.hash), "");
     assert.deepEqual(other.problems, []);
     await other.context().close();
+});
+
+// Links as anyone may write them.
+async function linkOf(shared) {
+    linkOf.bridge ??= await (await import("./load_bridge.mjs")).loadBridge();
+    return `#${JSON.parse(linkOf.bridge(JSON.stringify({ do: "link", shared })).json).link}`;
+}
+
+test("links are shown one at a time, in part if they are long, and checked", async () => {
+    const pattern = (text) => ({ name: "sent.lsys", text });
+    const long = `title: Long\naxiom: F\n${"\n".repeat(3_000_000)}`;
+    const page = await openStudio({ fragment: await linkOf({ pattern: pattern(long) }) });
+    const dialog = page.getByRole("dialog", { name: "This link contains a pattern" });
+    await dialog.waitFor();
+    assert.ok((await dialog.locator("pre").textContent()).length < 20_100);
+    await dialog.getByText(/^2,980,0\d\d more characters are not shown/).waitFor();
+    const page_values = { locked: '["seed"]', place: '{"x":"1","y":"2","scale":1e999}', panel: "map" };
+    const next = await linkOf({
+        pattern: pattern("title: Next\nderivation length: 2\naxiom: F\nF(0.5) --> F+F\nF(0.5) --> F-F\n"),
+        draw: [["size", "A3"]],
+        page: page_values,
+    });
+    await page.evaluate((hash) => (location.hash = hash), next);
+    await dialog.locator("strong", { hasText: "Next" }).waitFor();
+    assert.equal(await dialog.count(), 1);
+    assert.equal(await page.evaluate(() => location.hash), next);
+    await dialog.locator(".link-values", { hasText: "size: A3" }).waitFor();
+    await dialog.getByRole("button", { name: "Open" }).click();
+    await page.locator("#work-title", { hasText: "Next" }).waitFor();
+    await page.waitForTimeout(600);
+    const work = await page.evaluate(() => {
+        const { steps, at } = JSON.parse(localStorage.getItem("sikku-studio"));
+        return steps[at].work;
+    });
+    assert.deepEqual([work.locked, work.place, work.draw], [["seed"], null, [["size", "A3"]]]);
+    await page.evaluate((hash) => (location.hash = hash), await linkOf({ pattern: pattern("axiom: F\n"), draw: [["nonsense", "1"]] }));
+    await page.locator("#message[data-kind=error]", { hasText: "does not know: nonsense" }).waitFor();
+    assert.equal(await dialog.count(), 0);
+    assert.equal(await page.evaluate(() => location.hash), "");
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
 });
 
 test("the page works by keyboard", async ({ page }) => {
