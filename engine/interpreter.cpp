@@ -77,6 +77,15 @@ Assignment assign(const Interpreter& interpreter, const Document& document, cons
             settings.push_back({value.name, value.name, value.text});
         }
     }
+    // So does the seed that the document was made with.
+    if (find_option(interpreter.options(), "seed")) {
+        const auto is_seed = [](const auto& value) { return value.name == "seed"; };
+        const auto& given = document.overrides().settings;
+        const auto seed =
+            std::find_if(given.rbegin(), given.rend(), [](const Setting& one) { return one.key == "seed"; });
+        if (seed != given.rend() && std::none_of(own.begin(), own.end(), is_seed))
+            own.push_back({"seed", seed->value});
+    }
     return {settings.empty() ? document : document.with(settings), std::move(own)};
 }
 

@@ -104,7 +104,8 @@ struct Assignment {
 };
 
 /// Separates values by name: options of the interpreter are returned; keys and defines of the pattern are applied to
-/// the document. A seed is both. @throws SettingError for other names; PatternError
+/// the document. A seed is both, also that of document.overrides(). @throws SettingError for other names;
+/// PatternError
 Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values);
 
 /// Plans and makes a work with a single output. Names in `values` are options of the interpreter, or keys and defines

@@ -36,27 +36,6 @@ Monitor monitor_of(Deadline& deadline) {
                    &deadline);
 }
 
-const Interpreter& interpreter_of(const Json& request) {
-    const std::string name = text_of(request, "interpreter");
-    if (name == "draw") return prints();
-    if (name == "play") return scores();
-    throw BadRequest("'interpreter' must be 'draw' or 'play'");
-}
-
-/// Separates the options of a request from keys and defines. As in the program, the seed of the pattern also sets the
-/// option `seed`.
-Assignment assignment_of(const Json& request, const Interpreter& interpreter) {
-    Assignment assigned = assign(interpreter, document_of(request), options_of(request));
-    if (&interpreter != &scores()) return assigned;
-    const auto& settings = assigned.document.overrides().settings;
-    const auto seed = std::find_if(settings.rbegin(), settings.rend(),
-                                   [](const Setting& setting) { return setting.key == "seed"; });
-    const bool is_given = std::any_of(assigned.options.begin(), assigned.options.end(),
-                                      [](const OptionValue& value) { return value.name == "seed"; });
-    if (seed != settings.rend() && !is_given) assigned.options.push_back({"seed", seed->value});
-    return assigned;
-}
-
 Json answer_patterns() {
     Json list = Json::array();
     for (const LibraryPattern& known : PatternLibrary::bundled().patterns()) {
@@ -134,7 +113,7 @@ Json answer_help() {
 Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes) {
     const Interpreter& interpreter = interpreter_of(request);
     const std::string format = text_of(request, "format");
-    const Assignment assigned = assignment_of(request, interpreter);
+    const Assignment assigned = assign(interpreter, document_of(request), options_of(request));
     MemoryDestination memory;
     const std::string name = output_name(assigned.document, format);
     const Made made = interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
@@ -177,7 +156,7 @@ void append_double(std::string& bytes, Number number) {
 }
 
 Json answer_notes(const Json& request, const Monitor& monitor, std::string& bytes) {
-    const Assignment assigned = assignment_of(request, scores());
+    const Assignment assigned = assign(scores(), document_of(request), options_of(request));
     const NoteList list = list_notes(std::span(&assigned.document, 1), assigned.options, monitor);
     for (const Note& note : list.notes) {
         append_double(bytes, note.onset);
@@ -212,7 +191,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
-    if (what == "origins") return answer_origins(request);
+    if (what == "origins") return answer_origins(request, monitor);
     if (what == "import") return answer_import(request, file);
     if (what == "show") return answer_show(request, file);
     if (what == "scale") return answer_scale(request, file);
@@ -261,7 +240,9 @@ constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
 }  // namespace
 
-Reply request(const std::string& json, const std::string& bytes) {
+namespace {
+
+Reply answered(const std::string& json, const std::string& bytes) {
     Reply reply;
     const Json result = failure_of([&] {
         if (json.size() > most_bytes || bytes.size() > most_bytes)
@@ -276,6 +257,16 @@ Reply request(const std::string& json, const std::string& bytes) {
     // Messages may quote invalid UTF-8 from patterns.
     reply.json = result.dump(-1, ' ', false, Json::error_handler_t::replace);
     return reply;
+}
+
+}  // namespace
+
+Reply request(const std::string& json, const std::string& bytes) {
+    try {
+        return answered(json, bytes);
+    } catch (const std::bad_alloc&) {
+        return {R"({"error":{"kind":"other","message":"not enough memory"}})", {}};
+    }
 }
 
 }  // namespace sikku

@@ -25,11 +25,15 @@ const Json& member(const Json& request, const std::string& name);
 std::string text_of(const Json& request, const std::string& name);
 std::string text_of(const Json& request, const std::string& name, const std::string& otherwise);
 double number_of(const Json& request, const std::string& name, double otherwise);
+/// A whole number in decimal digits.
+std::uint64_t whole_of(const Json& value, const std::string& name);
 bool flag_of(const Json& request, const std::string& name);
 
 /// Pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);
 
+/// The interpreter that a request names: `draw` or `play`. @throws BadRequest
+const Interpreter& interpreter_of(const Json& request);
 /// The member `options` of a request.
 OptionValues options_of(const Json& request);
 /// The compiled pattern of a request, which is cached. @throws PatternError
@@ -43,7 +47,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics);
 // One function for each kind of request.
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
-Json answer_origins(const Json& request);
+Json answer_origins(const Json& request, const Monitor& monitor);
 Json answer_import(const Json& request, const std::string& file);
 Json answer_scale(const Json& request, const std::string& file);
 Json answer_show(const Json& request, const std::string& file);

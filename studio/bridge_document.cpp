@@ -50,6 +50,16 @@ double number_of(const Json& request, const std::string& name, double otherwise)
     return number;
 }
 
+std::uint64_t whole_of(const Json& value, const std::string& name) {
+    const std::string text = value.is_string() ? value.get<std::string>() : std::string();
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
+        throw BadRequest("'" + name + "': expected a whole number as a string");
+    }
+    return number;
+}
+
 bool flag_of(const Json& request, const std::string& name) {
     return request.contains(name) && request[name].is_boolean() && request[name].get<bool>();
 }
@@ -57,6 +67,7 @@ bool flag_of(const Json& request, const std::string& name) {
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name) {
     std::vector<std::pair<std::string, std::string>> pairs;
     if (!request.contains(name)) return pairs;
+    if (!request[name].is_array()) throw BadRequest("'" + name + "' must be a list of pairs of strings");
     for (const Json& pair : request[name]) {
         if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) {
             throw BadRequest("'" + name + "' must be a list of pairs of strings");
@@ -64,6 +75,13 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, c
         pairs.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
     }
     return pairs;
+}
+
+const Interpreter& interpreter_of(const Json& request) {
+    const std::string name = text_of(request, "interpreter");
+    if (name == "draw") return prints();
+    if (name == "play") return scores();
+    throw BadRequest("'interpreter' must be 'draw' or 'play'");
 }
 
 OptionValues options_of(const Json& request) {
@@ -187,10 +205,14 @@ void add_measures(const Document& document, const Monitor& monitor, Json& answer
         const Measurement measured =
             measure(grammar, at_once, [&](std::uint64_t symbols) { monitor.advance(symbols); });
         cost["symbols"] = decimal_text(measured.symbols);
-        cost["segments"] = decimal_text(measured.drawn);
-        if (measured.geometry && measured.geometry->ink) {
+        // Splines are drawn through moves, too.
+        const bool is_spline = read_print_style(document, {}).line == Line::spline;
+        cost["segments"] = decimal_text(is_spline ? measured.moves : measured.drawn);
+        if (measured.geometry && (is_spline || measured.geometry->ink)) {
             Json extent = Json::array();
-            for (const Quantity& side : *measured.geometry->ink) extent.push_back(decimal_text(side));
+            for (const Quantity& side : is_spline ? measured.geometry->box : *measured.geometry->ink) {
+                extent.push_back(decimal_text(side));
+            }
             answer["extent"] = std::move(extent);
         }
     } catch (const BudgetError&) {  // the facts stay unknown
@@ -248,25 +270,24 @@ Json json_of(const Document& document, const Span& span) {
 
 }  // namespace
 
-Json answer_origins(const Json& request) {
+Json answer_origins(const Json& request, const Monitor& monitor) {
     constexpr std::size_t most = 10'000;
     const Document document = document_of(request);
-    std::vector<std::uint64_t> positions;
-    for (const Json& symbol : member(request, "symbols")) {
-        const std::string text = symbol.is_string() ? symbol.get<std::string>() : std::string();
-        positions.emplace_back();
-        std::from_chars(text.data(), text.data() + text.size(), positions.back());
+    const Json& symbols = member(request, "symbols");
+    if (!symbols.is_array() || symbols.size() > most) {
+        throw BadRequest(fmt::format("'symbols' must be a list of at most {} positions", most));
     }
-    if (positions.size() > most) throw BadRequest(fmt::format("a request can have at most {} symbols", most));
+    std::vector<std::uint64_t> positions;
+    for (const Json& symbol : symbols) positions.push_back(whole_of(symbol, "symbols"));
     Json list = Json::array();
-    for (const std::vector<Origin>& found : origins(document, positions)) {
-        Json steps = Json::array();
-        for (const Origin& origin : found) {
-            Json step = json_of(document, origin.symbol);
-            step["production"] = origin.production.empty() ? Json(nullptr) : json_of(document, origin.production);
-            steps.push_back(std::move(step));
+    for (const Origin& origin : origins(document, positions, monitor)) {
+        if (origin.symbol.empty()) {
+            list.push_back(nullptr);
+            continue;
         }
-        list.push_back({{"steps", std::move(steps)}});
+        Json place = json_of(document, origin.symbol);
+        place["production"] = origin.production.empty() ? Json(nullptr) : json_of(document, origin.production);
+        list.push_back(std::move(place));
     }
     return {{"origins", std::move(list)}};
 }
@@ -378,21 +399,15 @@ Json answer_scale(const Json& request, const std::string& file) {
 }
 
 Json answer_show(const Json& request, const std::string& file) {
-    // The name has no extension: formats are recognised by their first bytes.
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / "sikku-shown-file";
-    std::ofstream(path, std::ios::binary).write(file.data(), static_cast<std::streamsize>(file.size()));
-    std::optional<Provenance> found;
-    try {
-        found = read_provenance(path);
-        if (!found && is_midi_file(path)) {
-            MidiTexts texts = read_midi_texts({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
-            if (!texts.pattern.empty()) found = Provenance{std::move(texts.pattern), std::move(texts.made)};
-        }
-    } catch (...) {
-        std::filesystem::remove(path);
-        throw;
+    // The name does not matter: formats are recognised by their first bytes.
+    MemoryOutput output;
+    output.write(file);
+    const std::filesystem::path path = output.temporary();
+    std::optional<Provenance> found = read_provenance(path);
+    if (!found && is_midi_file(path)) {
+        MidiTexts texts = read_midi_texts({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
+        if (!texts.pattern.empty()) found = Provenance{std::move(texts.pattern), std::move(texts.made)};
     }
-    std::filesystem::remove(path);
     if (!found) throw std::runtime_error(text_of(request, "name") + ": this file contains no pattern");
     return {{"text", found->pattern}, {"made", found->made}};
 }
@@ -417,13 +432,20 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
+/// A file of that name rather than an option.
+std::string quoted_file(const std::string& name) {
+    return quoted(name.starts_with('-') ? "./" + name : name);
+}
+
 }  // namespace
 
 Json answer_command(const Json& request) {
     const Json& pattern = member(request, "pattern");
+    const Interpreter& interpreter = interpreter_of(request);
     const std::string format = text_of(request, "format");
+    if (!find_format(interpreter.formats(), format)) refuse_option("format", format, "unknown format");
     const std::string name = text_of(pattern, "name");
-    std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted(name);
+    std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted_file(name);
     const std::string variant = text_of(pattern, "variant", "");
     if (!variant.empty()) command += " --variant " + quoted(variant);
     for (const auto& [key, value] : pairs_of(pattern, "settings")) {
@@ -436,18 +458,19 @@ Json answer_command(const Json& request) {
         }
     }
     for (const OptionValue& value : options_of(request)) {
-        if (value.text == "false") {
-            command += " --no-" + value.name;
-        } else if (value.text == "true" || value.text.empty()) {
-            command += " --" + value.name;
+        const OptionInfo* option = find_option(interpreter.options(), value.name);
+        if (!option) {  // a key or a define of the pattern
+            command += " --set " + quoted(value.name + "=" + value.text);
+        } else if (option->kind == OptionKind::flag) {
+            command += (value.text == "false" ? " --no-" : " --") + value.name;
+        } else if (option->value.starts_with('[')) {  // may be left out: `--dots[=SIZE COLOUR]`
+            command += " --" + value.name + (value.text.empty() ? "" : "=" + quoted(value.text));
         } else {
-            const OptionInfo* option = find_option(prints().options(), value.name);
-            const bool is_optional = option && option->value.starts_with('[');  // such as `--dots[=SIZE COLOUR]`
-            command += " --" + value.name + (is_optional ? "=" : " ") + quoted(value.text);
+            command += " --" + value.name + " " + quoted(value.text);
         }
     }
     const std::string stem = std::filesystem::path(name).stem().string();
-    return {{"command", command + " -o " + quoted(stem + "." + format)}};
+    return {{"command", command + " -o " + quoted_file(stem + "." + format)}};
 }
 
 }  // namespace sikku

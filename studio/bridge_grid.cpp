@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace sikku {
 namespace {
@@ -41,8 +40,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     random.symmetry = parse_grid_symmetry(text_of(request, "symmetry", "none"));
     require_symmetry(grid, random.symmetry);
     random.density = number_of(request, "density", random.density);
-    const std::string seed = text_of(request, "seed", "0");
-    std::from_chars(seed.data(), seed.data() + seed.size(), random.seed);
+    if (request.contains("seed")) random.seed = whole_of(request["seed"], "seed");
 
     const std::string given = text_of(request, "crossings", "");
     Crossings crossings = given.empty() ? random_crossings(grid, random) : parse_crossings(grid, given);

@@ -166,7 +166,7 @@ std::string decompressed(std::string_view packed) {
 /// True for file names without folders, control characters and direction overrides, because messages and outputs
 /// quote them.
 bool is_file_name(std::string_view name) {
-    return !name.empty() && name.size() <= longest_name && name != "." && name != ".." &&
+    return !name.empty() && name.size() <= longest_name && name != "." && name != ".." && name[0] != '-' &&
            name.find('/') == std::string_view::npos && printable(name, longest_name) == name;
 }
 
@@ -297,6 +297,14 @@ std::string link_of(const SharedWork& work) {
     return std::string(prefix) + to_base64url(compressed(json));
 }
 
+SharedWork read_shared_json(const std::string& json) {
+    try {
+        return work_of(read_json(json));
+    } catch (const JsonError& error) {
+        refuse(printable(error.what()));
+    }
+}
+
 bool is_link(std::string_view text) {
     text = without_space(text);
     if (is_address(text)) return true;
@@ -316,12 +324,7 @@ SharedWork read_link(std::string_view link) {
                             ? "this link was made by a newer version of Sikku"
                             : fmt::format("this link contains no pattern: expected '#{}…'", prefix));
     }
-    const std::string json = decompressed(from_base64url(std::string_view(fragment).substr(prefix.size())));
-    try {
-        return work_of(read_json(json));
-    } catch (const JsonError& error) {
-        refuse(printable(error.what()));
-    }
+    return read_shared_json(decompressed(from_base64url(std::string_view(fragment).substr(prefix.size()))));
 }
 
 }  // namespace sikku

@@ -39,6 +39,9 @@ std::string link_of(const SharedWork& work);
 /// @throws LinkError for invalid UTF-8
 std::string shared_json(const SharedWork& work);
 
+/// Reads what shared_json() writes; `draw`, `play`, `page` and empty members may be missing. @throws LinkError
+SharedWork read_shared_json(const std::string& json);
+
 /// True for texts that are links rather than paths or names: addresses (`https:`, `http:`, `file:`)
 /// and fragments that begin with `sikku`, a number and a dot.
 bool is_link(std::string_view text);

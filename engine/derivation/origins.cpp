@@ -85,8 +85,8 @@ public:
         }
     }
 
-    std::vector<Origin> trace(std::uint64_t position) const {
-        std::vector<Origin> found;
+    Origin trace(std::uint64_t position, Pulse& pulse) const {
+        Origin found;
         std::uint64_t before = position - 1;  // symbols of the part that precede it
         std::int64_t level = levels_.count();
         const Word* word = &grammar_.axiom();
@@ -97,9 +97,10 @@ public:
             while (item < word->size() && before >= length((*word)[item], level)) {
                 before -= length((*word)[item], level);
                 ++item;
+                pulse();
             }
             if (item == word->size() || item >= spans->size()) return {};
-            found.push_back({(*spans)[item], production});
+            found = {(*spans)[item], production};
             const Symbol symbol = (*word)[item];
             const Word* successor = nullptr;
             while (level > 0 && !(successor = levels_.table(level).successor(symbol))) --level;
@@ -152,12 +153,15 @@ private:
 
 }  // namespace
 
-std::vector<std::vector<Origin>> origins(const Document& document, std::span<const std::uint64_t> positions) {
+std::vector<Origin> origins(const Document& document, std::span<const std::uint64_t> positions,
+                            const Monitor& monitor) {
     const Tracer tracer(document);
-    std::vector<std::vector<Origin>> all;
+    Pulse pulse(monitor);
+    std::vector<Origin> all;
     all.reserve(positions.size());
     for (const std::uint64_t position : positions) {
-        all.push_back(position == 0 ? std::vector<Origin>() : tracer.trace(position));
+        monitor.check();
+        all.push_back(position == 0 ? Origin() : tracer.trace(position, pulse));
     }
     return all;
 }

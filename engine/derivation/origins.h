@@ -1,6 +1,7 @@
 // engine/derivation/origins.h: which symbol of which production a symbol of the word comes from.
 #pragma once
 
+#include "engine/base/monitor.h"
 #include "engine/language/document.h"
 
 #include <cstdint>
@@ -15,11 +16,13 @@ struct Origin {
     Span production;  ///< the whole production; empty for the axiom
 };
 
-/// Traces symbols of the word, after the homomorphism, back to the text: for each position, the symbol of the axiom
-/// and then the symbol in each production that was applied, in order.
-/// @param positions  in the word, counted from 1; a position beyond the word has no origins
-/// Cost: O(steps) for each position, and O(symbols x steps) once.
-/// @throws std::runtime_error for productions with contexts, parameters or random choices, or more than 10,000 steps
-std::vector<std::vector<Origin>> origins(const Document& document, std::span<const std::uint64_t> positions);
+/// Finds the places in the text that made symbols of the word, `interpret:` applied: in the successor of the last
+/// production that applied, or in the axiom.
+/// @param positions  in the word, counted from 1; the origin of a position beyond the word is empty
+/// Cost: O(steps x length of the successors) for each position, and O(symbols x steps) once.
+/// @throws std::runtime_error for productions with contexts, parameters or random choices, and for more than 10,000
+/// steps; Stopped
+std::vector<Origin> origins(const Document& document, std::span<const std::uint64_t> positions,
+                            const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -14,7 +14,8 @@ export async function startBridge(makeModule: (hooks: object) => Promise<any>, h
     const encoder = new TextEncoder();
     const decoder = new TextDecoder();
     const put = (bytes: Uint8Array): number => {
-        const at: number = module._malloc(Math.max(bytes.length, 1));
+        const at: number = module._malloc(Math.max(bytes.length, 1)) >>> 0; // addresses over 2 GB come as negative numbers
+        if (at === 0) throw new Error("not enough memory");
         module.HEAPU8.set(bytes, at);
         return at;
     };
@@ -29,7 +30,7 @@ export async function startBridge(makeModule: (hooks: object) => Promise<any>, h
             module._free(textAt);
             module._free(bytesAt);
         }
-        const taken = (at: number, size: number): Uint8Array => module.HEAPU8.slice(at, at + size);
+        const taken = (at: number, size: number): Uint8Array => module.HEAPU8.slice(at >>> 0, (at >>> 0) + (size >>> 0));
         return {
             json: decoder.decode(taken(module._sikku_json(), module._sikku_json_size())),
             bytes: taken(module._sikku_bytes(), module._sikku_bytes_size()),

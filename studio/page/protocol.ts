@@ -124,14 +124,12 @@ export interface Notes {
 /// A place of the text; line 0: none, as the text of a setting.
 export interface Place { line: number; column: number; length: number }
 
-/// The symbols of the text that a symbol of the word comes from: of the axiom, then of each production that applied.
-export interface Origin {
-    steps: (Place & { production: Place | null })[]; // null: the axiom
-}
-export interface Origins { origins: Origin[] }
+/// The symbol of the text that a symbol of the word comes from, and its production; null: the axiom.
+export type Origin = Place & { production: Place | null };
+export interface Origins { origins: (Origin | null)[] } // null: unknown
 
 export interface Imported { systems: { name: string; line: number; text: string; losses: string[] }[]; diagnostics: Diagnostic[] }
-export interface Shown { text: string; made: string; settings: [string, string][]; variant: string }
+export interface Shown { text: string; made: string } // made: the recipe, as in `sikku 0.1.0, -n 4 --size A3`
 export interface Grid {
     text: string; // of the pattern file
     rows: number[];

@@ -113,6 +113,44 @@ TEST(Bridge, CommandsAreQuotedForTheShell) {
               "sikku draw 'it'\\''s.lsys' --seed 7 --stroke '0.3mm navy' --dots --landscape -o 'it'\\''s.svg'");
 }
 
+TEST(Bridge, CommandsHoldNothingButTheirOptions) {
+    const auto command = [](const char* interpreter, const Json& options, const char* name) {
+        const Json answer = asked({{"do", "command"},
+                                   {"interpreter", interpreter},
+                                   {"format", interpreter == std::string("draw") ? "svg" : "mid"},
+                                   {"options", options},
+                                   {"pattern", {{"name", name}, {"text", koch}}}});
+        return answer.contains("command") ? answer["command"].get<std::string>() : answer.dump();
+    };
+    EXPECT_EQ(command("draw", pairs({{"size A4; touch x #", "x"}}), "a.lsys"),
+              "sikku draw a.lsys --set 'size A4; touch x #=x' -o a.svg");
+    EXPECT_EQ(command("draw", pairs({{"stroke", "false"}}), "-x.lsys"),
+              "sikku draw ./-x.lsys --stroke false -o ./-x.svg");
+    EXPECT_EQ(command("play", pairs({{"tempo", "96"}}), "a.lsys"), "sikku play a.lsys --tempo 96 -o a.mid");
+    EXPECT_EQ(kind_of_failure({{"do", "command"},
+                               {"interpreter", "draw"},
+                               {"format", "svg; ls"},
+                               {"pattern", {{"name", "a.lsys"}, {"text", koch}}}}),
+              "setting");
+}
+
+TEST(Bridge, OriginsStopInTime) {
+    std::string word;
+    for (int i = 0; i < 10'000; ++i) word += 'Y';
+    Json symbols = Json::array();
+    for (int i = 0; i < 200; ++i) symbols.push_back("99890000");
+    const Json question = {{"do", "origins"},
+                           {"seconds", 0.2},
+                           {"symbols", symbols},
+                           {"pattern", pattern("axiom: X\nderivation length: 9990\nX --> " + word + "X\n")}};
+    EXPECT_EQ(kind_of_failure(question), "stopped");
+    Json damaged = question;
+    damaged["symbols"] = 5;
+    EXPECT_EQ(kind_of_failure(damaged), "request");
+    damaged["symbols"] = Json::array({"x"});
+    EXPECT_EQ(kind_of_failure(damaged), "request");
+}
+
 TEST(Bridge, ScaleFilesAreKept) {
     const std::string scale = "! test.scl\n!\nThree equal steps\n 3\n!\n 400.\n 800.\n 2/1\n";
     EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "x.txt"}}, scale), "request");

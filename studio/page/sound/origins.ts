@@ -57,9 +57,8 @@ export class NoteOrigins {
             );
             if (generation !== this.generation) return;
             if (this.found.size > most_kept) this.found.clear();
-            json.origins.forEach(({ steps }, index) => {
-                const last = steps[steps.length - 1];
-                this.found.set(symbols[index], last && last.line > 0 ? last : null);
+            json.origins.forEach((origin, index) => {
+                this.found.set(symbols[index], origin && origin.line > 0 ? origin : null);
             });
         } catch {
             if (generation !== this.generation) return;
