@@ -1,4 +1,4 @@
-// Export of what is on the screen, in every format of the program, or as the command that makes the same file.
+// Exports the work in every format, or shows the command that makes the same file.
 import type { Application } from "./application";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
@@ -23,7 +23,7 @@ const groups: [string, Interpreter, RegExp][] = [
     ["Model", "draw", /^(obj|glb|gltf)$/],
     ["Score", "play", /./],
 ];
-// Pictures other than PNG and sound files need libraries that the page does without.
+// Pictures other than PNG and sound files need libraries that the page does not contain.
 const by_the_program = new Set(["tif", "jpg", "exr", "wav", "flac"]);
 const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true };
 const types: Record<string, string> = {
@@ -47,9 +47,9 @@ const openAtFirst: Record<string, RegExp> = {
     Model: /^Page/,
     Score: /^Passage/,
 };
-const pause = 200; // milliseconds after a change before the file is made again
+const pause = 200; // milliseconds between a change and remaking the file
 
-let chosen = "draw svg"; // remembered while the page is open
+let chosen = "draw svg"; // kept while the page is open
 
 function choicesOf(application: Application): Choice[] {
     const facts = application.opened?.facts;
@@ -76,7 +76,7 @@ function choicesOf(application: Application): Choice[] {
     ];
 }
 
-// "glTF" stays; "sound" gets a capital.
+// Capitalises "sound", but not "glTF".
 function nameOf({ label, extension }: FormatHelp): string {
     return /^[a-z ]+$/.test(label) ? capital(label) : label || extension.toUpperCase();
 }
@@ -119,7 +119,7 @@ class Export {
             () =>
                 void navigator.clipboard
                     .writeText(this.command.textContent ?? "")
-                    .then(() => application.say("The command is copied.")),
+                    .then(() => application.say("The command was copied.")),
             { kind: "quiet" },
         );
         this.dialog.body.append(
@@ -185,7 +185,7 @@ class Export {
         this.refresh();
     }
 
-    // Groups that the format is about are open.
+    // Opens the groups that matter for the format.
     private showOptions(): void {
         const { interpreter, format, group } = this.choice;
         const { store, help } = this.application;
@@ -239,7 +239,7 @@ class Export {
         void this.showCommand(request);
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
-            const text = "Only the program writes this format: copy the command below.";
+            const text = "Only the program can write this format; copy the command below.";
             this.showRemarks([{ is_warning: false, text }]);
             return;
         }
@@ -280,7 +280,7 @@ class Export {
                 ? [
                       {
                           is_warning: false,
-                          text: "Values beside the text are not in it; “Write into the text” puts them there.",
+                          text: "The file does not contain changed values; “Write into the text” adds them.",
                       },
                   ]
                 : [],
@@ -327,7 +327,7 @@ class Export {
                 { key: "export-preview" },
             );
         } catch {
-            // the remarks say why
+            // the remarks give the reason
         }
     }
 

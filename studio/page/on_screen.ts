@@ -1,10 +1,10 @@
-// What is on the screen, as options of `sikku draw`: the options of the work, and the window that the map shows.
+// The view as options of `sikku draw`: the options of the work, and the window that the map shows.
 import { windowOf } from "./camera";
 import type { Studio } from "./context";
 import { readExact } from "./decimal";
 import type { Options } from "./protocol";
 
-const usual = { width: 1000, height: 800 }; // if the map has not been shown yet
+const usual = { width: 1000, height: 800 }; // used before the map has been shown
 
 /// The window of the map; null while it shows the whole page.
 export function windowOnScreen(studio: Studio): string | null {

@@ -1,4 +1,4 @@
-// Files from outside: patterns, collections of Fractint, files of cpfg, scales, and prints that contain their pattern.
+// Opens files: patterns, Fractint collections, cpfg files, scales, and prints that contain their pattern.
 import { RequestFailed, type Studio } from "./context";
 import { openDialog } from "./dialog";
 import { byId, element } from "./elements";
@@ -22,7 +22,7 @@ export function askForFile(studio: Studio): void {
 
 async function openFile(studio: Studio, file: File, all: File[]): Promise<void> {
     if (file.size > largest_file) {
-        studio.say(`${file.name} has ${sizeOf(file.size)}; files may have up to ${sizeOf(largest_file)}.`, "error");
+        studio.say(`${file.name} has ${sizeOf(file.size)}; the limit is ${sizeOf(largest_file)}.`, "error");
         return;
     }
     try {
@@ -91,7 +91,7 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
     dialog.body.append(list);
 }
 
-/// Files can be dropped anywhere on the page.
+/// Lets the user drop files anywhere on the page.
 export function acceptDrops(studio: Studio): void {
     const veil = element(
         "div",

@@ -1,8 +1,8 @@
-// What the page reads in the text of a pattern without the libraries: the values that sliders return to, and where
-// values are written.
+// Reads and writes values in the text of a pattern without the libraries: the values that sliders reset to, and the
+// places where changed values are written.
 import type { PatternRequest } from "./protocol";
 
-// Expressions as they stand in `define r = 0.75` or `variant a: r = 0.8, derivation length = 9`.
+// Expressions as written in `define r = 0.75` or `variant a: r = 0.8, derivation length = 9`.
 function written(line: string, name: string): string | null {
     const [given, value] = [line.slice(0, line.indexOf("=")).trim(), line.slice(line.indexOf("=") + 1).trim()];
     return given === name ? value : null;
@@ -27,7 +27,7 @@ export function valueInText(pattern: PatternRequest, name: string): string | nul
     return key ? key[1]!.trim() : null;
 }
 
-/// The text with the settings written into it, so that it says what is shown.
+/// The text with the settings written into it.
 export function withSettings(pattern: PatternRequest): string {
     let { text } = pattern;
     for (const [name, value] of pattern.settings ?? []) {
@@ -38,7 +38,7 @@ export function withSettings(pattern: PatternRequest): string {
     return text;
 }
 
-/// The title of a text, or else its name.
+/// The title of a pattern, or its name if it has none.
 export function titleOf(pattern: { name: string; text: string }): string {
     return valueInText({ name: pattern.name, text: pattern.text }, "title") || pattern.name.replace(/\.lsys$/, "");
 }

@@ -1,4 +1,4 @@
-// A link that holds everything, with a QR code; and links that come in, which are shown before they are opened.
+// Makes a link with a QR code, and inspects links before they are opened.
 import { generate } from "lean-qr";
 import type { Application } from "./application";
 import { RequestFailed, type Work } from "./context";
@@ -10,8 +10,8 @@ import { openPattern } from "./opening";
 import { titleOf } from "./pattern_text";
 import type { Link, PatternRequest, ReadLink, Shared } from "./protocol";
 
-const quiet_zone = 4; // modules of white around a code
-const code_width = 280; // pixels, for whole pixels in each module
+const quiet_zone = 4; // white modules around a code
+const code_width = 280; // pixels, reduced to whole pixels per module
 
 const isServed = () => /^https?:$/.test(location.protocol);
 
@@ -31,7 +31,7 @@ export function openShare(application: Application): void {
     const hasView = windowOnScreen(application) !== null;
     const box = element("input", { type: "checkbox" });
     box.checked = hasView;
-    const view = element("label", { class: "switch" }, box, "Include the part in view");
+    const view = element("label", { class: "switch" }, box, "Include the current view");
     view.hidden = !hasView;
     const copy = button("Copy the link", () => void copyText(application, address), { kind: "primary" });
 
@@ -61,7 +61,7 @@ export function openShare(application: Application): void {
                 "div",
                 { class: "code-facts" },
                 facts,
-                element("p", {}, "The program reads it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
+                element("p", {}, "Commands accept it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
             ),
         ),
     );
@@ -74,11 +74,11 @@ async function copyText(application: Application, field: HTMLTextAreaElement): P
     try {
         await navigator.clipboard.writeText(field.value);
     } catch {
-        // a page from a file may not have a clipboard
+        // pages from files may have no access to the clipboard
         field.select();
         document.execCommand("copy");
     }
-    application.say("The link is copied.");
+    application.say("The link was copied.");
 }
 
 function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): void {
@@ -88,11 +88,11 @@ function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): 
         canvas.hidden = false;
         canvas.style.width = `${canvas.width * Math.max(2, Math.floor(code_width / canvas.width))}px`;
         facts.textContent = isServed()
-            ? `A link of ${length}.`
-            : `This page is a file, so the code holds only the work (${length}). In any studio, Open > A link… reads it.`;
+            ? `The link has ${length}.`
+            : `This page is a local file, so the code contains only the work (${length}). Open > A link… opens it.`;
     } catch {
         canvas.hidden = true;
-        facts.textContent = `The link has ${length}: too many for a QR code, which holds up to 2,953.`;
+        facts.textContent = `The link has ${length}: too many for a QR code (at most 2,953).`;
     }
 }
 
@@ -105,7 +105,7 @@ function readPlace(text: string | undefined): Work["place"] {
     }
 }
 
-/// Shows what a link contains. Nothing of it is derived or drawn before the user opens it.
+/// Shows the contents of a link. Nothing is derived or drawn before the user opens it.
 export async function inspectLink(application: Application, link: string): Promise<void> {
     let contents: Shared;
     try {
@@ -126,7 +126,7 @@ export async function inspectLink(application: Application, link: string): Promi
             "p",
             {},
             element("strong", {}, titleOf(pattern)),
-            ". It has not been run. A pattern is only data: it can draw and play, nothing else.",
+            ". Nothing has been derived yet. A pattern is only data: it can draw and play, nothing else.",
         ),
         element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, pattern.text),
         ...values(contents, pattern),
@@ -169,7 +169,7 @@ function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
     ];
 }
 
-// The link has been answered: a reload does not ask again.
+// Removes the link from the address, so that a reload does not show it again.
 function forget(): void {
     if (location.hash) history.replaceState(null, "", location.href.replace(/#.*$/s, ""));
 }
@@ -182,7 +182,7 @@ export function watchLinks(application: Application): void {
     inspect();
 }
 
-/// A field for a link or the text of a code.
+/// Opens a dialog with a field for a link or the text of a QR code.
 export function askForLink(application: Application): void {
     const dialog = openDialog("Open a link");
     const field = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
@@ -196,7 +196,7 @@ export function askForLink(application: Application): void {
     );
     dialog.footer.append(
         button(
-            "Show what it contains",
+            "Show its contents",
             () => {
                 dialog.close();
                 void inspectLink(application, field.value.trim());

@@ -2,7 +2,7 @@
 import type { Engine } from "./context";
 import type { Options, PatternRequest, Pixels } from "./protocol";
 
-/// Draws a pattern's page into a canvas of its size; false if it was given up.
+/// Draws the page of a pattern to fit a canvas; false if the request was cancelled.
 export async function drawInto(
     canvas: HTMLCanvasElement,
     engine: Engine,
