@@ -144,7 +144,7 @@ test("the page opens and draws", async () => {
     await screenshot(page, "first");
 });
 
-test("typing draws again", async ({ page }) => {
+test("typing redraws the picture", async ({ page }) => {
     await text(page).click();
     const before = await steadyPicture(page);
     await page.keyboard.press(`${ctrl}+Home`);
@@ -195,7 +195,7 @@ test("keys are completed and explained", async ({ page }) => {
     await page.mouse.move(900, 400);
 });
 
-test("sliders change values, and a double click takes them back", async ({ page }) => {
+test("sliders change values, and a double click resets them", async ({ page }) => {
     const n = slider(page, "n");
     assert.match(await cost(page), /63 segments/);
     await n.focus();
@@ -311,7 +311,7 @@ test("files can be dropped", async ({ page }) => {
     await page.locator("#work-title", { hasText: "Snake kolam" }).waitFor();
 });
 
-test("export writes the file and tells the command", async ({ page }) => {
+test("export writes the file and shows the command", async ({ page }) => {
     await page.getByRole("button", { name: "Export" }).click();
     const dialog = page.getByRole("dialog", { name: "Export" });
     await dialog.getByRole("combobox", { name: "Size", exact: true }).fill("A3");
@@ -332,7 +332,7 @@ test("export writes the file and tells the command", async ({ page }) => {
     await dialog.waitFor({ state: "detached" });
 });
 
-test("a print that is dropped gives its pattern back", async ({ page, svg }) => {
+test("a dropped print opens its pattern", async ({ page, svg }) => {
     const before = await textOf(page);
     await page.getByRole("button", { name: "Open", exact: true }).click();
     await page.getByRole("menuitem", { name: "New pattern" }).click();
@@ -342,7 +342,7 @@ test("a print that is dropped gives its pattern back", async ({ page, svg }) => 
     assert.equal((await textOf(page)).trim(), before.trim());
 });
 
-test("a link holds everything and runs nothing before it is opened", async ({ page }) => {
+test("a link contains everything and runs nothing before it is opened", async ({ page }) => {
     await slider(page, "n").focus();
     await page.keyboard.press("ArrowLeft");
     await page.getByRole("button", { name: "Share" }).click();

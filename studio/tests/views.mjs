@@ -117,7 +117,7 @@ const tests = {
         await close(page);
     },
 
-    async "the map works by keyboard, and says when the drawing is elsewhere"() {
+    async "the map works by keyboard, and reports when the drawing is outside the view"() {
         const page = await open("kolams/snake-kolam");
         await described(page, "closed");
         await map(page).focus();
@@ -136,7 +136,7 @@ const tests = {
         await close(page);
     },
 
-    async "a plant is turned, grows, and lends its view to prints"() {
+    async "a plant is turned and grown, and its view is used for prints"() {
         const page = await open("plants/bush-3d", { settings: [["derivation length", "5"]], panel: "space" });
         const triangles = page.locator(".space-facts", { hasText: "triangles" });
         await triangles.waitFor();
@@ -158,13 +158,13 @@ const tests = {
         await close(page);
     },
 
-    async "drawings without a model say so"() {
+    async "drawings without a model are reported"() {
         const page = await open("kolams/snake-kolam", { panel: "space" });
         await page.locator(".space-note", { hasText: "straight lines" }).waitFor();
         await close(page);
     },
 
-    async "24 mutations are shown, the same each time, and one is taken"() {
+    async "24 mutations are shown, the same each time, and one is chosen"() {
         const page = await open("kolams/snake-kolam", { panel: "variations" });
         await found(page, 24);
         const labels = () => variants(page).evaluateAll((cells) => cells.map((cell) => cell.title));
@@ -191,7 +191,7 @@ const tests = {
         await close(page);
     },
 
-    async "filters leave out what does not pass"() {
+    async "filters leave out variants that do not pass"() {
         const page = await open("kolams/snake-kolam", { panel: "variations" });
         await found(page, 24);
         const all = await variants(page).evaluateAll((cells) => cells.map((cell) => cell.title));
