@@ -1,4 +1,4 @@
-// About the studio: its version, and what it contains of others with their licences.
+// About the studio: its version, and the third-party software that it contains, with licences.
 import notices from "notices";
 import type { Application } from "./application";
 import { openDialog } from "./dialog";
@@ -13,12 +13,12 @@ export function openAbout(application: Application): void {
             : element("p", {}, title);
     });
     dialog.body.append(
-        element("p", {}, `Sikku ${application.help.version}. Sikku is Tamil for the knot of a kolam line.`),
+        element("p", {}, `Sikku ${application.help.version}. Sikku is the Tamil word for the knot of a kolam line.`),
         element(
             "p",
             {},
-            "Everything happens in this page: it works without a network, and nothing leaves it. " +
-                "Your work is kept in this browser only; links and files are how it travels.",
+            "The page works without a network and sends no data. " +
+                "Your work is saved only in this browser; use links and files to share it.",
         ),
         element("p", {}, "MIT licence. The page contains:"),
         element("div", { class: "notices" }, ...rows),

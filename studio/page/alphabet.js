@@ -1,3 +1,3 @@
-// The 85 letters of embedded data: none of them means anything in markup.
+// The 85 characters of embedded data, none of which has a meaning in HTML.
 export const alphabet =
     "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ!#$%()*+,-./:;=>?@[]^_{";

@@ -1,4 +1,4 @@
-// The studio as its panels see it: the libraries, the work, and the facts of its last text without errors.
+// The studio as its panels use it: the libraries, the work, and the facts of the last valid text.
 import type { Engine, Studio } from "./context";
 import { RequestFailed } from "./context";
 import type { Work } from "./context";
@@ -6,8 +6,8 @@ import { byId, element } from "./elements";
 import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
 import type { History } from "./store";
 
-const patience = 400; // milliseconds before the status bar says that the libraries are working
-const fact_seconds = 12; // that a line of the status bar stays
+const patience = 400; // milliseconds until the status bar shows that the libraries are working
+const fact_seconds = 12; // how long a message stays in the status bar
 
 type OpenedListener = (facts: Opened, work: Work) => void;
 type Place = { line: number; column: number; length: number };
@@ -37,7 +37,7 @@ export class Application implements Studio {
         return () => this.listeners.delete(listener);
     }
 
-    /// Called after every text: with its error, or null, and with all that is to be shown in it.
+    /// Called after each check of the text, with its error or null and all diagnostics.
     onChecked(listener: (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void): void {
         this.failed.add(listener);
     }
@@ -46,7 +46,7 @@ export class Application implements Studio {
         this.marked.add(listener);
     }
 
-    /// Reads the work's pattern; the panels draw it again if it has no errors.
+    /// Reads the pattern of the work; the panels redraw it if it has no errors.
     async open(): Promise<void> {
         const { work } = this.store;
         clearTimeout(this.waiting);
@@ -58,7 +58,7 @@ export class Application implements Studio {
             for (const listener of this.failed) listener(null, json.warnings);
             for (const listener of this.listeners) listener(json, work);
         } catch (error) {
-            if (!(error instanceof RequestFailed)) return; // replaced by a later text
+            if (!(error instanceof RequestFailed)) return; // superseded by a later text
             clearTimeout(this.waiting);
             for (const listener of this.failed) listener(error.failure, error.failure.diagnostics ?? []);
         }

@@ -1,4 +1,4 @@
-// The kolam bench: a grid of dots, whose gaps are crossed or turned back. Every change becomes the pattern's text.
+// The kolam bench: a grid of dots with gaps in which lines cross or turn back. Every change is written to the text.
 import { Board, type Scene } from "./bench/board";
 import { certificateText, type Examined } from "./bench/certificate";
 import type { DotGrid } from "./bench/dot_grid";
@@ -25,15 +25,15 @@ class BenchPanel implements Panel {
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
     private chances: Chances = { density: 0.7, seed: 1 };
 
-    private cursor = -1; // the gap under the pointer or the keys
-    private column: number | null = null; // that the keys keep to
+    private cursor = -1; // the gap selected by pointer or keyboard
+    private column: number | null = null; // kept while moving up and down with the keys
     private isKeyboard = false;
-    private painting: number | null = null; // the state that a drag gives
+    private painting: number | null = null; // the state that a drag sets
     private isShown = false;
     private frame = 0;
-    private made = ""; // the text of this kolam, as the libraries made it
+    private made = ""; // the text of this kolam as written by the libraries
     private text = ""; // the same with the edits of the user
-    private asked = 0; // answers to earlier questions are late
+    private asked = 0; // number of the last request; earlier answers are ignored
 
     private readonly canvas = element("canvas", {
         class: "bench-board",
@@ -100,7 +100,7 @@ class BenchPanel implements Panel {
 
     // --- changes --------------------------------------------------------------------------------------------------
 
-    /// What the text says, as after an undo. False if it is not a kolam of the bench.
+    /// Reads the kolam from the text, for example after an undo. False if it is not a kolam of the bench.
     private take(text: string): boolean {
         const found = readKolam(text);
         if (!found) return false;
@@ -165,7 +165,7 @@ class BenchPanel implements Panel {
     private async makeSingle(): Promise<void> {
         const { kolam, chances } = this;
         if (kolam.count === 1) {
-            this.studio.say("The kolam is one line already.");
+            this.studio.say("The kolam is already a single line.");
             return;
         }
         if (kolam.symmetry !== "none") {
@@ -185,7 +185,7 @@ class BenchPanel implements Panel {
         return { do: "grid", grid: gridText(grid), coloured: this.look.isColoured, title: kolamTitle(grid), ...more };
     }
 
-    /// Lets the libraries find the crossings.
+    /// Asks the libraries for the crossings.
     private async ask(wanted: Partial<GridRequest>, merge: string): Promise<void> {
         const mine = ++this.asked;
         const { engine } = this.studio;
@@ -204,7 +204,7 @@ class BenchPanel implements Panel {
         }
     }
 
-    /// Shows the change at once; the text follows when the libraries have written it.
+    /// Shows the change at once; the text is updated when the libraries have written it.
     private commit(): void {
         this.update();
         const mine = ++this.asked;
@@ -228,11 +228,11 @@ class BenchPanel implements Panel {
         this.made = made;
         const fresh = { name: "kolam.lsys", variant: "", settings: [] };
         store.change({ pattern: { ...pattern, ...(isOurs ? {} : fresh), text: this.text }, place: null }, merge);
-        if (!isOurs) this.studio.say("The kolam is now the pattern. Undo brings the other one back.");
+        if (!isOurs) this.studio.say("The kolam has replaced the pattern. Undo restores it.");
         void this.examine();
     }
 
-    /// The certificate comes from the libraries, which examine the curve and not the grid.
+    /// Requests the certificate from the libraries, which examine the curve, not the grid.
     private async examine(): Promise<void> {
         const { engine, store } = this.studio;
         const { pattern } = store.work;
@@ -245,7 +245,7 @@ class BenchPanel implements Panel {
         }
     }
 
-    // --- the pointer and the keys ---------------------------------------------------------------------------------
+    // --- pointer and keyboard ---------------------------------------------------------------------------------
 
     private point(event: PointerEvent): void {
         const gap = this.board.gapAt(this.scene(), event.offsetX, event.offsetY);
@@ -299,7 +299,7 @@ class BenchPanel implements Panel {
         this.hover.textContent = this.cursor < 0 ? "" : changeText(this.kolam, this.cursor);
     }
 
-    // --- what is seen ---------------------------------------------------------------------------------------------
+    // --- drawing ---------------------------------------------------------------------------------------------
 
     private scene(): Scene {
         const { grid, states, lines, orbits } = this.kolam;

@@ -1,4 +1,4 @@
-// The only script that the page carries as it is: it unpacks the others.
+// The only script that is not compressed in the page: it unpacks the others.
 import { scriptAddress } from "./embedded";
 
 scriptAddress("sikku-script").then(

@@ -8,7 +8,7 @@ export interface RawAnswer {
 }
 export type Bridge = (json: string, bytes?: Uint8Array) => RawAnswer;
 
-/// Starts the module. `makeModule` is the default export of sikku-bridge.cjs; `hooks` may hold `instantiateWasm`.
+/// Starts the module. `makeModule` is the default export of sikku-bridge.cjs; `hooks` may contain `instantiateWasm`.
 export async function startBridge(makeModule: (hooks: object) => Promise<any>, hooks: object = {}): Promise<Bridge> {
     const module = await makeModule({ zlib: makeZlib(), ...hooks });
     const encoder = new TextEncoder();

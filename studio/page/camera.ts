@@ -1,7 +1,7 @@
-// What a view of the endless plane shows: arithmetic without a page.
+// The part of the endless plane that a view shows: arithmetic only.
 import { exactOf, exactText, numberOf, readExact, type Exact } from "./decimal";
 
-/// The middle of the view in turtle steps, y up, and turtle steps in a CSS pixel.
+/// The centre of the view in turtle steps, y up, and the scale in turtle steps per CSS pixel.
 export interface Camera {
     readonly x: Exact;
     readonly y: Exact;
@@ -37,7 +37,7 @@ export function pointAt(camera: Camera, size: Size, left: number, top: number): 
     };
 }
 
-/// The camera under which that point lies under that pixel.
+/// The camera that shows the point at the pixel.
 export function cameraWith(
     point: { x: Exact; y: Exact },
     size: Size,
@@ -53,7 +53,7 @@ export function cameraWith(
     };
 }
 
-/// Moves what is seen by so many pixels.
+/// Moves the picture by a number of pixels.
 export function panned(camera: Camera, right: number, down: number): Camera {
     return {
         x: camera.x - exactOf(right * camera.scale),
@@ -70,7 +70,7 @@ export function pixelOf(camera: Camera, size: Size, x: Exact, y: Exact): { left:
     };
 }
 
-/// The camera that shows a rectangle of the plane with a margin around it; null if the rectangle is a point or wrong.
+/// The camera that shows a rectangle of the plane with a margin around it; null if the rectangle is a point or invalid.
 export function fitting(extent: readonly [string, string, string, string], size: Size, margin: number): Camera | null {
     const [x0, y0, x1, y1] = extent.map(readExact);
     if (x0 == null || y0 == null || x1 == null || y1 == null || x1 < x0 || y1 < y0) return null;
@@ -81,12 +81,12 @@ export function fitting(extent: readonly [string, string, string, string], size:
     return { x: (x0 + x1) / 2n, y: (y0 + y1) / 2n, scale: limited(scale > 0 ? scale : 1 / 40) };
 }
 
-/// How many decimals tell neighbouring pixels apart.
+/// The number of decimals that distinguishes neighbouring pixels.
 export function decimalsOf(scale: number): number {
     return Math.max(0, Math.ceil(-Math.log10(scale)) + (scale < 1 ? 1 : 0));
 }
 
-/// What the view shows as the `window` of a request, as large as `size`.
+/// The view, of the given size, as the `window` of a request.
 export function windowOf(camera: Camera, size: Size): [string, string, string, string] {
     const across = exactOf((size.width / 2) * camera.scale);
     const up = exactOf((size.height / 2) * camera.scale);

@@ -1,4 +1,4 @@
-// Chance that can be repeated: the same seed gives the same numbers.
+// Repeatable random numbers: the same seed gives the same numbers.
 
 export class Chance {
     private state: number;
@@ -8,7 +8,7 @@ export class Chance {
         for (let round = 0; round < 3; ++round) this.share();
     }
 
-    /// At least 0, below 1.
+    /// A number in [0, 1).
     share(): number {
         // mulberry32
         this.state = (this.state + 0x6d2b79f5) >>> 0;
@@ -18,7 +18,7 @@ export class Chance {
         return ((mixed ^ (mixed >>> 14)) >>> 0) / 4294967296;
     }
 
-    /// A whole number from 0, below `count`.
+    /// A whole number from 0 to `count` - 1.
     below(count: number): number {
         return Math.floor(this.share() * count);
     }
@@ -28,7 +28,7 @@ export class Chance {
     }
 }
 
-/// A number of 53 bits from a text: cyrb53. Equal texts have equal numbers, different ones almost surely do not.
+/// A number of 53 bits from a text: cyrb53. Different texts almost certainly give different numbers.
 export function hashOf(text: string): number {
     let high = 0xdeadbeef;
     let low = 0x41c6ce57;

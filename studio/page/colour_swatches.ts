@@ -1,4 +1,4 @@
-// A swatch before each colour of the text; a click opens the browser's palette and writes the colour that is chosen.
+// A swatch before each colour in the text. A click opens the browser's colour picker and writes the chosen colour.
 import { type Extension } from "@codemirror/state";
 import {
     Decoration,
@@ -25,7 +25,7 @@ class Swatch extends WidgetType {
             digits.length < 6
                 ? `#${[...digits.slice(0, 3)].map((digit) => digit + digit).join("")}`
                 : `#${digits.slice(0, 6)}`;
-        // The text beside it says the same: the swatch is a shortcut for the pointer.
+        // Hidden from screen readers: the swatch only repeats the text for the pointer.
         const input = element("input", {
             type: "color",
             class: "swatch",
@@ -42,7 +42,7 @@ class Swatch extends WidgetType {
     }
 
     override updateDOM(dom: HTMLElement): boolean {
-        // The palette stays open while the colour changes under it.
+        // The colour picker stays open while the text changes.
         if (document.activeElement !== dom || this.colour.length !== 7) return false;
         (dom as HTMLInputElement).value = this.colour;
         return true;

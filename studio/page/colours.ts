@@ -5,7 +5,7 @@ import { element } from "./elements";
 import { valueInText } from "./pattern_text";
 import type { Opened } from "./protocol";
 
-// A colour of CSS as #rrggbb; null if it is none.
+// A CSS colour as #rrggbb; null if it is not a colour.
 function plain(colour: string): string | null {
     if (!CSS.supports("color", colour)) return null;
     const context = document.createElement("canvas").getContext("2d")!;

@@ -1,4 +1,4 @@
-// What the parts of the page share: the libraries, the work, and the panels that show it.
+// Interfaces shared by the parts of the page: the libraries, the work, and the panels that show it.
 import type { Failure, Help, Opened, Options, PatternEntry, PatternRequest, Request } from "./protocol";
 
 export interface Answer<T> { json: T; bytes: Uint8Array }
@@ -9,9 +9,9 @@ export class RequestFailed extends Error {
 
 export interface RequestOptions {
     bytes?: Uint8Array; // of a file
-    /// A later request of the same key replaces this one while it waits, and stops it while it runs.
+    /// A later request with the same key replaces this one if it is waiting, and stops it if it is running.
     key?: string;
-    /// `front`: what the user waits for; `back`: thumbnails and tiles, which leave one worker free for `front`.
+    /// `front`: requests that the user waits for; `back`: thumbnails and tiles, which leave a worker free for `front`.
     lane?: "front" | "back";
     seconds?: number; // the request is stopped after this time (20)
     signal?: AbortSignal;
@@ -24,21 +24,21 @@ export interface Engine {
     readonly workers: number;
 }
 
-/// What the user makes. Immutable: changes replace it, and can be undone.
+/// The user's work. Immutable: changes replace it and can be undone.
 export interface Work {
     pattern: Required<PatternRequest>;
     draw: Options; // options of prints, without the window
     play: Options;
-    /// What the map shows: centre in turtle steps (decimal texts of any length) and steps in a CSS pixel;
+    /// View of the map: centre in turtle steps (decimal strings of any length) and turtle steps per CSS pixel;
     /// null: the whole page.
     place: { x: string; y: string; scale: number } | null;
     panel: string; // the panel that is open: see Panel.name
-    locked?: string[]; // settings and defines that dice and variations leave alone, such as `seed`
+    locked?: string[]; // settings and defines that variations and random seeds must not change
 }
 
 export interface Store {
     readonly work: Work;
-    /// `merge`: changes with the same text that follow each other within a second are undone as one.
+    /// `merge`: changes with the same label within a second of each other are undone together.
     change(change: Partial<Work>, merge?: string): void;
     setting(name: string, value: string | null, merge?: string): void; // of work.pattern.settings; null removes it
     undo(): void;
@@ -51,18 +51,18 @@ export interface Studio {
     readonly store: Store;
     readonly help: Help;
     readonly patterns: PatternEntry[];
-    /// The facts of the last text without errors, and the work they belong to; null before the first.
+    /// The facts of the last valid text and the work they belong to; null before the first.
     readonly opened: { facts: Opened; work: Work } | null;
     onOpened(listener: (facts: Opened, work: Work) => void): () => void;
-    /// A line for screen readers and the status bar.
+    /// Shows a message in the status bar, which screen readers announce.
     say(text: string, kind?: "fact" | "warning" | "error"): void;
-    /// Marks a part of the text in the editor, such as the production that sounds; null removes the mark.
+    /// Highlights a place in the editor, such as the production being played; null removes the highlight.
     highlight(place: { line: number; column: number; length: number } | null): void;
-    /// Offers a file for saving.
+    /// Saves a file as a download.
     save(name: string, bytes: Uint8Array, type: string): void;
 }
 
-/// A part of the page with a place in its layout. Built once; `show` and `hide` as its tab is chosen.
+/// A panel of the page. Built once; shown and hidden as its tab is selected.
 export interface Panel {
     name: string; // in links: `map`, `space`, `play`, `bench`, `variations`, `gallery`
     label: string;

@@ -1,5 +1,5 @@
-// The values of the pattern as sliders, without any markup in the text: n with its cost, defines, angle, stroke,
-// colours, seed. They are settings beside the text, as `--set` and `-n` of the program.
+// The values of the pattern as sliders: n with its cost, defines, angle, stroke, colours, seed. Changed values are kept
+// separately from the text, like `--set` and `-n` of the program.
 import type { Application } from "./application";
 import { button, byId, element } from "./elements";
 import { count, counted, rounded, span } from "./numbers_shown";
@@ -14,8 +14,8 @@ interface Row {
     update(facts: Opened): void;
 }
 
-const further_keys = ["heading", "elasticity"]; // with a slider if the text sets them
-const deep_room = 8; // steps of n on the slider beyond what can be derived, if the view can show them
+const further_keys = ["heading", "elasticity"]; // have a slider only if the text sets them
+const deep_room = 8; // how far the slider of n goes beyond the largest derivable n, for patterns with windows
 
 function spread(base: number): { least: number; most: number; step: number } {
     if (base === 0) return { least: -1, most: 1, step: 0.01 };
@@ -26,7 +26,7 @@ function spread(base: number): { least: number; most: number; step: number } {
 
 export class Controls {
     private rows = new Map<string, Row>();
-    private shape = ""; // which rows there are
+    private shape = ""; // identifies the set of rows
     private readonly variant = element("select", { id: "variant" });
     private readonly variantField = element(
         "div",
@@ -50,7 +50,7 @@ export class Controls {
         const write = button("Write into the text", () => {
             const { pattern } = store.work;
             store.change({ pattern: { ...pattern, text: withSettings(pattern), settings: [] } });
-            application.say("The values are now in the text.");
+            application.say("The values were written into the text.");
         });
         const reset = button("Reset all", () => store.change({ pattern: { ...store.work.pattern, settings: [] } }), {
             kind: "quiet",
@@ -64,7 +64,7 @@ export class Controls {
             for (const [name, row] of this.rows)
                 row.slider.setInvalid(wrong.some((each) => each === name || each.startsWith(`${name} `)));
         });
-        // The thumb follows the hand at once, not when the libraries have answered.
+        // Thumbs move at once, without waiting for the libraries.
         store.subscribe((work) => {
             this.actions.hidden = work.pattern.settings.length === 0;
             if (application.opened) for (const row of this.rows.values()) row.update(application.opened.facts);
@@ -114,7 +114,7 @@ export class Controls {
         if (focused) document.getElementById(focused)?.focus();
     }
 
-    // What a setting is now: chosen, or else as in the text.
+    // The present value of a setting: changed, or as in the text.
     private value(name: string, absent: string): { now: string; base: string; isChanged: boolean } {
         const { pattern } = this.application.store.work;
         const base = valueInText(pattern, name) ?? absent;
@@ -139,7 +139,7 @@ export class Controls {
     private explain(name: string): string {
         const define = this.application.opened?.facts.defines.find((each) => each.name === name);
         return define
-            ? `${name}, defined in line ${define.line}`
+            ? `${name}, defined on line ${define.line}`
             : (this.application.help?.keys.find((key) => key.name === name)?.help ?? "");
     }
 
@@ -217,7 +217,7 @@ export class Controls {
         };
     }
 
-    // The width of the stroke; its unit and colour stay.
+    // The width of the stroke; the unit and colour do not change.
     private strokeRow(): Row {
         const parse = () => {
             const { now, base, isChanged } = this.value("stroke", "0.4mm");
@@ -263,7 +263,7 @@ export class Controls {
         if (cost.segments && cost.segments !== "0") parts.push(counted(cost.segments, "segment"));
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
         this.cost.replaceChildren(
-            element("span", {}, parts.join(" · ") || "The cost is known once the word is derived."),
+            element("span", {}, parts.join(" · ") || "The cost is unknown until the word is derived."),
         );
         this.cost.classList.toggle("deep", !cost.is_derivable);
         if (cost.is_derivable) return;
@@ -279,7 +279,7 @@ export class Controls {
     }
 }
 
-// Numbers and fractions; other expressions have no place on a slider.
+// Reads numbers and fractions; a slider cannot show other expressions.
 function readNumber(text: string): number | null {
     const fraction = /^\s*(-?[\d.]+)\s*\/\s*([\d.]+)\s*$/.exec(text);
     const number = fraction ? Number(fraction[1]) / Number(fraction[2]) : Number(text);

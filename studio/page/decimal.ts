@@ -1,5 +1,5 @@
-// Exact coordinates: decimal numbers of any length, held as whole multiples of 10^-64. Drawings reach extents of 10^18
-// steps and more, and are looked at step by step; doubles would lose the steps.
+// Exact coordinates: decimal numbers of any length, stored as integer multiples of 10^-64. Drawings can be 10^18 steps
+// wide and more, and are viewed at the scale of a step; doubles are not precise enough.
 
 /// A multiple of 10^-64.
 export type Exact = bigint;
@@ -9,7 +9,7 @@ const one = 10n ** BigInt(places);
 const longestText = 5000; // digits
 const largestExponent = 5000;
 
-/// Reads a number such as `-12.5` or `3e18`; what is beyond 64 places is cut off. Null for anything else.
+/// Reads a number such as `-12.5` or `3e18`; digits after the 64th decimal are cut off. Null for invalid text.
 export function readExact(text: string): Exact | null {
     const clean = text
         .trim()
@@ -29,7 +29,7 @@ export function readExact(text: string): Exact | null {
     return match[1] === "-" ? -value : value;
 }
 
-/// The shortest text that reads as the same number; with `decimals`, rounded to so many, without trailing zeros.
+/// The shortest text that reads back as the same number; or rounded to `decimals` places, without trailing zeros.
 export function exactText(value: Exact, decimals = places): string {
     let rest = value < 0n ? -value : value;
     if (decimals < places) {
@@ -42,7 +42,7 @@ export function exactText(value: Exact, decimals = places): string {
     return value < 0n && text !== "0" ? "-" + text : text;
 }
 
-/// For reading: a true minus, and thin spaces between groups of three digits.
+/// Formats for display: with a minus sign, and thin spaces between groups of three digits.
 export function grouped(text: string): string {
     const [whole = "", fraction] = text.replace("-", "\u2212").split(".");
     const spaced = whole.replace(/\B(?=(\d{3})+$)/g, "\u202f");

@@ -1,4 +1,4 @@
-// Dialogs and menus: the browser's own, which keep the focus inside and give it back.
+// Dialogs and menus, which use the browser's own elements to contain and restore the focus.
 import { button, element } from "./elements";
 
 export interface Dialog {
@@ -10,7 +10,7 @@ export interface Dialog {
 
 let last = 0;
 
-/// A dialog that is shown at once and removed when it is closed.
+/// Opens a dialog, which is removed from the page when it is closed.
 export function openDialog(title: string, options: { wide?: boolean; closed?: () => void } = {}): Dialog {
     const id = `dialog-${++last}`;
     const body = element("div", { class: "body", tabindex: -1 });
@@ -41,7 +41,7 @@ export interface MenuItem {
     act: () => void;
 }
 
-/// A button that opens a menu below itself: arrows move, Escape closes.
+/// Makes a button open a menu below itself; arrow keys move in the menu, Escape closes it.
 export function menuButton(opener: HTMLButtonElement, items: () => (MenuItem | null)[]): void {
     const menu = element("div", { class: "menu", popover: "auto", role: "menu", id: `menu-${++last}` });
     opener.setAttribute("aria-haspopup", "menu");
@@ -79,7 +79,7 @@ export function menuButton(opener: HTMLButtonElement, items: () => (MenuItem | n
     });
 }
 
-/// Puts a popover below its opener, within the window.
+/// Places a popover below its opener, within the window.
 export function place(popover: HTMLElement, opener: HTMLElement): void {
     const at = opener.getBoundingClientRect();
     const width = popover.offsetWidth;

@@ -1,4 +1,4 @@
-// The text of the pattern: every edit changes the work; errors are shown where they are.
+// The text editor: every edit changes the work; errors are shown where they occur.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, toggleComment } from "@codemirror/commands";
 import { bracketMatching, syntaxHighlighting } from "@codemirror/language";
@@ -28,7 +28,7 @@ const message_pause = 350; // milliseconds after the last key
 
 type Place = { line: number; column: number; length: number };
 
-const from_outside = Annotation.define<boolean>(); // the text of an undo, a link, a pattern that was opened
+const from_outside = Annotation.define<boolean>(); // marks text from an undo, a link or an opened pattern
 
 // Columns of the libraries count code points.
 function offset(text: Text, line: number, column: number): number {
@@ -41,7 +41,7 @@ function offset(text: Text, line: number, column: number): number {
     return from + at;
 }
 
-// The production that sounds, and the symbol in it.
+// Highlights the production being played, and the symbol in it.
 const light = StateEffect.define<Place | null>();
 const lit = StateField.define<DecorationSet>({
     create: () => Decoration.none,
@@ -64,7 +64,7 @@ const lit = StateField.define<DecorationSet>({
     provide: (field) => EditorView.decorations.from(field),
 });
 
-// Messages below their lines; they come when the typing pauses, so that the text does not jump.
+// Messages below their lines, shown when typing pauses so that the text does not jump.
 class Message extends WidgetType {
     constructor(
         private readonly text: string,
@@ -180,7 +180,7 @@ export class Editor {
         ];
     }
 
-    // The text comes from elsewhere: only what differs is replaced, so that the cursor stays.
+    // The text was changed elsewhere: only the difference is replaced, so that the cursor stays.
     private replace(text: string): void {
         const now = this.view.state.doc.toString();
         if (now === text) return;
@@ -230,7 +230,7 @@ export class Editor {
         this.view.dispatch({ effects: show_messages.of(diagnostics) });
     }
 
-    // Below the text: how many errors there are, the first of them, and errors without a place.
+    // The strip below the text: the number of errors, the first one, and errors without a place.
     private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): string {
         this.strip.hidden = error === null;
         this.strip.replaceChildren();
@@ -249,7 +249,7 @@ export class Editor {
         return where + message + more;
     }
 
-    // Once the typing pauses, and once only. The status bar repeats what the strip shows for those who do not see it.
+    // Announced once, when typing pauses: the status bar repeats the strip for screen readers.
     private announce(line: string): void {
         if (line === this.announced) return;
         this.announced = line;

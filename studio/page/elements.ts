@@ -1,8 +1,8 @@
-// Making elements: the page has no other way from data to markup.
+// Makes elements: the only way in which the page turns data into markup.
 
 type Attributes = Record<string, string | number | boolean | null | undefined>;
 
-/// An element with attributes (true: present; false, null: absent) and children, of which texts stay texts.
+/// Makes an element with attributes (true: present; false, null: absent) and children; strings become text nodes.
 export function element<Name extends keyof HTMLElementTagNameMap>(
     name: Name,
     attributes: Attributes = {},
@@ -17,12 +17,12 @@ export function element<Name extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
-/// An element of the page.
+/// Finds an element of the page.
 export function byId(id: string): HTMLElement {
     return document.getElementById(id)!;
 }
 
-/// An icon of 16 x 16 from the path of its strokes.
+/// Makes an icon of 16 x 16 pixels from an SVG path.
 export function icon(path: string): SVGSVGElement {
     const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     svg.setAttribute("viewBox", "0 0 16 16");
@@ -33,7 +33,7 @@ export function icon(path: string): SVGSVGElement {
     return svg;
 }
 
-/// A button with a text, or with an icon and a text that is read out and shown on hovering.
+/// Makes a button with a text, or with an icon and a text for screen readers and the tooltip.
 export function button(
     label: string,
     act: (event: MouseEvent) => void,

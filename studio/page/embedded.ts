@@ -1,4 +1,4 @@
-// What the page carries, compressed: the libraries, the worker and the script itself.
+// The compressed data in the page: the libraries, the worker and the script itself.
 import { alphabet } from "./alphabet";
 
 function decode(text: string): Uint8Array<ArrayBuffer> {
@@ -15,13 +15,13 @@ function decode(text: string): Uint8Array<ArrayBuffer> {
     return new Uint8Array(words.buffer, 0, size);
 }
 
-/// The bytes of an element of the page.
+/// Decompresses the contents of an element.
 export async function unpack(id: string): Promise<ArrayBuffer> {
     const bytes = decode(document.getElementById(id)!.textContent!.trim());
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
 }
 
-/// An address of a script of the page.
+/// Decompresses a script, and returns a Blob address for it.
 export async function scriptAddress(id: string): Promise<string> {
     return URL.createObjectURL(new Blob([await unpack(id)], { type: "text/javascript" }));
 }

@@ -1,5 +1,5 @@
-// The libraries in a pool of workers. Requests wait in two lanes; those of one key run one after the other, and only
-// the last of them waits, so that a slider that moves sees its pictures in order and never a queue of them.
+// The libraries in a pool of workers. Requests wait in two lanes. Of the requests with the same key, one runs at a time
+// and only the last one waits, so that a moving slider gets its pictures in order and without a queue.
 import type { Answer, Engine, RequestOptions } from "./context";
 import { RequestFailed } from "./context";
 import { scriptAddress, unpack } from "./embedded";
@@ -12,7 +12,7 @@ export type FromWorker =
     | { id: number; json: unknown; bytes: Uint8Array; memory: number }
     | { id: number; broken: string };
 
-const patience = 150; // milliseconds that a replaced request may go on for: a new worker costs about as much
+const patience = 150; // milliseconds that a replaced request may keep running: starting a new worker takes as long
 const most_workers = 4;
 const most_starts = 2; // failures in a row, after which no further worker is started
 const most_memory = 64 * 1024 * 1024; // bytes of a worker that is kept for further requests
@@ -23,7 +23,7 @@ interface Job {
     options: RequestOptions;
     seconds: number;
     started: number;
-    isUnwanted: boolean; // aborted, or replaced: its answer is not awaited
+    isUnwanted: boolean; // aborted or replaced: its answer is not used
     resolve(answer: Answer<unknown>): void;
     reject(error: Error): void;
 }
@@ -51,7 +51,7 @@ function isOutOfMemory({ error }: Partial<Failure>): boolean {
 export class Pool implements Engine {
     private readonly seats: Seat[] = [];
     private readonly waiting: { front: Job[]; back: Job[] } = { front: [], back: [] };
-    private readonly scales = new Map<string, { json: string; bytes: Uint8Array }>(); // files that every worker knows
+    private readonly scales = new Map<string, { json: string; bytes: Uint8Array }>(); // files for every worker
     private last = 0;
     private failures = 0; // of starts, in a row
     private broken: RequestFailed | null = null; // why no worker starts
@@ -87,7 +87,7 @@ export class Pool implements Engine {
         });
     }
 
-    // A later request of the key has come.
+    // A later request with this key has arrived.
     private replace(key: string): void {
         for (const lane of [this.waiting.front, this.waiting.back]) {
             for (let index = lane.length; index-- > 0;) {
@@ -112,7 +112,7 @@ export class Pool implements Engine {
         this.hurry(seat);
     }
 
-    // The request of the seat may go on for a moment; then its worker is replaced.
+    // Lets the request of the seat run for a moment, then replaces its worker.
     private hurry(seat: Seat): void {
         clearTimeout(seat.timer);
         const left = Math.max(0, patience - (performance.now() - seat.job!.started));
@@ -167,7 +167,7 @@ export class Pool implements Engine {
                 const job = lane[index]!;
                 const key = job.options.key;
                 if (key !== undefined && this.seats.some((seat) => seat.job?.options.key === key)) {
-                    ++index; // after the one that runs
+                    ++index; // skip the running one
                     continue;
                 }
                 const seat = this.idle(name);
@@ -247,7 +247,7 @@ export class Pool implements Engine {
     }
 }
 
-/// Starts the libraries that the page carries.
+/// Starts the libraries in the page.
 export async function startEngine(): Promise<Engine> {
     const [module, address] = await Promise.all([
         unpack("sikku-libraries").then((bytes) => WebAssembly.compile(bytes)),

@@ -1,4 +1,4 @@
-// Export of what is on the screen, in every format of the program, or as the command that makes the same file.
+// Exports the work in every format, or shows the command that makes the same file.
 import type { Application } from "./application";
 import { copyText } from "./clipboard";
 import { RequestFailed } from "./context";
@@ -51,7 +51,7 @@ const openAtFirst: Record<string, RegExp> = {
 const preview_size = 440; // pixels
 const pause = 200; // milliseconds after a change before the file is made again
 
-let chosen = "draw svg"; // remembered while the page is open
+let chosen = "draw svg"; // kept while the page is open
 
 function choicesOf(application: Application): Choice[] {
     const facts = application.opened?.facts;
@@ -78,7 +78,7 @@ function choicesOf(application: Application): Choice[] {
     ];
 }
 
-// "glTF" stays; "sound" gets a capital.
+// Capitalises "sound", but not "glTF".
 function nameOf({ label, extension }: FormatHelp): string {
     return /^[a-z ]+$/.test(label) ? capital(label) : label || extension.toUpperCase();
 }
@@ -188,7 +188,7 @@ class Export {
         this.refresh();
     }
 
-    // Groups that the format is about are open.
+    // Opens the groups that matter for the format.
     private showOptions(): void {
         const { interpreter, format, group } = this.choice;
         const { store, help } = this.application;
@@ -246,7 +246,7 @@ class Export {
         void this.showCommand(request);
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
-            const text = "Only the program writes this format: copy the command below.";
+            const text = "Only the program can write this format; copy the command below.";
             this.showRemarks([{ is_warning: false, text }]);
             return;
         }
@@ -288,7 +288,7 @@ class Export {
                 ? [
                       {
                           is_warning: false,
-                          text: "Values beside the text are not in it; “Write into the text” puts them there.",
+                          text: "The file does not contain changed values; “Write into the text” adds them.",
                       },
                   ]
                 : [],
@@ -338,7 +338,7 @@ class Export {
                 "export-preview",
             );
         } catch {
-            // the remarks say why
+            // the remarks give the reason
         }
     }
 

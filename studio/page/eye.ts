@@ -1,9 +1,9 @@
-// The eye that looks at a drawing in space: the same angles as the key `view` of patterns.
+// The point of view on a drawing in space, with the same angles as the key `view` of patterns.
 
 export interface Eye {
     readonly azimuth: number; // degrees to the right around the drawing
     readonly elevation: number; // degrees upwards, -90 to 90
-    readonly distance: number | null; // of a perspective, in radii of the drawing; null: parallel
+    readonly distance: number | null; // for perspective, in radii of the drawing; null: parallel projection
 }
 
 const usualDistance = 4;
@@ -25,7 +25,7 @@ export function readEye(text: string): Eye | null {
     return distance >= 1.01 && distance <= 1e6 ? { azimuth, elevation, distance } : null;
 }
 
-/// For the option `view`.
+/// The value of the option `view`.
 export function eyeText({ azimuth, elevation, distance }: Eye): string {
     const angles = `${rounded(between(azimuth))},${rounded(elevation)}`;
     return distance === null
@@ -39,7 +39,7 @@ function rounded(value: number): number {
     return Math.round(value * 10) / 10 + 0;
 }
 
-/// The same angle from -180 to 180.
+/// The equivalent angle between -180 and 180 degrees.
 export function between(degrees: number): number {
     const turned = ((degrees % 360) + 360) % 360;
     return turned > 180 ? turned - 360 : turned;
@@ -48,13 +48,13 @@ export function between(degrees: number): number {
 export type Vector = readonly [number, number, number];
 export type Matrix = Float32Array; // 4 x 4, by columns
 
-/// From the drawing towards that direction.
+/// The unit vector from the drawing in a direction.
 export function towards(azimuth: number, elevation: number): Vector {
     const [a, e] = [(azimuth * Math.PI) / 180, (elevation * Math.PI) / 180];
     return [Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)];
 }
 
-/// To the right and up, as seen from there.
+/// The directions to the right, up and back, as seen from there.
 export function axes(azimuth: number, elevation: number): { right: Vector; up: Vector; back: Vector } {
     const a = (azimuth * Math.PI) / 180;
     const right: Vector = [Math.cos(a), 0, -Math.sin(a)];
@@ -74,8 +74,8 @@ export function dot(one: Vector, other: Vector): number {
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
 }
 
-/// A box around `middle`, seen along `axes`: half its width and height fill the picture. With a distance of the eye,
-/// in perspective, lengths at the middle stay as they are.
+/// The projection of a box around `middle`, seen along `axes`, that fits half its width and height to the picture. In
+/// perspective, lengths at the middle do not change.
 export function seenBy(
     frame: ReturnType<typeof axes>,
     middle: Vector,

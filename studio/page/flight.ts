@@ -1,9 +1,9 @@
-// Ways from one camera to another.
+// Transitions from one camera to another.
 import { cameraWith, limited, type Camera, type Size } from "./camera";
 import { exactOf, numberOf, type Exact } from "./decimal";
 
-/// A flight: the camera at a share of the way, from 0 to 1. Scales change evenly in their logarithm, around the one
-/// point that both cameras show at the same place.
+/// A flight: the camera at a fraction of the way, from 0 to 1. The logarithm of the scale changes evenly, around the
+/// one point that both cameras show at the same place.
 export function flight(from: Camera, to: Camera): (share: number) => Camera {
     const octaves = Math.log2(to.scale / from.scale);
     if (Math.abs(octaves) < 0.01) {
@@ -14,7 +14,7 @@ export function flight(from: Camera, to: Camera): (share: number) => Camera {
             return { x: on(from.x, to.x), y: on(from.y, to.y), scale: from.scale };
         };
     }
-    // Reckoned from the finer of the two, so that no digit of it is lost.
+    // Computed from the finer camera, so that none of its digits is lost.
     const [fine, coarse] = to.scale < from.scale ? [to, from] : [from, to];
     const share = fine.scale / (coarse.scale - fine.scale);
     const x = fine.x - exactOf(numberOf(coarse.x - fine.x) * share);
@@ -28,12 +28,12 @@ export function flight(from: Camera, to: Camera): (share: number) => Camera {
     };
 }
 
-/// Slow, quick, slow.
+/// Easing: slow, fast, slow.
 export function eased(share: number): number {
     return share < 0.5 ? 4 * share ** 3 : 1 - (2 - 2 * share) ** 3 / 2;
 }
 
-/// A zoom that follows its target: the point under the pointer stays there.
+/// A zoom that approaches its target; the point under the pointer stays in place.
 export interface Zoom {
     readonly point: { x: Exact; y: Exact };
     readonly left: number;
@@ -41,7 +41,7 @@ export interface Zoom {
     readonly target: number; // scale
 }
 
-/// The camera after so many milliseconds of a zoom, and whether it has arrived.
+/// The camera after a number of milliseconds of a zoom, and whether it has arrived.
 export function followed(
     camera: Camera,
     zoom: Zoom,
@@ -54,7 +54,7 @@ export function followed(
     return { camera: cameraWith(zoom.point, size, zoom.left, zoom.top, scale), isThere };
 }
 
-/// A scale next to that one from a ladder of 32 rungs an octave, so that tiles are found again.
+/// The nearest of 32 scales per octave, so that tiles can be reused.
 export function rung(scale: number): number {
     return limited(2 ** (Math.round(Math.log2(scale) * 32) / 32));
 }

@@ -1,4 +1,4 @@
-// The bundled patterns as starting points, with their pictures, drawn as they come into sight.
+// The bundled patterns, with pictures that are drawn when they scroll into view.
 import { type MakePanel, RequestFailed, type Studio } from "./context";
 import { button, element } from "./elements";
 import { given_kind, openGiven } from "./given";
@@ -55,7 +55,7 @@ class Card {
         return words.every((word) => all.includes(word));
     }
 
-    // Axiom and productions instead of a picture.
+    // Shows axiom and productions instead of a picture.
     private wordCard(): HTMLElement {
         const lines = this.entry.text
             .split("\n")

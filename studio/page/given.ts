@@ -1,4 +1,4 @@
-// Patterns that the program wrote into the page: `sikku studio PATTERN…`.
+// Patterns that `sikku studio PATTERN…` wrote into the page.
 import type { Studio } from "./context";
 import { byId } from "./elements";
 import { openPattern } from "./opening";
@@ -11,7 +11,7 @@ export const given_kind = "yours"; // beside `kolams`, `plants`
 
 const list = (): Given[] => JSON.parse(byId("sikku-patterns").textContent || "[]") as Given[];
 
-/// For the gallery.
+/// These patterns as entries of the gallery.
 export function givenEntries(): PatternEntry[] {
     return list().map((given) => ({
         name: given.name.replace(/\.lsys$/, ""),
@@ -24,7 +24,7 @@ export function givenEntries(): PatternEntry[] {
     }));
 }
 
-/// Opens one of them with its values and options. False if there is none of that name.
+/// Opens one of them with its values and options. False if none has the name.
 export function openGiven(studio: Studio, name: string): boolean {
     const given = list().find((each) => each.name.replace(/\.lsys$/, "") === name);
     if (!given) return false;

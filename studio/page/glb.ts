@@ -1,5 +1,5 @@
-// Reads the models that the libraries write: binary glTF 2.0 of one node and one mesh, with positions, normals and a
-// plain colour for each primitive. Everything is checked before it is used.
+// Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has positions,
+// normals and a single colour. Everything is checked before it is used.
 
 export interface ModelPart {
     positions: Float32Array; // three for each corner
@@ -34,7 +34,7 @@ function fail(what: string): never {
 
 function list(json: Json, name: string): Json[] {
     const value = json[name];
-    if (!Array.isArray(value) || value.length > 4 * mostParts) fail(`no list of ${name}`);
+    if (!Array.isArray(value) || value.length > 4 * mostParts) fail(`'${name}' is not a list`);
     return value as Json[];
 }
 
@@ -55,13 +55,13 @@ export function readModel(bytes: Uint8Array): Model {
 
     const numbers = (index: unknown, type: string, component: number) => {
         const accessor = accessors[whole(index, "an accessor")] ?? fail("an accessor is missing");
-        if (accessor["type"] !== type || accessor["componentType"] !== component) fail("an accessor of another type");
+        if (accessor["type"] !== type || accessor["componentType"] !== component) fail("an accessor of the wrong type");
         const view = views[whole(accessor["bufferView"], "a view")] ?? fail("a view is missing");
         const count = whole(accessor["count"], "a count") * (type === "VEC3" ? 3 : 1);
         const start = whole(view["byteOffset"], "an offset", 0) + whole(accessor["byteOffset"], "an offset", 0);
         const room = whole(view["byteLength"], "a length") - whole(accessor["byteOffset"], "an offset", 0);
-        if (view["byteStride"] !== undefined) fail("a view with gaps");
-        if (count * 4 > room || start + count * 4 > binary.byteLength) fail("a view beyond the end");
+        if (view["byteStride"] !== undefined) fail("strided views are not supported");
+        if (count * 4 > room || start + count * 4 > binary.byteLength) fail("a view extends beyond the end");
         return binary.slice(start, start + count * 4).buffer as ArrayBuffer; // aligned
     };
 
@@ -69,17 +69,17 @@ export function readModel(bytes: Uint8Array): Model {
     const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
     let triangles = 0;
     const parts = primitives.map((primitive): ModelPart => {
-        if (whole(primitive["mode"], "a mode", 4) !== 4) fail("a part without triangles");
+        if (whole(primitive["mode"], "a mode", 4) !== 4) fail("a part does not consist of triangles");
         const attributes = (primitive["attributes"] ?? {}) as Json;
         const positions = new Float32Array(numbers(attributes["POSITION"], "VEC3", 5126));
         const normals = new Float32Array(numbers(attributes["NORMAL"], "VEC3", 5126));
         const corners = new Uint32Array(numbers(primitive["indices"], "SCALAR", 5125));
-        if (normals.length !== positions.length || corners.length % 3) fail("corners without a normal");
+        if (normals.length !== positions.length || corners.length % 3) fail("some corners have no normal");
         const count = positions.length / 3;
-        for (const corner of corners) if (corner >= count) fail("a corner that is missing");
+        for (const corner of corners) if (corner >= count) fail("a corner is missing");
         for (let index = 0; index < positions.length; ++index) {
             const value = positions[index]!;
-            if (!Number.isFinite(value)) fail("a position that is not finite");
+            if (!Number.isFinite(value)) fail("a position is not finite");
             const axis = index % 3;
             if (value < low[axis]!) low[axis] = value;
             if (value > high[axis]!) high[axis] = value;
@@ -105,28 +105,28 @@ function colourOf(material: Json): ModelPart["colour"] {
         Array.isArray(factor) &&
         factor.length === 4 &&
         factor.every((value) => typeof value === "number" && value >= 0 && value <= 1);
-    if (!isColour) fail("a colour that is none");
+    if (!isColour) fail("invalid colour");
     return factor as ModelPart["colour"];
 }
 
-// The header, the text and the numbers.
+// The header, the JSON and the binary data.
 function chunks(bytes: Uint8Array): { json: Json; binary: Uint8Array } {
     const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     if (bytes.byteLength < 28 || data.getUint32(0, true) !== 0x46546c67) fail("not binary glTF");
-    if (data.getUint32(4, true) !== 2) fail("another version of glTF");
-    if (data.getUint32(8, true) !== bytes.byteLength) fail("its length is wrong");
+    if (data.getUint32(4, true) !== 2) fail("unsupported version of glTF");
+    if (data.getUint32(8, true) !== bytes.byteLength) fail("wrong length");
     const textLength = data.getUint32(12, true);
-    if (data.getUint32(16, true) !== 0x4e4f534a || textLength > mostJson) fail("no text");
+    if (data.getUint32(16, true) !== 0x4e4f534a || textLength > mostJson) fail("no JSON");
     const next = 20 + textLength;
-    if (textLength % 4 || next + 8 > bytes.byteLength) fail("the text is cut off");
+    if (textLength % 4 || next + 8 > bytes.byteLength) fail("the JSON is truncated");
     const binaryLength = data.getUint32(next, true);
     if (data.getUint32(next + 4, true) !== 0x004e4942 || next + 8 + binaryLength > bytes.byteLength) fail("no numbers");
     let json: unknown;
     try {
         json = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes.subarray(20, next)));
     } catch {
-        fail("its text is not JSON");
+        fail("invalid JSON");
     }
-    if (typeof json !== "object" || json === null || Array.isArray(json)) fail("its text is not an object");
+    if (typeof json !== "object" || json === null || Array.isArray(json)) fail("the JSON is not an object");
     return { json: json as Json, binary: bytes.subarray(next + 8, next + 8 + binaryLength) };
 }

@@ -1,4 +1,4 @@
-// Models of a pattern at its derivation lengths, made when they are wanted and kept.
+// Models of a pattern at each derivation length, made on demand and cached.
 import { RequestFailed, type Engine, type Work } from "./context";
 import { readModel } from "./glb";
 import { isAbort } from "./pictures";
@@ -9,11 +9,11 @@ import type { Stage, Staged } from "./space_stage";
 const mostBytes = 48 * 1024 * 1024;
 const modelSettings = ["line", "stroke", "fill", "palette", "budget"]; // options that a model depends on
 
-/// What is there at a derivation length; `empty`: nothing is drawn yet.
+/// The model at a derivation length; `empty`: nothing is drawn.
 export type Grown = Staged | "empty";
 
 export class Growth {
-    private readonly models = new Map<string, Grown>(); // the last used last
+    private readonly models = new Map<string, Grown>(); // the most recently used last
     private used = 0;
 
     constructor(
@@ -21,7 +21,7 @@ export class Growth {
         private readonly stage: Stage,
     ) {}
 
-    /// What models of the work depend on, derivation length apart.
+    /// Everything that models of the work depend on, except the derivation length.
     static subject(work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
         const settings = work.pattern.settings.filter(([name]) => name !== "derivation length");
         const options = modelSettings.flatMap((name): [string, string][] => {
@@ -32,7 +32,7 @@ export class Growth {
         return { pattern, options, name: JSON.stringify([pattern, options]) };
     }
 
-    /// The model, if it is there already.
+    /// The cached model, if any.
     kept(work: Work, n: number): Grown | undefined {
         const name = `${n} ${Growth.subject(work).name}`;
         const model = this.models.get(name);
@@ -43,7 +43,7 @@ export class Growth {
         return model;
     }
 
-    /// Throws what the libraries say of a drawing that has no model.
+    /// @throws the error of the libraries if the drawing has no model
     async make(work: Work, n: number, options: { key: string; isAhead?: boolean }): Promise<Grown> {
         const kept = this.kept(work, n);
         if (kept) return kept;

@@ -1,4 +1,4 @@
-// Help where it is needed: keys and symbols explained on hovering, and completed. All texts come from the libraries.
+// Help in the editor: tooltips for keys and symbols, and completion. All help texts come from the libraries.
 import type { Completion, CompletionContext, CompletionResult, CompletionSource } from "@codemirror/autocomplete";
 import { type Extension, StateEffect, StateField } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, showTooltip, type Tooltip } from "@codemirror/view";
@@ -10,7 +10,7 @@ import type { KeyHelp } from "./protocol";
 
 type Where = () => Application;
 
-/// What a key does, its values, and what it is if it is absent.
+/// The help of a key: what it does, its values, and its default.
 export function keyCard(key: KeyHelp): HTMLElement {
     const card = element("div", { class: "help-card" }, element("strong", {}, key.name), element("p", {}, key.help));
     const facts = element("dl");
@@ -20,7 +20,7 @@ export function keyCard(key: KeyHelp): HTMLElement {
     return card;
 }
 
-// Values such as `right, left`: names only, so that prose is not offered.
+// Values such as `right, left`: only names are offered, not prose.
 function choices(key: KeyHelp): string[] {
     if (/\b(a|an|the|such|or|with)\b|;/.test(key.values)) return [];
     return key.values
@@ -29,7 +29,7 @@ function choices(key: KeyHelp): string[] {
         .filter((each) => /^[\p{L}\d/ ]+$/u.test(each));
 }
 
-/// Keys at the beginning of a line, and values after a key.
+/// Completes keys at the beginning of a line, and values after a key.
 export function completePattern(where: Where): CompletionSource {
     return (context: CompletionContext): CompletionResult | null => {
         const { help } = where();
@@ -69,7 +69,7 @@ function hasSymbols(line: string): boolean {
     return ["production", "word"].includes(kindOf(line)) || kindOf(line) === "other";
 }
 
-// The explanation of what stands at a column of a line, and the columns it is about.
+// The help for a column of a line, and the columns that it covers.
 function explain(
     application: Application,
     line: string,
@@ -89,7 +89,7 @@ function explain(
             "div",
             { class: "help-card" },
             element("strong", {}, `${define.name} = ${define.value}`),
-            element("p", {}, `Defined in line ${define.line}.`),
+            element("p", {}, `Defined on line ${define.line}.`),
         );
         return { from: identifier.index, to: identifier.index + identifier[0].length, dom };
     }
@@ -119,7 +119,7 @@ function explainSymbol(application: Application, symbol: string, start: number) 
 }
 
 function tooltipAt(application: Application, view: EditorView, position: number): Tooltip | null {
-    if (!application.help) return null; // the libraries are starting
+    if (!application.help) return null; // the libraries have not started yet
     const line = view.state.doc.lineAt(position);
     const found = explain(application, line.text, position - line.from);
     return (
@@ -132,7 +132,7 @@ function tooltipAt(application: Application, view: EditorView, position: number)
     );
 }
 
-/// Explains keys, symbols and defines under the pointer.
+/// Shows help for keys, symbols and defines under the pointer.
 export function hoverHelp(where: Where): Extension {
     return hoverTooltip((view, position) => tooltipAt(where(), view, position), { hoverTime: 350 });
 }
@@ -147,7 +147,7 @@ const shown_help = StateField.define<Tooltip | null>({
     provide: (field) => showTooltip.from(field),
 });
 
-/// F1 explains what the cursor is at, and reads it out; Escape closes the explanation.
+/// F1 shows and announces help for the text at the cursor; Escape closes it.
 export function cursorHelp(where: Where): Extension {
     return [
         shown_help,
@@ -159,7 +159,7 @@ export function cursorHelp(where: Where): Extension {
                     view.dispatch({ effects: show_help.of(tooltip) });
                     const parts = tooltip?.create(view).dom.querySelectorAll("strong, p, dt, dd") ?? [];
                     where().say(
-                        [...parts].map((part) => part.textContent).join(" ") || "There is no help for this place.",
+                        [...parts].map((part) => part.textContent).join(" ") || "There is no help for this text.",
                     );
                     return true;
                 },

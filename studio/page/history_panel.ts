@@ -5,7 +5,7 @@ import { place } from "./dialog";
 import { element } from "./elements";
 import { drawInto } from "./thumbnails";
 
-const rest = 700; // milliseconds without a change before a step is drawn
+const rest = 700; // milliseconds without a change until a step is drawn
 const picture_size = 72;
 
 function ago(time: number): string {
@@ -71,7 +71,7 @@ export function makeHistory(application: Application, opener: HTMLButtonElement)
     if (application.opened && !store.history[store.position]?.picture) drawSoon(application.opened.work);
 }
 
-// Steps that followed too quickly to be drawn then are drawn when they are looked at, the newest first.
+// Draws steps that had no time to be drawn, the newest first, when the list is opened.
 async function drawMissing(application: Application, popover: HTMLElement): Promise<void> {
     for (const { work, picture } of application.store.history.toReversed()) {
         if (!popover.matches(":popover-open")) return;
@@ -85,6 +85,6 @@ async function drawStep(application: Application, work: Work): Promise<void> {
         await drawInto(canvas, picture_size, application.engine, work.pattern, work.draw, "history");
         application.store.picture(work, canvas.toDataURL("image/webp", 0.8));
     } catch {
-        // the step stays without a picture
+        // the step keeps no picture
     }
 }

@@ -2,14 +2,14 @@
 import { element } from "./elements";
 import { between } from "./eye";
 
-/// Where the light comes from: degrees around the drawing and up.
+/// The direction of the light: degrees around the drawing and upwards.
 export interface Light {
     readonly azimuth: number;
     readonly elevation: number;
 }
 
 export const usualLight: Light = { azimuth: -38, elevation: 46 };
-const lowest = 5; // degrees: lower, shadows have no end
+const lowest = 5; // degrees: below this, shadows are endless
 
 export function boundedLight({ azimuth, elevation }: Light): Light {
     return { azimuth: between(azimuth), elevation: Math.max(lowest, Math.min(90, elevation)) };

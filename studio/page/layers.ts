@@ -1,4 +1,4 @@
-// Which of the tiles that are there show a view best.
+// Chooses the cached tiles that show a view best.
 import type { Camera, Size } from "./camera";
 import type { Layer } from "./map_painter";
 import type { TileLoader } from "./pictures";
@@ -9,7 +9,7 @@ const coarsest = 12;
 const mostTiles = 160; // of a layer
 const mostLayers = 6;
 
-/// Layers of tiles, the best last; none below one that covers all.
+/// Layers of tiles, the best last; layers hidden by one that covers the view are left out.
 export function layersOf(tiles: TileLoader, subject: string, camera: Camera, size: Size, grid: TileGrid): Layer[] {
     const layers: Layer[] = [];
     const scales = tiles
@@ -31,7 +31,7 @@ export function layersOf(tiles: TileLoader, subject: string, camera: Camera, siz
     return layers;
 }
 
-// Finer tiles are better than coarser ones of the same distance.
+// Finer tiles are better than equally distant coarser ones.
 function badness(away: number): number {
     return away > 0 ? away : -away * 0.9;
 }

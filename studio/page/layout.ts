@@ -1,4 +1,4 @@
-// The parts of the page: their widths, which of them a narrow screen shows, and light or dark.
+// The layout of the page: widths, the parts shown on a narrow screen, and the light or dark theme.
 import { byId, element } from "./elements";
 
 const least_side = 260;
@@ -22,7 +22,7 @@ function save(change: Layout): void {
     try {
         localStorage.setItem(storage_key, JSON.stringify({ ...saved(), ...change }));
     } catch {
-        // the layout lasts as long as the page
+        // without storage, the layout lasts as long as the page
     }
 }
 

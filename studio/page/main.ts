@@ -80,7 +80,7 @@ async function main(): Promise<void> {
     acceptDrops(application);
     await opening;
     if (byId("message").textContent === "Starting…") {
-        application.say(store.wasSaved ? "" : "Change the text or a value, and the picture follows. ? lists the keys.");
+        application.say(store.wasSaved ? "" : "Edit the text or the values. Press ? for keyboard shortcuts.");
     }
     watchLinks(application);
 }

@@ -62,7 +62,7 @@ export const makeMapPanel: MakePanel = (studio) => {
         place.update(pointer);
         toDrawing.disabled = !view.hasPlane;
         toPage.setAttribute("aria-pressed", String(view.mode === "page" && !view.isMagnified));
-        const now = view.problem || (view.isElsewhere ? "The drawing lies outside this view: F fits it in." : "");
+        const now = view.problem || (view.isElsewhere ? "The drawing is outside this view; press F to fit it." : "");
         if (now !== text) {
             text = now;
             problem.textContent = text;
@@ -78,7 +78,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     return { name: "map", label: "Picture", element: panel, show: () => view.show(), hide: () => view.hide() };
 };
 
-// What the picture shows, for those who do not see it.
+// Describes the picture for screen readers.
 function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement): () => void {
     let timer = 0;
     let measured: { facts: Opened | null; isClosed: boolean } | null = null;
@@ -91,7 +91,7 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
             );
             measured = { facts, isClosed: json.closed === true };
         } catch {
-            measured = { facts, isClosed: false }; // too long to be measured, or not of lines
+            measured = { facts, isClosed: false }; // too long to be measured, or not made of lines
         }
         describe();
     }

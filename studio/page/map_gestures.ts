@@ -1,7 +1,7 @@
 // Pointer, wheel and keys on the map.
 import type { MapView } from "./map_view";
 
-const least = 4; // pixels that a drag is longer than a click
+const least = 4; // pixels: shorter drags are clicks
 
 interface Finger {
     left: number;
@@ -12,7 +12,7 @@ interface Finger {
 export function addGestures(view: MapView, onPointer: (at: Finger | null) => void): void {
     const { canvas } = view;
     const fingers = new Map<number, Finger>();
-    let isDragging = false; // since the pointer has moved a little
+    let isDragging = false; // once the pointer has moved far enough
     const at = (event: MouseEvent): Finger => {
         const box = canvas.getBoundingClientRect();
         return { left: event.clientX - box.left, top: event.clientY - box.top };
@@ -67,7 +67,7 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
                       ? 400
                       : 1;
             const distance = Math.max(-400, Math.min(400, event.deltaY * unit));
-            // With the control key, browsers report the pinch of a touchpad.
+            // Browsers report a pinch on a touchpad as a wheel with the control key.
             const octaves = -distance / (event.ctrlKey ? 60 : 220);
             view.zoomBy(2 ** octaves, left, top, event.ctrlKey);
         },

@@ -1,4 +1,4 @@
-// How the map's camera moves: at once, after a wheel, or on a flight.
+// Motion of the map's camera: jumps, smooth zooms and flights.
 import { cameraWith, panned, pointAt, type Camera, type Size } from "./camera";
 import { eased, flight, followed, rung, type Zoom } from "./flight";
 
@@ -32,7 +32,7 @@ export class Motion {
         this.jump(panned(this.camera, right, down));
     }
 
-    /// Zooms in by a factor around a pixel of the view. A zoom under way goes on from where it is heading.
+    /// Zooms in by a factor around a pixel of the view. A zoom in progress is extended from its target.
     zoomBy(factor: number, size: Size, left: number, top: number, bounded: (scale: number) => number): void {
         this.journey = null;
         const near = this.zoom && Math.hypot(this.zoom.left - left, this.zoom.top - top) < 2 ? this.zoom : null;
@@ -60,7 +60,7 @@ export class Motion {
         this.journey = { at: flight(this.camera, to), start: performance.now(), milliseconds, arrive };
     }
 
-    /// Moves on to this frame. @param passed  milliseconds since the last
+    /// Advances by a frame. @param passed  milliseconds since the last one
     advance(now: number, passed: number, size: Size): void {
         if (this.journey) {
             const { at, start, milliseconds, arrive } = this.journey;
@@ -77,7 +77,7 @@ export class Motion {
     }
 }
 
-/// True if motion is to be avoided.
+/// True if the user prefers reduced motion.
 export function isStill(): boolean {
     return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

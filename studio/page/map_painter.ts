@@ -1,4 +1,4 @@
-// Paints the map: a sheet on a desk, or the plane, from the pictures that are there.
+// Paints the map, a page on a desk or the plane, from the pictures that are available.
 import { pixelOf, pointAt, type Camera, type Size } from "./camera";
 import type { Bitmap } from "./pictures";
 import type { Laid } from "./sheet";
@@ -10,9 +10,9 @@ export interface Overview {
     readonly pattern: string; // name of the pattern
     readonly bitmap: Bitmap;
     readonly ratio: number;
-    readonly camera: Camera | null; // of a page: under which the plane lies as the drawing does
+    readonly camera: Camera | null; // of a page: the camera that shows the plane as the page does
     readonly size: Size; // of the view, or of the part of it that the picture fills
-    readonly laid: Laid; // of a page: where it lay
+    readonly laid: Laid; // of a page: its position
     readonly ground: string;
 }
 
@@ -29,7 +29,7 @@ export interface Edges {
     readonly bottom: number;
 }
 
-/// A magnifying glass over a page: how much, and how far it is moved in CSS pixels.
+/// A magnification of a page: the factor, and the shift in CSS pixels.
 export interface Loupe {
     readonly zoom: number;
     readonly right: number;
@@ -45,7 +45,7 @@ interface Box {
 }
 
 export class Painter {
-    ratio = 1; // pixels of the canvas in a CSS pixel
+    ratio = 1; // canvas pixels per CSS pixel
     private readonly context: CanvasRenderingContext2D;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
@@ -134,7 +134,7 @@ export class Painter {
         this.part(bitmap, box);
     }
 
-    // Where an overview lies now.
+    // The present position of an overview.
     private boxOf({ kind, camera: made, size: view, laid }: Overview, camera: Camera, size: Size): Box | null {
         if (!made) return null;
         const part = kind === "page" ? laid : { left: 0, top: 0, width: view.width, height: view.height };
@@ -151,7 +151,7 @@ export class Painter {
         return Object.values(box).every((value) => Math.abs(value) < 1e9) ? box : null;
     }
 
-    // Only the part within the canvas: browsers draw far-off corners imprecisely.
+    // Draws only the part within the canvas, because browsers place distant corners imprecisely.
     private part(bitmap: Bitmap, box: Box): void {
         const left = Math.max(box.left, 0);
         const top = Math.max(box.top, 0);
@@ -174,7 +174,7 @@ export class Painter {
         );
     }
 
-    // What shows through where there is no ground.
+    // The pattern that shows through transparent ground.
     private checker({ left, top, width, height }: Box): void {
         const { context } = this;
         const side = Math.round(10 * this.ratio);

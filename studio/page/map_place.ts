@@ -1,4 +1,4 @@
-// Where the map looks: coordinates, a scale bar, and fields to go elsewhere.
+// The position of the map: coordinates, a scale bar, and a form to go to a place.
 import { decimalsOf, limited, pointAt } from "./camera";
 import { exactOf, exactText, grouped, readExact, type Exact } from "./decimal";
 import { button, element } from "./elements";
@@ -6,13 +6,13 @@ import type { MapView } from "./map_view";
 import { sheetOf } from "./sheet";
 import type { Store } from "./context";
 
-/// A coordinate to read, as precise as a pixel; in the middle of very long ones digits are left out.
+/// A coordinate for display, as precise as a pixel; very long ones are shortened in the middle.
 function shortText(value: Exact, scale: number): string {
     const text = exactText(value, decimalsOf(scale));
     return text.replace("-", "").length > 26 ? `${grouped(text.slice(0, 8))}…${text.slice(-14)}` : grouped(text);
 }
 
-/// So many steps, in few letters.
+/// A short text for a number of steps.
 export function stepsText(steps: number): string {
     if (steps >= 1e6) {
         const exponent = Math.floor(Math.log10(steps));
@@ -25,7 +25,7 @@ export function stepsText(steps: number): string {
     return text === "1" ? "1 step" : `${text} steps`;
 }
 
-/// A round length for a bar of at most so many pixels.
+/// A round length for a scale bar of at most `most` pixels.
 export function barLength(scale: number, most: number): number {
     const room = scale * most;
     const power = 10 ** Math.floor(Math.log10(room));
@@ -107,7 +107,7 @@ function makeForm(view: MapView, close: () => void) {
     };
     const x = field("map-x", "Centre x, in steps");
     const y = field("map-y", "Centre y, in steps");
-    const scale = field("map-steps", "Steps in a pixel");
+    const scale = field("map-steps", "Steps per pixel");
     const wrong = element("p", { class: "note error", role: "alert", hidden: true });
     const form = element(
         "form",
@@ -137,8 +137,8 @@ function makeForm(view: MapView, close: () => void) {
         if (fault || to.x === null || to.y === null) {
             wrong.textContent =
                 fault?.[0] === scale
-                    ? "The scale is a number above 0, such as 0.5 or 2e6."
-                    : "A coordinate is a decimal number, such as -12.5; it may have any number of digits.";
+                    ? "The scale must be a number above 0, such as 0.5 or 2e6."
+                    : "A coordinate must be a decimal number of any length, such as -12.5.";
             fault?.[0].input.focus();
             return;
         }

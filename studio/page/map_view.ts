@@ -13,9 +13,9 @@ import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf,
 import { Subjects } from "./subjects";
 import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
 
-const restAfter = 140; // milliseconds without motion until pictures at exactly this scale are made
-const keepAfter = 300; // … until the work learns what is looked at
-const enteringTime = 240; // milliseconds in which the page becomes the plane
+const restAfter = 140; // milliseconds without motion until pictures at exactly this scale are requested
+const keepAfter = 300; // … until the position is stored in the work
+const enteringTime = 240; // milliseconds of the transition from the page to the plane
 const widest = 4096; // pixels of a page's picture
 const noLoupe: Loupe = { zoom: 1, right: 0, down: 0 };
 
@@ -40,7 +40,7 @@ export class MapView {
     private loupe = noLoupe; // over pages that have no plane
     private changed = -1e9; // time of the last change of the work
     private moved = -1e9; // time of the last motion
-    private entered = -1e9; // time the plane was entered
+    private entered = -1e9; // time when the plane was entered
     private frame = 0;
     private before = 0; // time of the last frame
     private restTimer = 0;
@@ -132,11 +132,11 @@ export class MapView {
             if (box?.length !== 4 || this.facts?.facts !== facts) return;
             this.setFacts({ ...facts, extent: box as [string, string, string, string] }, work);
         } catch {
-            // too long to be measured: the drawing has a page only
+            // too long to be measured: only the page can be shown
         }
     }
 
-    /// The facts of the work that is shown; null while they are unknown.
+    /// The facts of the work shown; null while they are unknown.
     get known(): Opened | null {
         return this.facts?.pattern === this.work.pattern ? this.facts.facts : null;
     }
@@ -147,7 +147,7 @@ export class MapView {
         return !!facts?.extent && !facts.is_spatial;
     }
 
-    /// True if the view shows no place where the drawing can be.
+    /// True if the drawing lies outside the view.
     get isElsewhere(): boolean {
         const extent = this.known?.extent?.map(readExact);
         if (this.mode !== "plane" || !extent) return false;
@@ -159,7 +159,7 @@ export class MapView {
         return high.x < x0 - pen || low.x > x1 + pen || high.y < y0 - pen || low.y > y1 + pen;
     }
 
-    /// True if less than the whole page is seen.
+    /// True if the view shows only part of the page.
     get isMagnified(): boolean {
         return this.mode === "page" && this.loupe.zoom > 1;
     }
@@ -169,7 +169,7 @@ export class MapView {
         return !!facts?.has_view && !isComposed(facts, this.work.draw);
     }
 
-    // The place of the work, if it was changed elsewhere: by a link, or by undo.
+    // Adopts the place of the work if a link or an undo changed it.
     private takePlace(): void {
         const { place } = this.work;
         if (JSON.stringify(place) === JSON.stringify(this.kept)) return;
@@ -198,7 +198,7 @@ export class MapView {
         this.studio.store.change({ place: this.kept }, "place");
     }
 
-    // --- moving about
+    // --- motion
 
     private get laid(): Laid {
         return laidOut(sheetOf(this.work.draw), this.size);
@@ -209,7 +209,7 @@ export class MapView {
         return facts && cameraOfSheet(sheetOf(this.work.draw), this.laid, this.size, facts, this.work.draw);
     }
 
-    // Leaves the page for the plane; false where there is none, or where it does not lie as the page does.
+    // Changes from the page to the plane; false if there is none, or if it does not match the page.
     private enter(mayJump = false): boolean {
         if (this.mode === "plane") return true;
         const facts = this.known;
@@ -231,7 +231,7 @@ export class MapView {
         this.hasMoved();
     }
 
-    /// Zooms in by a factor around a pixel of the view; at once, or as a short motion.
+    /// Zooms in by a factor around a pixel of the view, at once or smoothly.
     zoomBy(factor: number, left = this.size.width / 2, top = this.size.height / 2, isAtOnce = false): void {
         const bounded = (scale: number) => this.bounded(scale);
         if (!this.enter()) this.magnify(factor, left, top);
@@ -240,7 +240,7 @@ export class MapView {
         this.hasMoved();
     }
 
-    // Coarser than this there is nothing but a speck.
+    // At coarser scales the drawing is only a speck.
     private bounded(scale: number): number {
         const extent = this.known?.extent;
         const whole = extent && fitting(extent, this.size, 48);
@@ -256,7 +256,7 @@ export class MapView {
         this.loupe = zoom === 1 ? noLoupe : { zoom, right, down: along + (this.loupe.down - along) * change };
     }
 
-    /// Two fingers: what was under their middle follows it.
+    /// Two fingers: the point under their midpoint follows it.
     pinch(from: { left: number; top: number }, to: { left: number; top: number }, factor: number): void {
         this.panBy(to.left - from.left, to.top - from.top);
         this.zoomBy(factor, to.left, to.top, true);
@@ -296,7 +296,7 @@ export class MapView {
         this.draw();
     }
 
-    // When all has been still for a moment, exact pictures are made.
+    // Requests exact pictures when nothing has moved for a moment.
     private rest(): void {
         clearTimeout(this.restTimer);
         this.restTimer = window.setTimeout(() => {
@@ -313,7 +313,7 @@ export class MapView {
 
     // --- pictures
 
-    // Asks for a picture of the whole view if the last one does not serve.
+    // Requests a picture of the whole view unless the last one is good enough.
     private refresh(): void {
         if (!this.isShown || this.size.width === 0) return;
         if (this.mode === "page") this.refreshPage();
@@ -374,7 +374,7 @@ export class MapView {
         else this.rest();
     }
 
-    // `around`: so much of the view beyond its edges.
+    // `around`: the share of the view to add beyond its edges.
     private askPlane(ratio: number, around: number): void {
         const { camera, laid, work, planeName: name } = this;
         const pixels = (length: number) => Math.max(16, Math.round(length * (1 + 2 * around) * ratio));
@@ -491,7 +491,7 @@ export class MapView {
     }
 }
 
-// True if a picture of the plane shows all of the view at its scale.
+// True if a picture of the plane covers the view at its scale.
 function covers(overview: Overview, camera: Camera, size: Size): boolean {
     if (!overview.camera || Math.abs(overview.camera.scale / camera.scale - 1) > 1e-6) return false;
     const middle = pixelOf(overview.camera, overview.size, camera.x, camera.y);

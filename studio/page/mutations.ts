@@ -1,7 +1,7 @@
-// Small random edits of productions: of the text of a pattern, so that what comes out is a pattern again.
+// Small random edits of productions in the text of a pattern; the result is always a pattern.
 import { Chance } from "./chance";
 
-/// Where a production stands: as the libraries report it.
+/// The place of a production, as the libraries report it.
 export interface ProductionPlace {
     line: number;
     successor: string;
@@ -49,14 +49,14 @@ export function isBalanced(modules: readonly string[]): boolean {
     return open.length === 0;
 }
 
-/// Modules of these successors, brackets apart, each as often as it occurs; what turns has its opposite beside it.
+/// Modules of these successors except brackets, as often as they occur, with the opposite of each turn.
 export function alphabetOf(successors: readonly string[], names: readonly string[] = []): string[] {
     const modules = successors.flatMap((word) => modulesOf(word, names)).filter((module) => !brackets.has(module));
     if (modules.includes("+") || modules.includes("-")) modules.push("+", "-");
     return modules;
 }
 
-// Stretches that may be put between brackets, moved or repeated: balanced, at most so long.
+// Balanced sequences of limited length, which can be put in brackets, moved or repeated.
 function stretches(modules: readonly string[], most: number): [number, number][] {
     const found: [number, number][] = [];
     for (let from = 0; from < modules.length; ++from) {
@@ -134,7 +134,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
         },
     },
     {
-        // repeat a stretch
+        // repeat a sequence
         weight: 2,
         edit: (modules, _, chance) => {
             const choices = stretches(modules, 4).filter(([from, to]) => to - from > 1);
@@ -144,7 +144,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
         },
     },
     {
-        // write a stretch backwards
+        // reverse a sequence
         weight: 2,
         edit: (modules, _, chance) => {
             const choices = stretches(modules, 6).filter(
@@ -156,7 +156,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
         },
     },
     {
-        // branch, where there are branches already
+        // add a branch, if there are branches already
         weight: 2,
         edit: (modules, _, chance) => {
             if (!modules.includes("[")) return null;
@@ -168,7 +168,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
     },
 ];
 
-/// A successor with one to three edits, other than it was; null if none was found.
+/// A successor with one to three edits that differs from the original; null if none was found.
 export function mutated(
     successor: string,
     alphabet: readonly string[],
@@ -191,8 +191,8 @@ export function mutated(
     return null;
 }
 
-/// The text with the successor of one production replaced; null where it cannot be done by lines: productions that go
-/// on over several lines, or comments within them.
+/// The text with the successor of one production replaced; null for productions that continue over several lines or
+/// contain comments.
 export function withSuccessor(text: string, place: ProductionPlace, successor: string): string | null {
     const lines = text.split("\n");
     const line = lines[place.line - 1];
@@ -211,7 +211,7 @@ export function namesIn(value: string | undefined): string[] {
 
 const factors = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 24];
 
-/// Another angle: of `angle factor` a neighbour, of an increment in degrees one up to a fifth away.
+/// Another angle: a neighbouring `angle factor`, or an increment in degrees that differs by up to a fifth.
 export function otherAngle(key: "angle factor" | "angle increment", value: number, chance: Chance): number {
     if (key === "angle factor") {
         const others = factors.filter((factor) => factor !== value && Math.abs(Math.log2(factor / value)) < 1.05);

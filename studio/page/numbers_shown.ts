@@ -1,11 +1,11 @@
-// Numbers as people read them.
+// Formats numbers for display.
 
 // Digits as superscripts.
 function raised(exponent: number | string): string {
     return [...String(exponent)].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("");
 }
 
-/// "3,239", "1.2 million", or what the libraries say: "about 10^24081".
+/// Formats a count: "3,239", "1.2 million", or as given by the libraries: "about 10^24081".
 export function count(text: string): string {
     if (!/^\d+$/.test(text)) return text.replace(/\^(\d+)/g, (_, exponent: string) => raised(exponent));
     if (text.length > 15) return `about 10${raised(text.length - 1)}`;
@@ -25,7 +25,7 @@ export function counted(text: string, noun: string): string {
     return `${count(text)} ${noun}${text === "1" ? "" : "s"}`;
 }
 
-/// The length of a range of decimal texts of any length, for reading.
+/// The length of a range of decimal strings of any length, for display.
 export function span(from: string, to: string): string {
     const size = Math.abs(Number(to) - Number(from));
     if (!Number.isFinite(size))
@@ -41,13 +41,13 @@ export function bytes(size: number): string {
     return size < 1e6 ? `${(size / 1e3).toFixed(size < 1e4 ? 1 : 0)} kB` : `${(size / 1e6).toFixed(1)} MB`;
 }
 
-/// A number with no more digits than its step asks for.
+/// A number with only as many digits as its step needs.
 export function rounded(number: number, step: number): string {
     const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
     return String(Number(number.toFixed(digits)));
 }
 
-/// With a capital letter at the beginning.
+/// The text with its first letter capitalised.
 export function capital(text: string): string {
     return text.slice(0, 1).toUpperCase() + text.slice(1);
 }

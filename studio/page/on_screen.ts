@@ -3,7 +3,7 @@ import { cameraOf, windowOf } from "./camera";
 import type { Studio } from "./context";
 import type { Options } from "./protocol";
 
-const usual = { width: 1000, height: 800 }; // if the map has not been shown yet
+const usual = { width: 1000, height: 800 }; // used before the map has been shown
 
 /// The window of the map; null while it shows the whole page.
 export function windowOnScreen(studio: Studio): string | null {

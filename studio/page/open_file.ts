@@ -23,7 +23,7 @@ export function askForFile(studio: Studio): void {
 
 async function openFile(studio: Studio, file: File, all: File[]): Promise<void> {
     if (file.size > largest_file) {
-        studio.say(`${file.name} has ${sizeOf(file.size)}; files may have up to ${sizeOf(largest_file)}.`, "error");
+        studio.say(`${file.name} has ${sizeOf(file.size)}; the limit is ${sizeOf(largest_file)}.`, "error");
         return;
     }
     try {
@@ -106,7 +106,7 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
     dialog.body.append(list);
 }
 
-/// Files can be dropped anywhere on the page.
+/// Lets the user drop files anywhere on the page.
 export function acceptDrops(studio: Studio): void {
     const veil = element(
         "div",

@@ -1,4 +1,4 @@
-// Opening a pattern in the place of the present one, which stays in the history.
+// Opens a pattern instead of the present one, which stays in the history.
 import type { Studio, Work } from "./context";
 import { titleOf } from "./pattern_text";
 import type { PatternRequest } from "./protocol";
@@ -8,5 +8,5 @@ export function openPattern(studio: Studio, opened: PatternRequest, panel = "map
     const pattern = { name, text, variant, settings };
     studio.store.change({ pattern, draw: [], play: [], place: null, locked: [], ...more });
     studio.store.change({ panel });
-    studio.say(`Opened ${titleOf(pattern)}. Undo returns to the pattern before.`);
+    studio.say(`Opened ${titleOf(pattern)}. Undo returns to the previous pattern.`);
 }

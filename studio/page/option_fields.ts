@@ -1,9 +1,9 @@
-// Fields for the options of prints and scores, from the one table of the libraries: names, values, limits and help.
+// Fields for the options of prints and scores, made from the libraries' table of names, values, limits and help.
 import { element } from "./elements";
 import { capital } from "./numbers_shown";
 import type { OptionHelp, Options } from "./protocol";
 
-// What the page itself takes care of.
+// Options that the page sets in other ways.
 const elsewhere = new Set(["fit", "steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help"]);
 
 export interface OptionAct {
@@ -13,10 +13,10 @@ export interface OptionAct {
 let last = 0;
 
 export function offered(options: OptionHelp[]): OptionHelp[] {
-    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // style is in the text
+    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // belongs to the text
 }
 
-// The help ends in the default: `page size (A4)`.
+// Help texts end with the default: `page size (A4)`.
 function defaultOf(option: OptionHelp): string {
     return option.value.includes(",") ? "" : (/\(([^()]+)\)$/.exec(option.help)?.[1] ?? "");
 }
@@ -74,7 +74,7 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
                   "select",
                   { id, "aria-describedby": help.id },
                   ...["", ...choices].map((each) =>
-                      element("option", { value: each }, each || defaultOf(option) || "as usual"),
+                      element("option", { value: each }, each || defaultOf(option) || "default"),
                   ),
               )
             : element("input", {
@@ -101,7 +101,7 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
     return field;
 }
 
-/// All options of the table in their groups, closed; a group with options that are set says how many.
+/// All options in closed groups; the heading of a group shows how many of its options are set.
 export function optionGroups(options: OptionHelp[], values: Options, act: OptionAct, first = "Page"): HTMLElement[] {
     const groups = new Map<string, OptionHelp[]>();
     for (const option of offered(options)) {

@@ -1,4 +1,4 @@
-// Pointer, wheel and keys that turn a drawing in space.
+// Turns a drawing in space with pointer, wheel and keys.
 
 export interface Orbit {
     turn(right: number, up: number): void; // degrees
@@ -6,7 +6,7 @@ export interface Orbit {
     zoom(factor: number): void;
     light(right: number, up: number): void; // degrees
     reset(): void;
-    stop(): void; // of what moves by itself
+    stop(): void; // ends automatic motion
 }
 
 const degreesOfPixel = 0.4;

@@ -1,30 +1,30 @@
-// Asks for pictures of the whole view: the first quickly, perhaps coarse, so that a slider moves smoothly.
+// Requests pictures of the whole view, coarse ones first if necessary, so that sliders move smoothly.
 import type { Engine } from "./context";
 import type { Overview } from "./map_painter";
 import { bitmapAtOnce, isAbort, type Bitmap } from "./pictures";
 import type { Pixels, Request } from "./protocol";
 
-const slowPicture = 28; // milliseconds: slower pictures are made coarser while a slider moves
+const slowPicture = 28; // milliseconds: if pictures take longer, they are coarser while a slider moves
 
 export class Overviews {
     quality = 1; // of pictures while a slider moves
-    private asked = ""; // what is being made
-    private refused = ""; // what cannot be drawn
-    private count = 0; // of pictures asked for
-    private shown = 0; // number of the last that has come
-    private readonly busy = [0, 0]; // requests under way
-    private fineTime = 0; // milliseconds that the last at full quality took
+    private asked = ""; // name of the picture being made
+    private refused = ""; // name of the picture that cannot be drawn
+    private count = 0; // number of requests
+    private shown = 0; // number of the last picture received
+    private readonly busy = [0, 0]; // requests in progress
+    private fineTime = 0; // milliseconds for the last picture at full quality
     private isCoarseQuicker = true;
 
-    /// @param take  gets a picture and the warnings of the libraries
-    /// @param fail  gets what went wrong
+    /// @param take  receives a picture and the warnings of the libraries
+    /// @param fail  receives the error
     constructor(
         private readonly engine: Engine,
         private readonly take: (overview: Overview, warnings: string[]) => void,
         private readonly fail: (error: unknown) => void,
     ) {}
 
-    /// @param what  name of the picture: one that is being made, or cannot be made, is not asked for again
+    /// @param what  name of the picture, which is not requested again while it is being made or if it cannot be made
     /// @param fullRatio  its ratio at full quality
     async ask(what: string, request: Request, fullRatio: number, made: (bitmap: Bitmap) => Overview): Promise<void> {
         if (what === this.asked || what === this.refused) return;
@@ -34,7 +34,7 @@ export class Overviews {
         try {
             const answer = await this.request(request);
             const overview = made(bitmapAtOnce(answer));
-            if (number < this.shown) return overview.bitmap.close(); // a later one was quicker
+            if (number < this.shown) return overview.bitmap.close(); // superseded by a later picture
             this.shown = number;
             this.learn(performance.now() - start, overview.ratio / fullRatio);
             if (this.asked === what) this.asked = "";
@@ -50,7 +50,7 @@ export class Overviews {
         }
     }
 
-    // With workers to spare, two pictures are made at a time.
+    // If enough workers are available, two pictures are made at a time.
     private async request(request: Request) {
         const slots = this.engine.workers >= 4 ? 2 : 1;
         const slot = slots > 1 && this.busy[0]! > this.busy[1]! ? 1 : 0;
@@ -62,7 +62,7 @@ export class Overviews {
         }
     }
 
-    // Coarser pictures are made if these are slow and coarser ones are quicker.
+    // Makes coarser pictures if these are slow and coarser ones are faster.
     private learn(milliseconds: number, quality: number): void {
         if (quality >= 1) {
             const isNew = milliseconds > 2 * this.fineTime || milliseconds < this.fineTime / 2;

@@ -1,10 +1,10 @@
-// How finely motion is drawn, so that it stays smooth on slow graphics.
+// Chooses the resolution of motion, so that it stays smooth on slow graphics.
 
 const slowFrame = 26; // milliseconds
 const coarsest = 0.36;
 
 export class Pace {
-    /// Share of the pixels of the screen, along each side, that is drawn.
+    /// Resolution along each side, relative to the screen.
     quality = 1;
     private learned = 1; // for the next motion
     private last = 0;

@@ -1,5 +1,5 @@
-// The tabs, and the panels below them. A panel is built when the libraries have started; one that fails does not
-// take the others with it.
+// The tabs, and the panels below them. Panels are built when the libraries have started; if one fails, the others still
+// work.
 import type { MakePanel, Panel, Studio } from "./context";
 import { byId, element } from "./elements";
 

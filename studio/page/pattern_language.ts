@@ -1,4 +1,4 @@
-// The colours of pattern files: what each part of a line is. The language itself is read by the libraries only.
+// Syntax highlighting of patterns: the kind of each part of a line. Only the libraries parse the language.
 import { HighlightStyle, StreamLanguage, type StreamParser, type StringStream } from "@codemirror/language";
 import { Tag, tags } from "@lezer/highlight";
 
@@ -13,7 +13,7 @@ const parts = {
 
 export type LineKind = "empty" | "key" | "word" | "production" | "define" | "section" | "other";
 
-/// What a line of a pattern is. Values of some keys are words of symbols, coloured like productions.
+/// The kind of a line. Values of some keys are words of symbols, coloured like productions.
 export function kindOf(line: string): LineKind {
     if (/^\s*(\/\/|$)/.test(line)) return "empty";
     if (line.includes("-->")) return "production";

@@ -1,5 +1,5 @@
-// What the page reads in the text of a pattern without the libraries: the values that sliders return to, and where
-// values are written.
+// Reads and writes values in the text of a pattern without the libraries: the values that sliders reset to, and the
+// places where changed values are written.
 import type { PatternRequest } from "./protocol";
 
 // Texts come from anywhere. `[ \t]` instead of `\s`, which matches line breaks, keeps the time linear: otherwise all of a
@@ -39,7 +39,7 @@ export function valueInText(pattern: PatternRequest, name: string): string | nul
     return key ? key[1]!.trim() : null;
 }
 
-/// The text with the settings written into it, so that it says what is shown.
+/// The text with the settings written into it.
 export function withSettings(pattern: PatternRequest): string {
     let { text } = pattern;
     for (const [name, value] of pattern.settings ?? []) {
@@ -50,7 +50,7 @@ export function withSettings(pattern: PatternRequest): string {
     return text;
 }
 
-/// The title of a text, or else its name.
+/// The title of a pattern, or its name if it has none.
 export function titleOf(pattern: { name: string; text: string }): string {
     return valueInText({ name: pattern.name, text: pattern.text }, "title") || pattern.name.replace(/\.lsys$/, "");
 }

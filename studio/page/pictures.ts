@@ -1,4 +1,4 @@
-// Pictures of the map: those of a whole view, and tiles of the endless plane.
+// Pictures of the map: of the whole view, and tiles of the endless plane.
 import type { Answer, Engine } from "./context";
 import type { Options, PatternRequest, Pixels } from "./protocol";
 import { PictureCache, tileName, tileWindow, type Tile, type TileGrid } from "./tiles";
@@ -11,7 +11,7 @@ export interface Bitmap {
     close(): void;
 }
 
-/// Of the bytes of an answer to `pixels`.
+/// Makes a bitmap from the answer to `pixels`.
 export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap> {
     const { width, height } = json;
     const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
@@ -19,7 +19,7 @@ export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap>
     return { source, width, height, bytes: width * height * 4, close: () => source.close() };
 }
 
-/// The same at once: for pictures that are waited for.
+/// The same synchronously, for pictures that are needed at once.
 export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
     const { width, height } = json;
     const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
@@ -42,7 +42,7 @@ export function isAbort(error: unknown): boolean {
     return error instanceof DOMException && error.name === "AbortError";
 }
 
-/// What a tile shows: a pattern and how it is drawn, with a name of its own.
+/// The subject of a tile: a pattern and how it is drawn, with a unique name.
 export interface Subject {
     readonly name: string;
     readonly pattern: PatternRequest;
@@ -52,12 +52,12 @@ export interface Subject {
 const mostBytes = 64 * 1024 * 1024;
 const patience = 400; // milliseconds that a tile may go on for after it has left the view
 
-/// Loads the tiles that are wanted, those in the middle first, and keeps those used last.
+/// Loads the wanted tiles, those in the middle first, and caches the most recently used.
 export class TileLoader {
     readonly cache = new PictureCache<Bitmap>(mostBytes);
     private readonly running = new Map<string, { stop: AbortController; since: number; subject: string }>();
     private readonly failed = new Set<string>();
-    private readonly scales = new Map<string, Map<number, number>>(); // of each subject, with when they were wanted
+    private readonly scales = new Map<string, Map<number, number>>(); // by subject, with times of use
     private wanted: { subject: Subject; tiles: Tile[]; grid: TileGrid; ratio: number } | null = null;
     private count = 0;
 
@@ -66,17 +66,17 @@ export class TileLoader {
         private readonly onTile: () => void,
     ) {}
 
-    /// The tile's picture, if it is there.
+    /// The cached picture of a tile, if any.
     picture(subject: string, tile: Tile): Bitmap | undefined {
         return this.cache.get(`${subject} ${tileName(tile)}`);
     }
 
-    /// Scales of the subject's tiles that may be there.
+    /// Scales of the subject's tiles that may be cached.
     scalesOf(subject: string): number[] {
         return [...(this.scales.get(subject)?.keys() ?? [])];
     }
 
-    /// Replaces what is wanted; null: nothing.
+    /// Sets the wanted tiles; null: none.
     want(subject: Subject | null, tiles: Tile[] = [], grid: TileGrid = { side: 0, css: 0 }, ratio = 1): void {
         this.wanted = subject ? { subject, tiles, grid, ratio } : null;
         const names = new Set(subject ? tiles.map((tile) => `${subject.name} ${tileName(tile)}`) : []);
@@ -132,7 +132,7 @@ export class TileLoader {
         }
     }
 
-    // Forgets the scales not used for long: their tiles have left the cache, or will.
+    // Drops scales not used for long, whose tiles have left the cache or will.
     private note(subject: string, scale: number): void {
         let scales = this.scales.get(subject);
         if (!scales) this.scales.set(subject, (scales = new Map()));

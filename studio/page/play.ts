@@ -1,4 +1,4 @@
-// The melody of the pattern: transport, the curve and the piano roll as they sound, voices, MIDI.
+// The melody of the pattern: transport, the curve and the piano roll as they are played, voices, MIDI.
 import type { MakePanel, Panel, Studio, Work } from "./context";
 import { RequestFailed } from "./context";
 import { button, element } from "./elements";
@@ -21,8 +21,8 @@ const icons = {
     save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
 const half_frame = 0.008; // seconds
-const most_pointed = 200_000; // notes among which the one under the pointer is looked for
-/// Where the space key has another meaning.
+const most_pointed = 200_000; // notes searched for the one under the pointer
+/// Elements in which the space key has another meaning.
 const own_space =
     "button, a, select, summary, textarea, dialog, [role='tab'], [role='application'], input:not([type='range'])";
 
@@ -40,9 +40,9 @@ class PlayPanel implements Panel {
     private isShown = false;
     private isStale = true; // the melody belongs to an older work
     private loaded = ""; // what it was made from
-    private heardName = ""; // of the pattern whose melody is shown
-    private playsMoves = ""; // the name of the pattern whose moves are played as if they were drawn
-    private mutedState = ""; // that the views show
+    private heardName = ""; // name of the pattern whose melody is shown
+    private playsMoves = ""; // name of the pattern whose moves are played as if they were drawn
+    private mutedState = ""; // as shown by the views
     private frame = 0;
     private litNote = -1;
 
@@ -83,8 +83,8 @@ class PlayPanel implements Panel {
         const zoom = element(
             "div",
             { class: "play-zoom" },
-            button("See more bars", () => this.roll.zoom(1 / 1.5), { kind: "quiet", icon: icons.wider }),
-            button("See fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }),
+            button("Show more bars", () => this.roll.zoom(1 / 1.5), { kind: "quiet", icon: icons.wider }),
+            button("Show fewer bars", () => this.roll.zoom(1.5), { kind: "quiet", icon: icons.closer }),
         );
         const save = button("Save as MIDI", () => void this.saveMidi(), { icon: icons.save, shows: true });
         const group = (title: string, content: HTMLElement): HTMLElement =>
@@ -137,7 +137,7 @@ class PlayPanel implements Panel {
 
     private press(event: KeyboardEvent): void {
         const isChord = event.ctrlKey || event.metaKey || event.altKey;
-        const isMeant = this.isShown || this.player.transport.playing; // music goes on behind the other views
+        const isMeant = this.isShown || this.player.transport.playing; // music continues behind the other views
         if (!isMeant || event.key !== " " || event.defaultPrevented || isChord) return;
         const { target } = event;
         if (target instanceof HTMLElement && (target.isContentEditable || target.closest(own_space))) return;
@@ -153,7 +153,7 @@ class PlayPanel implements Panel {
     }
 
     private async load(facts: Opened, work: Work): Promise<void> {
-        // The tempo changes no note.
+        // The tempo does not change the notes.
         const isTimed = work.play.some(([name]) => name === "seconds");
         const options: Options = isTimed ? work.play : work.play.filter(([name]) => name !== "tempo");
         const pattern = this.played(work);
@@ -173,7 +173,7 @@ class PlayPanel implements Panel {
             this.problem.hidden = true;
             this.showMelody(readMelody(json, bytes), facts, work);
         } catch (error) {
-            if (!(error instanceof RequestFailed)) return; // replaced by a later one
+            if (!(error instanceof RequestFailed)) return; // superseded by a later request
             this.loaded = what;
             this.isStale = false;
             this.showProblem(error.message, facts, work);
@@ -182,7 +182,7 @@ class PlayPanel implements Panel {
         }
     }
 
-    /// The pattern whose melody is heard.
+    /// The pattern whose melody is played.
     private played(work: Work): Work["pattern"] {
         return (this.playsMoves === work.pattern.name && withMovesDrawn(work.pattern)) || work.pattern;
     }
@@ -277,13 +277,13 @@ class PlayPanel implements Panel {
         }
     }
 
-    // --- what is seen ---------------------------------------------------------------------------------------------
+    // --- drawing ---------------------------------------------------------------------------------------------
 
     private point(text: string | null): void {
         this.hover.textContent = text ?? "";
     }
 
-    /// After the player has started, stopped, or changed a voice.
+    /// Updates after the player has started, stopped, or changed a voice.
     private update(): void {
         this.bar.update();
         this.voices.update();
@@ -325,14 +325,14 @@ class PlayPanel implements Panel {
         if (transport.playing || isUnfinished) this.redraw();
     }
 
-    /// Marks in the editor where the note that has just begun comes from.
+    /// Highlights the origin of the note that has just begun, in the editor.
     private light(melody: Melody, heard: number): void {
         const { secondsPerTick } = this.player.transport;
-        // A note that begins before the middle of this frame's time on the screen belongs to it.
+        // A note that begins before the middle of this frame belongs to the frame.
         const tick = Math.min(heard + half_frame / secondsPerTick, melody.end);
         let note = firstFrom(melody, tick + 1e-6) - 1;
         void this.origins.lookAhead(Math.max(0, note));
-        // Of notes that begin together, the first voice that is heard.
+        // Of notes that begin together, the one in the first audible voice.
         for (let i = note; i >= 0 && melody.onset[i] === melody.onset[note]; --i) {
             if (this.player.isHeard(melody.voice[i])) note = i;
         }

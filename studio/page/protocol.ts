@@ -1,7 +1,7 @@
 // The requests that the page sends to the libraries, and their answers: bridge.cpp reads and writes this JSON.
-// Numbers that may have any number of digits are decimal texts.
+// Numbers of any length are decimal strings.
 
-/// A pattern with the values that replace those of its text; keys and defines by name.
+/// A pattern with values that replace those in its text: keys and defines by name.
 export interface PatternRequest {
     name: string; // in messages: `curve.lsys`
     text: string;
@@ -11,7 +11,7 @@ export interface PatternRequest {
 
 export type Options = [string, string][]; // names as in `help`; flags have the value "true"
 
-/// What a request asks for. All but `patterns`, `help`, `show`, `import`, `link` and `grid` concern a pattern.
+/// Requests. All except `patterns`, `help`, `show`, `import`, `link` and `grid` concern a pattern.
 export type Request =
     | { do: "patterns" }
     | { do: "help" }
@@ -20,7 +20,7 @@ export type Request =
     /// A picture as RGBA bytes. With `window` the drawing's rectangle [x0, y0, x1, y1], in turtle steps and y up, fills
     /// the picture; without it the page of `options` is shown, fitted into width x height.
     | { do: "pixels"; width: number; height: number; window?: [string, string, string, string];
-        ratio?: number; // pixels of the picture in a CSS pixel (1): strokes keep their width on the screen
+        ratio?: number; // pixels of the picture per CSS pixel (1); strokes keep their width on the screen
         options?: Options; pattern: PatternRequest }
     | { do: "measure"; pattern: PatternRequest }
     | { do: "kolam"; pattern: PatternRequest }
@@ -30,10 +30,10 @@ export type Request =
     | { do: "origins"; symbols: string[]; pattern: PatternRequest }
     | { do: "import"; name: string; view?: string } // with the file's bytes
     | { do: "show"; name: string } // with the file's bytes
-    | { do: "scale"; name: string } // with the bytes of a .scl file: kept under that name, for the option `scale`
+    | { do: "scale"; name: string } // with the bytes of a .scl file: stored under that name, for the option `scale`
     | { do: "grid"; grid: string; crossings?: string; symmetry?: string; density?: number; seed?: string;
         single_line?: boolean; coloured?: boolean; title?: string }
-    /// A work as a link, and back. What a link holds is in `Shared`.
+    /// Write a work as a link, and read one. `Shared` is the contents of a link.
     | { do: "link"; shared: Shared }
     | { do: "read_link"; link: string }
     /// The command line that makes the same output.
@@ -41,20 +41,20 @@ export type Request =
 
 export interface Shared {
     pattern: PatternRequest;
-    draw?: Options; // options of `sikku draw`, the window included
+    draw?: Options; // options of `sikku draw`, including the window
     play?: Options;
-    page?: Record<string, string>; // what only the studio knows
+    page?: Record<string, string>; // values that only the studio uses
 }
 
 export interface Diagnostic {
-    line: number; // 0: no place in the text
+    line: number; // 0: not in the text
     column: number; // code points, from 1
     message: string;
     warning: boolean;
-    setting?: string; // the name of the setting that is wrong, if line is 0
+    setting?: string; // the name of the invalid setting, if line is 0
 }
 
-/// Every answer. Bytes come beside it.
+/// Every answer. Bytes are returned separately.
 export interface Failure {
     error: {
         kind: "pattern" | "setting" | "budget" | "word" | "score" | "stopped" | "request" | "other";
@@ -89,21 +89,21 @@ export interface Opened {
     n: string; // derivation length
     seed: string;
     variants: string[];
-    defines: { name: string; value: string; line: number }[]; // of the text, overrides applied
+    defines: { name: string; value: string; line: number }[]; // in the text, with changed values
     keys: { name: string; value: string; line: number }[];
     productions: { line: number; column: number; length: number; predecessor: string; successor: string; table: string }[];
     warnings: Diagnostic[];
     is_melody: boolean; // sets keys of melodies
     is_spatial: boolean; // draws in space: no windows; models instead
     is_random: boolean; // depends on the seed
-    has_view: boolean; // a window of any depth costs only what is seen
+    has_view: boolean; // a window of any depth costs only the visible part
     cost: {
-        symbols: string; // "1365", or "about 10^24081"; empty if only deriving tells
+        symbols: string; // "1365", or "about 10^24081"; empty if unknown before deriving
         segments: string;
         is_derivable: boolean; // within the budget
         most: string; // the largest derivation length within the budget
     };
-    /// Of what is drawn, in turtle steps: x0, y0, x1, y1; decimal texts of any length. Absent where it is unknown.
+    /// Extent of the drawing in turtle steps: x0, y0, x1, y1; decimal strings of any length. Absent if unknown.
     extent?: [string, string, string, string];
 }
 
@@ -114,14 +114,14 @@ export interface Pixels { width: number; height: number; remarks: { is_warning: 
 /// to y, position in the word of the symbol that ends it (-1: unknown).
 export interface Notes {
     count: number;
-    end: number; // ticks, rests included
-    tempo: number; // quarters a minute
+    end: number; // ticks, including rests
+    tempo: number; // quarter notes per minute
     beats: number; unit: number; // meter
-    ticks: number; // ticks of a quarter
+    ticks: number; // ticks per quarter note
     parts: { name: string; scale: string; program: number; voices: number }[];
 }
 
-/// A place of the text; line 0: none, as the text of a setting.
+/// A place in the text; line 0: not in the text, but in a setting.
 export interface Place { line: number; column: number; length: number }
 
 /// The symbol of the text that a symbol of the word comes from, and its production; null: the axiom.
@@ -138,7 +138,7 @@ export interface Grid {
     crossings: string; // a digit for each gap
     lines: number;
     changed: number; // by single_line
-    obstacle?: string; // why no single line on this grid has this symmetry
+    obstacle?: string; // the reason why no single line on this grid has this symmetry
     /// Lines as closed polygons of points in the coordinates of `dots`.
     strands: [number, number][][];
 }

@@ -1,4 +1,4 @@
-// Scale files that were dropped: kept in the browser, and given to the libraries at every start.
+// Scale files that the user opened: stored in the browser, and passed to the libraries at every start.
 import type { Engine } from "./context";
 
 const storage_key = "sikku-studio-scales";
@@ -29,7 +29,7 @@ export function keepScale(name: string, bytes: Uint8Array): void {
     try {
         localStorage.setItem(storage_key, JSON.stringify({ ...saved(), [name]: lettersOf(bytes) }));
     } catch {
-        // the scale lasts as long as the page
+        // without storage, the scale lasts as long as the page
     }
 }
 

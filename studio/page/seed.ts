@@ -1,4 +1,4 @@
-// The seed: shown, locked, thrown, previous, next. The same seed draws the same plant everywhere.
+// The seed, with buttons to lock it and to choose the previous, the next or a random one.
 import type { Application } from "./application";
 import { button, element, icon } from "./elements";
 import type { Opened } from "./protocol";
@@ -45,7 +45,7 @@ export function makeSeed(application: Application): { element: HTMLElement; upda
     const moves = [
         button("Previous seed", () => step(-1n), { icon: "M10 3 5 8l5 5" }),
         button("Next seed", () => step(1n), { icon: "M6 3l5 5-5 5" }),
-        button("Throw the dice", () => change(String(Math.floor(Math.random() * largest_thrown))), { icon: dice }),
+        button("Random seed", () => change(String(Math.floor(Math.random() * largest_thrown))), { icon: dice }),
     ];
     const row = element(
         "div",

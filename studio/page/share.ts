@@ -1,4 +1,4 @@
-// A link that holds everything, with a QR code; and links that come in, which are shown before they are opened.
+// Makes a link with a QR code, and inspects links before they are opened.
 import { generate } from "lean-qr";
 import type { Application } from "./application";
 import { RequestFailed } from "./context";
@@ -36,7 +36,7 @@ export function openShare(application: Application): void {
     const hasView = windowOnScreen(application) !== null;
     const box = element("input", { type: "checkbox" });
     box.checked = hasView;
-    const view = element("label", { class: "switch" }, box, "Include the part in view");
+    const view = element("label", { class: "switch" }, box, "Include the current view");
     view.hidden = !hasView;
     const copy = button("Copy the link", () => void copyLink(application, address), { kind: "primary" });
 
@@ -66,7 +66,7 @@ export function openShare(application: Application): void {
                 "div",
                 { class: "code-facts" },
                 facts,
-                element("p", {}, "The program reads it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
+                element("p", {}, "Commands accept it, too: ", element("code", {}, "sikku draw LINK -o print.svg")),
             ),
         ),
     );
@@ -88,18 +88,18 @@ function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): 
         canvas.hidden = false;
         canvas.style.width = `${canvas.width * Math.max(2, Math.floor(code_width / canvas.width))}px`;
         facts.textContent = isServed()
-            ? `A link of ${length}.`
-            : `This page is a file, so the code holds only the work (${length}). In any studio, Open > A link… reads it.`;
+            ? `The link has ${length}.`
+            : `This page is a local file, so the code contains only the work (${length}). Open > A link… opens it.`;
     } catch {
         canvas.hidden = true;
-        facts.textContent = `The link has ${length}: too many for a QR code, which holds up to 2,953.`;
+        facts.textContent = `The link has ${length}: too many for a QR code (at most 2,953).`;
     }
 }
 
 let inspected: Dialog | null = null; // a later link replaces it
 let inspections = 0;
 
-/// Shows what a link contains. Nothing of it is derived or drawn before the user opens it.
+/// Shows the contents of a link. Nothing is derived or drawn before the user opens it.
 export async function inspectLink(application: Application, link: string): Promise<void> {
     const inspection = ++inspections;
     const { hash } = location;
@@ -205,7 +205,7 @@ export function watchLinks(application: Application): void {
     inspect();
 }
 
-/// A field for a link or the text of a code.
+/// Opens a dialog with a field for a link or the text of a QR code.
 export function askForLink(application: Application): void {
     const dialog = openDialog("Open a link");
     const field = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
@@ -219,7 +219,7 @@ export function askForLink(application: Application): void {
     );
     dialog.footer.append(
         button(
-            "Show what it contains",
+            "Show its contents",
             () => {
                 dialog.close();
                 void inspectLink(application, field.value.trim());

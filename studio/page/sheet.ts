@@ -1,9 +1,9 @@
-// The page of a print, as its options state it, and how a drawing lies on it.
+// The page of a print, as set by its options, and the position of the drawing on it.
 import type { Opened, Options } from "./protocol";
 import type { Camera, Size } from "./camera";
 import { exactOf, numberOf, readExact } from "./decimal";
 
-/// Millimetres.
+/// In millimetres.
 export interface Sheet {
     readonly width: number;
     readonly height: number;
@@ -29,7 +29,7 @@ export function optionOf(options: Options, name: string): string | undefined {
     return options.find(([each]) => each === name)?.[1];
 }
 
-/// Of a text such as `12mm`; without a unit, in that unit.
+/// Reads a length such as `12mm`; `unit` is the default unit.
 export function lengthOf(text: string, unit = "mm"): number | null {
     const match = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px)?\s*$/i.exec(text);
     const factor = millimetres[(match?.[2] ?? unit).toLowerCase()];
@@ -48,7 +48,7 @@ function sizeOf(text: string): readonly [number, number] | null {
     return width && height ? [width, height] : null;
 }
 
-/// The page of these options: A4 with a margin of 10 mm if they do not say otherwise.
+/// The page that the options set: by default A4 with a margin of 10 mm.
 export function sheetOf(options: Options): Sheet {
     const text = optionOf(options, "size") ?? "A4";
     const size = sizeOf(text) ?? named["a4"]!;
@@ -64,7 +64,7 @@ function round(value: number): number {
     return Math.round(value * 10) / 10;
 }
 
-/// Where the sheet lies in a view: CSS pixels.
+/// The position of the page in a view, in CSS pixels.
 export interface Laid {
     readonly left: number;
     readonly top: number;
@@ -75,8 +75,8 @@ export interface Laid {
 export function laidOut(sheet: Sheet, size: Size): Laid {
     const narrow = Math.min(size.width, size.height) < 480;
     const around = narrow ? 16 : 40;
-    const beside = narrow ? 16 : 62; // the buttons lie there
-    const below = narrow ? 48 : 64; // for what is written below the sheet
+    const beside = narrow ? 16 : 62; // space for the buttons
+    const below = narrow ? 48 : 64; // space for the text below the page
     const right = narrow ? 60 : beside;
     const room = {
         width: Math.max(40, size.width - beside - right),
@@ -85,20 +85,20 @@ export function laidOut(sheet: Sheet, size: Size): Laid {
     const factor = Math.min(room.width / sheet.width, room.height / sheet.height);
     const width = sheet.width * factor;
     const height = sheet.height * factor;
-    // In the middle, unless the buttons are in the way.
+    // Centred, unless the buttons would cover it.
     const left = Math.min((size.width - width) / 2, size.width - right - width);
     return { left, top: around + (room.height - height) / 2, width, height };
 }
 
-/// What a key of the drawing is: an option, or the pattern's.
+/// The value of a style key: from an option, or else from the pattern.
 export function styleOf(name: string, facts: Opened, options: Options): string | undefined {
     return optionOf(options, name) ?? facts.keys.find((key) => key.name === name)?.value;
 }
 
-const borderShare = 1.6 / 24; // of the shorter side: what a border takes beyond the margin
+const borderShare = 1.6 / 24; // share of the shorter side that a border takes beyond the margin
 
-/// The camera under which the endless plane lies as the drawing does on the sheet; null where that has no answer: for
-/// drawings in space, turned ones, and several on a sheet.
+/// The camera that shows the endless plane exactly as the page shows the drawing; null if there is none: for drawings
+/// in space, rotated drawings, and several drawings on a page.
 export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opened, options: Options): Camera | null {
     const turned = ["rotate", "mirror", "generations"].some((name) => optionOf(options, name) !== undefined);
     if (turned || !facts.extent || facts.is_spatial) return null;
@@ -126,14 +126,14 @@ export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opene
     return { x: (x0 + x1) / 2n - exactOf(right * scale), y: (y0 + y1) / 2n + exactOf(down * scale), scale };
 }
 
-/// Options that a part of the plane has in common with the whole page.
+/// Options of the page that also apply to a part of the plane.
 const ofPlane = new Set(["line", "stroke", "ground", "fill", "palette", "dots", "colour-by", "budget"]);
 
 export function planeOptions(options: Options): Options {
     return options.filter(([name]) => ofPlane.has(name));
 }
 
-/// True if the drawing is read whole for any part of it.
+/// True if any part of the drawing requires the whole drawing to be read.
 export function isComposed(facts: Opened, options: Options): boolean {
     return (
         optionOf(options, "dots") !== undefined ||
@@ -142,7 +142,7 @@ export function isComposed(facts: Opened, options: Options): boolean {
     );
 }
 
-/// Options of pictures: not those of animations, of plotters and of the press, which pictures refuse.
+/// Options of pictures, without those of animations, plotters and the press, which pictures refuse.
 const notOfPictures = new Set([
     "animate",
     "frames",

@@ -1,5 +1,5 @@
-// Finds valid variants and draws them small: those that fail, draw nothing, cost too much or do not pass the filters
-// are left out.
+// Finds valid variants and draws thumbnails of them. Variants that fail, draw nothing, cost too much or do not pass the
+// filters are left out.
 import { hashOf } from "./chance";
 import { RequestFailed, type Engine, type Work } from "./context";
 import { isAbort } from "./pictures";
@@ -13,10 +13,10 @@ export interface Filter {
 }
 
 export const filters: readonly Filter[] = [
-    { name: "closed", label: "Closed", help: "Only lines that end where they begin" },
-    { name: "single", label: "Single line", help: "Only drawings of one line" },
-    { name: "avoiding", label: "Self-avoiding", help: "Only lines that never meet themselves" },
-    { name: "kolam", label: "Kolam", help: "Only kolams: every dot encircled, every line closed, nothing drawn twice" },
+    { name: "closed", label: "Closed", help: "Only closed lines" },
+    { name: "single", label: "Single line", help: "Only drawings with a single line" },
+    { name: "avoiding", label: "Self-avoiding", help: "Only lines that do not meet themselves" },
+    { name: "kolam", label: "Kolam", help: "Only kolams: all dots surrounded, all lines closed, nothing drawn twice" },
 ];
 
 interface Examined {
@@ -35,22 +35,22 @@ export interface Found {
 }
 
 export interface Search {
-    /// The variants to try for an index, the first that is valid is taken; null after the last.
+    /// The variants to try for an index, of which the first valid one is used; null after the last.
     readonly candidates: (index: number) => readonly Variant[] | null;
-    readonly count: number; // of valid ones wanted
+    readonly count: number; // number of valid variants wanted
     readonly most: number; // candidates to try
-    readonly milliseconds: number; // after which no further ones are tried
+    readonly milliseconds: number; // time limit for trying candidates
     readonly side: number; // pixels
     readonly ratio: number;
     readonly filters: ReadonlySet<string>;
     readonly draw: Options;
-    readonly isDistinct: boolean; // leave out pictures that are there already
+    readonly isDistinct: boolean; // leave out duplicate pictures
     readonly signal: AbortSignal;
     readonly onFound: (found: Found) => void;
     readonly onTried: (tried: number, found: number) => void;
 }
 
-const budget = "3000000"; // nodes: so that a sheet takes a second
+const budget = "3000000"; // nodes: a sheet takes about a second
 const seconds = 2;
 
 export function thumbnailOptions(draw: Work["draw"]): Options {
@@ -69,7 +69,7 @@ export function thumbnailOptions(draw: Work["draw"]): Options {
     return [...draw.filter(([name]) => !own.has(name)), ["size", "100x100mm"], ["margin", "6mm"], ["budget", budget]];
 }
 
-/// Resolves with the number of candidates tried, when enough were found or none is left.
+/// Returns the number of candidates tried, once enough are found or none is left.
 export async function searchVariants(engine: Engine, search: Search): Promise<number> {
     const options = thumbnailOptions(search.draw);
     const seen = new Set<string>(); // pictures
@@ -98,7 +98,7 @@ export async function searchVariants(engine: Engine, search: Search): Promise<nu
             return;
         }
     }
-    // One lane of work for each worker; the first is what the user waits for.
+    // One lane per worker; the user waits for the first.
     async function work(lane: "front" | "back"): Promise<void> {
         while (
             !isOver &&

@@ -1,17 +1,17 @@
-// The keys of the page, and the list that shows them. Keys of the text are the editor's; those of a view, the view's.
+// The keyboard shortcuts of the page, and the list that shows them. The editor and the views handle their own keys.
 import { openDialog } from "./dialog";
 import { element } from "./elements";
 
 export interface Shortcut {
-    keys: string; // as it is shown: "Ctrl+Z"
+    keys: string; // for display: "Ctrl+Z"
     label: string;
-    act?: () => void; // none: handled elsewhere
+    act?: () => void; // absent: handled elsewhere
     everywhere?: boolean; // also in fields
 }
 
 export const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
 
-/// The keys as this system writes them.
+/// The keys in the notation of this system.
 export function shown(keys: string): string {
     return isMac ? keys.replaceAll("Ctrl", "⌘").replaceAll("Alt", "⌥").replaceAll("Shift", "⇧") : keys;
 }
@@ -22,7 +22,7 @@ function pressed(event: KeyboardEvent): string {
         event.altKey ? "Alt" : "",
         (event.shiftKey && event.key.length > 1) || (event.shiftKey && event.ctrlKey) ? "Shift" : "",
     ];
-    // With Alt some systems type another letter: the place of the key counts.
+    // Some systems type other letters with Alt, so the position of the key counts.
     const place = /^(?:Key|Digit)(.)$/.exec(event.code)?.[1];
     const key =
         event.altKey && place

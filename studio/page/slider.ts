@@ -1,40 +1,40 @@
-// A name, a slider, the value to type, and a button that takes the value back to what the text says.
+// A name, a slider, a field for the value, and a button that resets it to the value in the text.
 import { button, element } from "./elements";
 
 const reset_icon = "M3 6h6.5a3.5 3.5 0 0 1 0 7H6M3 6l3-3M3 6l3 3";
 
 export interface SliderState {
-    value: string; // as it is written
-    number: number; // where the thumb is
+    value: string; // as written
+    number: number; // position of the thumb
     least: number;
     most: number;
     step: number | "any";
     isChanged: boolean; // differs from the text
-    description?: string; // read out with the value
+    description?: string; // announced with the value
 }
 
 export interface Slider {
     element: HTMLElement;
     set(state: SliderState): void;
-    /// Marks the value as wrong.
+    /// Marks the value as invalid.
     setInvalid(isInvalid: boolean): void;
 }
 
 let last = 0;
 
-/// `slide` gets the number of the thumb, `type` the text of the field, `reset` nothing.
+/// `slide` receives the position of the thumb, `type` the text of the field.
 export function makeSlider(
     label: string,
     acts: {
         slide(number: number): void;
         type(text: string): void;
         reset(): void;
-        explain?(): string; // help, when the pointer is on the name
+        explain?(): string; // help while the pointer is on the name
     },
 ): Slider {
     const id = `slider-${++last}`;
     const name = element("label", { for: id, title: label }, label);
-    const range = element("input", { type: "range", id, title: "Double click: as in the text" });
+    const range = element("input", { type: "range", id, title: "Double-click to reset" });
     const field = element("input", {
         type: "text",
         "aria-label": `${label}, value`,

@@ -1,4 +1,4 @@
-// The panel that shows a drawing as a model in space: to be turned, lit, and grown.
+// The panel that shows a drawing as a model in space, with controls to turn, light and grow it.
 import type { MakePanel, Studio, Work } from "./context";
 import { button, element } from "./elements";
 import { between, eyeText, readEye, type Eye } from "./eye";
@@ -12,9 +12,9 @@ import type { Opened } from "./protocol";
 import { styleOf } from "./sheet";
 import { fittingHalf, Stage, type Staged } from "./space_stage";
 
-const mostSegments = 150_000; // a model of more would take hundreds of megabytes
+const mostSegments = 150_000; // larger models would take hundreds of megabytes
 const growing = 700; // milliseconds for each derivation length
-const turning = 380; // milliseconds in which one model turns into the next
+const turning = 380; // milliseconds of the transition between two models
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
 
 const icons = {
@@ -44,8 +44,8 @@ export const makeSpacePanel: MakePanel = (studio) => {
                             element(
                                 "p",
                                 {},
-                                "This browser offers no WebGL2, which draws models. Prints of drawings in space work " +
-                                    "without it; so do models as OBJ and GLB files.",
+                                "Models cannot be shown: this browser has no WebGL2. Prints of drawings in space " +
+                                    "and OBJ and GLB files work without it.",
                             ),
                         ),
                     );
@@ -80,15 +80,15 @@ class SpaceView {
     private opened: Opened | null = null;
     private subject = "";
     private eye: Eye = front;
-    private half = 0; // of the picture; 0: to be found
+    private half = 0; // of the picture; 0: unknown
     private zoom = 1;
     private shift: [number, number] = [0, 0];
     private light = usualLight;
     private n = 0;
     private most = 0;
     private model: Grown | null = null;
-    private before: { model: Grown; since: number } | null = null; // that turns into this one
-    private whole: Staged | null = null; // what the picture is arranged for
+    private before: { model: Grown; since: number } | null = null; // fading into this one
+    private whole: Staged | null = null; // the model that the picture is framed for
     private isTurning = false;
     private isGrowing = false;
     private grownAt = 0;
@@ -209,7 +209,7 @@ class SpaceView {
         });
         canvas.addEventListener("webglcontextlost", () => {
             this.hide();
-            this.problem("The graphics driver has lost the model. Reload the page to see it again.");
+            this.problem("The graphics driver has lost the model. Reload the page to show it again.");
         });
         new ResizeObserver(() => this.draw()).observe(canvas);
         new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
@@ -238,7 +238,7 @@ class SpaceView {
         this.note.hidden = text === "";
     }
 
-    // A new text, or new values: the last model stays until the next has come.
+    // The text or the values have changed: the last model stays until the next one is ready.
     private open(facts: Opened, work: Work): void {
         if (!this.isShown) return;
         const { name } = Growth.subject(work);
@@ -268,17 +268,17 @@ class SpaceView {
         if (!facts) return "";
         if (this.isSpline) {
             return (
-                "Models have straight lines, and this pattern draws a spline. With the line set to straight " +
-                "it has a model, if its symbols draw steps."
+                "Models consist of straight lines, but this pattern draws a spline. " +
+                "A model needs `line: straight`, and symbols that draw."
             );
         }
         const segments = Number(facts.cost.segments);
         if (!facts.cost.is_derivable)
-            return "This drawing is too large for a model. A smaller derivation length has one.";
+            return "This drawing is too large for a model. Reduce the derivation length.";
         if (!(segments > mostSegments)) return "";
         return (
-            `This drawing has ${segments.toLocaleString("en")} segments; models are shown up to ` +
-            `${mostSegments.toLocaleString("en")}. A smaller derivation length has one.`
+            `This drawing has ${segments.toLocaleString("en")} segments; a model can have at most ` +
+            `${mostSegments.toLocaleString("en")}. Reduce the derivation length.`
         );
     }
 
@@ -337,8 +337,8 @@ class SpaceView {
             [
                 `Model of ${facts?.title || "the drawing"}`,
                 `derivation length ${this.n}`,
-                `seen from ${Math.round(between(this.eye.azimuth))} degrees around`,
-                `${Math.round(this.eye.elevation)} degrees up`,
+                `azimuth ${Math.round(between(this.eye.azimuth))} degrees`,
+                `elevation ${Math.round(this.eye.elevation)} degrees`,
             ].join(", "),
         );
     }
@@ -377,7 +377,7 @@ class SpaceView {
         this.draw();
     }
 
-    // The next models, before they are wanted.
+    // Makes the next models in advance.
     private async lookAhead(): Promise<void> {
         const { work } = this;
         for (let n = this.n; n <= this.most && this.isGrowing && work === this.work; ++n) {
@@ -417,7 +417,7 @@ class SpaceView {
         });
     }
 
-    // Motion may have been drawn coarsely: what stands still is drawn finely.
+    // Motion may have been drawn at a lower resolution; a still picture has the full one.
     private rest(): void {
         clearTimeout(this.restTimer);
         if (this.pace.quality === 1) return;
@@ -472,6 +472,6 @@ class SpaceView {
         const draw = this.work.draw.filter(([name]) => name !== "view");
         this.studio.store.change({ draw: [...draw, ["view", view]] }, "view");
         this.work = this.studio.store.work;
-        this.studio.say(`Prints are drawn from here: view ${view}.`);
+        this.studio.say(`Prints now use this view: view ${view}.`);
     }
 }

@@ -1,5 +1,4 @@
-// What the graphics processor does with a model: light from one side, a little from everywhere, leaves that let light
-// through, and shadows.
+// Shaders for models: light from one side and ambient light, translucent leaves, and shadows.
 
 const shared = `#version 300 es
 precision highp float;
@@ -9,10 +8,10 @@ precision highp sampler2DShadow;
 export const modelVertex = `${shared}
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 colour; // roots of linear values; the last is 1 for leaves
+layout(location = 2) in vec4 colour; // square roots of linear values; the last is 1 for leaves
 uniform mat4 eye;
 uniform mat4 sun;
-uniform float nudge; // of shadows away from the surface, in steps
+uniform float nudge; // offset of shadows from the surface, in steps
 out vec3 at;
 out vec3 out_of;
 out vec4 hue;
@@ -25,7 +24,7 @@ void main() {
     gl_Position = eye * vec4(position, 1.0);
 }`;
 
-// How much of the sun arrives: four looks around the place.
+// The share of sunlight that reaches a place, from four samples around it.
 const shade = `
 uniform sampler2DShadow shadows;
 uniform float texel;
@@ -40,7 +39,7 @@ float sunshine(vec4 place, float bias) {
     }
     return sum / 4.0;
 }
-float grain(vec2 place) { // for one model that turns into another
+float grain(vec2 place) { // for the transition between two models
     return fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715))));
 }
 vec3 shown(vec3 linear) {
@@ -54,10 +53,10 @@ in vec3 at;
 in vec3 out_of;
 in vec4 hue;
 in vec4 lit_at;
-uniform vec3 light; // towards it
-uniform vec3 back; // towards the eye
+uniform vec3 light; // direction towards it
+uniform vec3 back; // direction towards the eye
 uniform float presence;
-uniform vec2 heights; // of the drawing: its lowest place, and 1 / its height
+uniform vec2 heights; // of the drawing: its lowest point, and 1 / its height
 out vec4 pixel;
 void main() {
     if (presence < 1.0 && grain(gl_FragCoord.xy) >= presence) discard;
@@ -67,7 +66,7 @@ void main() {
     float height = clamp((at.y - heights.x) * heights.y, 0.0, 1.0);
     vec3 sky = mix(vec3(0.30, 0.27, 0.25), vec3(0.46, 0.49, 0.55), normal.y * 0.5 + 0.5) * mix(0.72, 1.0, height);
     vec3 direct = vec3(1.02, 0.96, 0.86) * max(facing, 0.0) * sun;
-    float leaf = step(0.5, hue.a); // leaves let light through
+    float leaf = step(0.5, hue.a); // leaves are translucent
     vec3 through = vec3(0.55, 0.6, 0.3) * leaf * max(-facing, 0.0) * mix(0.35, 1.0, sun);
     float rim = pow(1.0 - max(dot(normal, back), 0.0), 3.0) * 0.10;
     vec3 sheen = vec3(pow(max(dot(normal, normalize(light + back)), 0.0), 28.0)) * 0.06 * sun;
@@ -97,7 +96,7 @@ void main() {
     gl_Position = eye * vec4(at, 1.0);
 }`;
 
-// A pool of light on which the drawing stands, and its shadow.
+// The lit ground below the drawing, with its shadow.
 export const groundFragment = `${shared}${shade}
 in vec4 lit_at;
 in vec2 away;

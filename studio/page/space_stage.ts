@@ -1,4 +1,4 @@
-// Draws models with WebGL2: light, shadows and a pool of light on the ground.
+// Draws models with WebGL2: light, shadows and a lit ground.
 import { axes, seenBy, towards, type Eye, type Matrix, type Vector } from "./eye";
 import type { Model } from "./glb";
 import {
@@ -22,18 +22,18 @@ export interface Staged {
 }
 
 export interface Scene {
-    readonly models: readonly { model: Staged; presence: number }[]; // 0 to 1: one may turn into another
-    readonly frame: { low: Vector; high: Vector }; // what the picture is arranged for
+    readonly models: readonly { model: Staged; presence: number }[]; // 0 to 1, for transitions
+    readonly frame: { low: Vector; high: Vector }; // box that the picture is framed for
     readonly eye: Eye;
     readonly half: number; // of the shorter side of the picture, in steps, at zoom 1
     readonly zoom: number;
-    readonly shift: readonly [number, number]; // of the picture, in halves of it
+    readonly shift: readonly [number, number]; // of the picture, in halves of its size
     readonly light: { azimuth: number; elevation: number };
     readonly isDark: boolean;
 }
 
 const shadowSide = 2048;
-const stride = 20; // bytes of a corner: position, normal, colour
+const stride = 20; // bytes per corner: position, normal, colour
 
 interface Program {
     program: WebGLProgram;
@@ -47,9 +47,9 @@ export class Stage {
     private readonly shadows: WebGLTexture;
     private readonly shadowFrame: WebGLFramebuffer;
     private readonly floor: WebGLVertexArrayObject;
-    private shadowed = ""; // what the shadows were drawn for
+    private shadowed = ""; // state for which the shadows were drawn
 
-    /// Null where the browser has no WebGL2.
+    /// Null if the browser does not support WebGL2.
     static on(canvas: HTMLCanvasElement): Stage | null {
         const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
         return gl && new Stage(gl);
@@ -94,7 +94,7 @@ export class Stage {
         }
         gl.linkProgram(program);
         if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-            throw new Error(`the graphics driver refused a program: ${gl.getProgramInfoLog(program)}`);
+            throw new Error(`the graphics driver rejected a program: ${gl.getProgramInfoLog(program)}`);
         }
         const places = new Map<string, WebGLUniformLocation | null>();
         return {
@@ -198,7 +198,7 @@ export class Stage {
         gl.bindVertexArray(null);
     }
 
-    // What the light sees, so that what it does not see lies in shadow.
+    // The shadow map: the depth as seen from the light.
     private shine(scene: Scene, middle: Vector, radius: number): Matrix {
         const { gl } = this;
         const { azimuth, elevation } = scene.light;
@@ -238,7 +238,7 @@ export class Stage {
         return number;
     }
 
-    // Seen from below there is no ground; near its level it fades.
+    // The ground is invisible from below, and fades in at low elevations.
     private drawGround(scene: Scene, eye: Matrix, sun: Matrix, middle: Vector, radius: number): void {
         const presence = Math.min(1, Math.max(0, scene.eye.elevation / 6));
         if (presence === 0) return;
@@ -264,7 +264,7 @@ export class Stage {
     }
 }
 
-// Three bytes with a sign.
+// Three signed bytes.
 function packedNormal(normals: Float32Array, index: number): number {
     let packed = 0;
     for (let axis = 0; axis < 3; ++axis) {
@@ -274,7 +274,7 @@ function packedNormal(normals: Float32Array, index: number): number {
     return packed >>> 0;
 }
 
-// Roots of linear colours, which are as fine in the dark as they need to be, and whether it is a leaf.
+// Square roots of linear colours, which are precise enough in the dark, and a flag for leaves.
 function packedColour([red, green, blue]: readonly [number, number, number, number], isLeaf: boolean): number {
     const byte = (value: number) => Math.round(Math.sqrt(value) * 255);
     return (byte(red) | (byte(green) << 8) | (byte(blue) << 16) | ((isLeaf ? 255 : 0) << 24)) >>> 0;
@@ -288,7 +288,7 @@ export function radiusOf({ low, high }: { low: Vector; high: Vector }): number {
     return Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2 || 1;
 }
 
-/// Half the shorter side of a picture that shows the frame from all around at that elevation.
+/// Half the shorter side of a picture that fits the frame from any azimuth at an elevation.
 export function fittingHalf(
     { low, high }: { low: Vector; high: Vector },
     { elevation, distance }: Eye,

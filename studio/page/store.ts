@@ -1,4 +1,4 @@
-// What the user makes, with its history: kept in the browser, so that a reload loses nothing.
+// The user's work and its history, stored in the browser so that a reload loses nothing.
 import type { Store, Work } from "./context";
 
 const most_steps = 100;
@@ -61,7 +61,7 @@ export class History implements Store {
         const work = { ...before, ...change };
         if (isSame(work, before)) return;
         if (!change.pattern && !change.draw && !change.play) {
-            // where one looks is no step of the work
+            // changes of the view are not steps of the history
             this.steps[this.at]!.work = work;
             this.tell(before);
             return;
@@ -107,7 +107,7 @@ export class History implements Store {
         this.tell(before);
     }
 
-    /// The thumbnail of a step, when it has been drawn.
+    /// Sets the thumbnail of a step, once it is drawn.
     picture(work: Work, address: string): void {
         const step = this.steps.find((each) => each.work === work || each.work.pattern === work.pattern);
         if (!step) return;
@@ -121,7 +121,7 @@ export class History implements Store {
         return () => this.listeners.delete(listener);
     }
 
-    /// Called after every change of the history, thumbnails included.
+    /// Called after every change of the history, including thumbnails.
     watch(watcher: () => void): () => void {
         this.watchers.add(watcher);
         return () => this.watchers.delete(watcher);
@@ -200,7 +200,7 @@ function isAnotherView(one: Work, other: Work): boolean {
     return one.pattern.name !== other.pattern.name || isSame({ ...one, place: other.place, panel: other.panel }, other);
 }
 
-// Texts are compared as such: a pattern may be long.
+// Compares long texts directly, without JSON.
 function isSame(one: Work, other: Work): boolean {
     const [a, b] = [one.pattern, other.pattern];
     const rest = (work: Work) =>
@@ -214,7 +214,7 @@ function isWork(work: Work): boolean {
     return texts && [settings, work.draw, work.play].every(Array.isArray);
 }
 
-/// Puts the work of earlier visits aside, for a page that cannot start with it.
+/// Sets the saved work aside, for a page that cannot start with it.
 export function putAside(): void {
     const saved = localStorage.getItem(storage_key) ?? "";
     localStorage.removeItem(storage_key);
@@ -234,7 +234,7 @@ function read(): Saved | null {
     }
 }
 
-// What distinguishes two states, in a few words.
+// Describes the difference between two states in a few words.
 function describe(before: Work, after: Work): string {
     if (before.pattern.name !== after.pattern.name) return after.pattern.name.replace(/\.lsys$/, "");
     if (before.pattern.text !== after.pattern.text) return "Text";
@@ -244,7 +244,7 @@ function describe(before: Work, after: Work): string {
     const changed = [...new Set([...old.keys(), ...now.keys()])].filter((name) => old.get(name) !== now.get(name));
     if (changed.length === 1) {
         const name = changed[0]!;
-        return `${name === "derivation length" ? "n" : name} ${now.get(name) ?? "as written"}`;
+        return `${name === "derivation length" ? "n" : name} ${now.get(name) ?? "reset"}`;
     }
     if (changed.length > 1) return `${changed.length} values`;
     return JSON.stringify(before.draw) !== JSON.stringify(after.draw) ? "Print options" : "Score options";

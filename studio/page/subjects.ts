@@ -1,13 +1,13 @@
-// Short names for what pictures show: a pattern and how it is drawn.
+// Short names for the subjects of pictures: a pattern and how it is drawn.
 
-const mostCharacters = 16e6; // of patterns whose pictures are known by name
+const mostCharacters = 16e6; // of all patterns that have names
 
 export class Subjects {
     private readonly names = new Map<string, string>();
     private count = 0;
     private characters = 0;
 
-    /// Equal subjects have equal names, as long as they are known.
+    /// Equal subjects have equal names, as long as they are stored.
     nameOf(kind: string, ...subject: unknown[]): string {
         const text = JSON.stringify([kind, ...subject]);
         const known = this.names.get(text);

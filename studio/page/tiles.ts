@@ -1,4 +1,4 @@
-// Tiles of the endless plane, as those of a web map: squares of so many pixels at a scale, counted from 0 0.
+// Tiles of the endless plane, as in a web map: squares of a fixed size at each scale, counted from 0 0.
 import { exactOf, exactText, wholes, type Exact } from "./decimal";
 import { decimalsOf, pixelOf, pointAt, type Camera, type Size } from "./camera";
 
@@ -6,14 +6,14 @@ export interface Tile {
     readonly scale: number;
     readonly column: bigint;
     readonly row: bigint;
-} // rows upwards
+} // rows are counted upwards
 
 export interface TileGrid {
     readonly side: number; // pixels of the picture
     readonly css: number; // the same in CSS pixels
 }
 
-/// Tiles of whole pixels of the screen.
+/// The grid of tiles for which a tile is a whole number of screen pixels.
 export function tileGrid(ratio: number): TileGrid {
     const side = Math.round(512 * ratio);
     return { side, css: side / ratio };
@@ -23,7 +23,7 @@ export function tileName(tile: Tile): string {
     return `${tile.scale} ${tile.column} ${tile.row}`;
 }
 
-/// The power of two next to a scale: of tiles that serve while the scale changes.
+/// The power of two nearest to a scale, for tiles that are used while the scale changes.
 export function levelScale(scale: number): number {
     return 2 ** Math.round(Math.log2(scale));
 }
@@ -33,7 +33,7 @@ function unitOf(grid: TileGrid, scale: number): Exact {
     return unit > 0n ? unit : 1n;
 }
 
-/// The tiles of that scale that a view shows, from its middle outwards; at most `most`.
+/// The tiles of a scale that a view shows, from its centre outwards; at most `most`.
 export function seenTiles(camera: Camera, size: Size, grid: TileGrid, scale: number, most = 400): Tile[] {
     const unit = unitOf(grid, scale);
     const low = pointAt(camera, size, 0, size.height);
@@ -55,7 +55,7 @@ export function seenTiles(camera: Camera, size: Size, grid: TileGrid, scale: num
     return tiles.sort((one, other) => one.away - other.away).map(({ tile }) => tile);
 }
 
-/// Where a tile lies in the view, in CSS pixels.
+/// The position of a tile in the view, in CSS pixels.
 export function tileBox(tile: Tile, camera: Camera, size: Size, grid: TileGrid) {
     const unit = unitOf(grid, tile.scale);
     const low = pixelOf(camera, size, tile.column * unit, tile.row * unit);
@@ -63,7 +63,7 @@ export function tileBox(tile: Tile, camera: Camera, size: Size, grid: TileGrid) 
     return { left: low.left, top: high.top, right: high.left, bottom: low.top };
 }
 
-/// What a tile shows, as the `window` of a request.
+/// The part of the plane that a tile shows, as the `window` of a request.
 export function tileWindow(tile: Tile, grid: TileGrid): [string, string, string, string] {
     const unit = unitOf(grid, tile.scale);
     const decimals = decimalsOf(tile.scale) + 6;
@@ -71,9 +71,9 @@ export function tileWindow(tile: Tile, grid: TileGrid): [string, string, string,
     return [text(tile.column), text(tile.row), text(tile.column + 1n), text(tile.row + 1n)];
 }
 
-/// Keeps the pictures used last, up to so many bytes.
+/// Caches the most recently used pictures, up to a number of bytes.
 export class PictureCache<Picture extends { bytes: number; close(): void }> {
-    private readonly pictures = new Map<string, Picture>(); // the last used last
+    private readonly pictures = new Map<string, Picture>(); // the most recently used last
     private used = 0;
 
     constructor(private readonly most: number) {}
@@ -89,7 +89,7 @@ export class PictureCache<Picture extends { bytes: number; close(): void }> {
         return this.pictures.has(name);
     }
 
-    /// Uses it.
+    /// Returns the picture and marks it as used.
     get(name: string): Picture | undefined {
         const picture = this.pictures.get(name);
         if (picture) {

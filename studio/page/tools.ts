@@ -1,4 +1,4 @@
-// The tools in the bar above, and the keys that do the same.
+// The buttons in the top bar, and their keyboard shortcuts.
 import { openAbout } from "./about";
 import type { Application } from "./application";
 import { menuButton } from "./dialog";
@@ -45,8 +45,8 @@ function shortcutsOf(application: Application): Shortcut[] {
         { keys: "Ctrl+Y", label: "Redo", act: () => store.redo() },
         { keys: "Ctrl+O", label: "Open a file", act: () => askForFile(application), everywhere: true },
         { keys: "Ctrl+S", label: "Export", act: () => openExport(application), everywhere: true },
-        { keys: "Alt+Up", label: "n, one more", act: () => stepN(1) },
-        { keys: "Alt+Down", label: "n, one less", act: () => stepN(-1) },
+        { keys: "Alt+Up", label: "Increase n", act: () => stepN(1) },
+        { keys: "Alt+Down", label: "Decrease n", act: () => stepN(-1) },
         ...tabs.map((tab, at): Shortcut => ({
             keys: `Alt+${at + 1}`,
             label: tab.textContent ?? "",
@@ -62,11 +62,11 @@ function shortcutsOf(application: Application): Shortcut[] {
             everywhere: true,
             act: () => document.querySelector<HTMLElement>(".cm-content")?.focus(),
         },
-        { keys: "Ctrl+Space", label: "Complete a key, in the text" },
-        { keys: "F1", label: "Explain the key or symbol at the cursor, in the text" },
-        { keys: "F8", label: "Next error, in the text" },
-        { keys: "Ctrl+F", label: "Search, in the text" },
-        { keys: "?", label: "This list", act: () => openShortcuts(shortcutsOf(application)) },
+        { keys: "Ctrl+Space", label: "Complete a key (in the text)" },
+        { keys: "F1", label: "Explain the key or symbol at the cursor (in the text)" },
+        { keys: "F8", label: "Next error (in the text)" },
+        { keys: "Ctrl+F", label: "Search (in the text)" },
+        { keys: "?", label: "Show this list", act: () => openShortcuts(shortcutsOf(application)) },
     ];
 }
 
@@ -93,7 +93,7 @@ export function makeTools(application: Application): void {
         { label: "A link…", act: () => askForLink(application) },
     ]);
     const themes: [Theme, string][] = [
-        ["system", "Colours of the system"],
+        ["system", "System colours"],
         ["light", "Light"],
         ["dark", "Dark"],
     ];

@@ -1,4 +1,4 @@
-// Variants of a work: other seeds, other values, edited productions. Each is a pattern with settings of its own.
+// Variants of a work: other seeds, other values, edited productions. Each is a pattern with its own settings.
 import { Chance } from "./chance";
 import type { Work } from "./context";
 import { alphabetOf, mutated, namesIn, otherAngle, otherNumber, withSuccessor } from "./mutations";
@@ -8,11 +8,11 @@ export type Pattern = Work["pattern"];
 
 export interface Variant {
     readonly pattern: Pattern;
-    readonly label: string; // what is different
+    readonly label: string; // describes the difference
     readonly part?: ChangedPart & { readonly predecessor: string }; // of an edited production
 }
 
-/// What one text has in place of another, with a little of what lies around it.
+/// The part of a text that replaces part of another, with a little context.
 export interface ChangedPart {
     readonly before: string;
     readonly changed: string;
@@ -33,7 +33,7 @@ export function changedPart(old: string, now: string): ChangedPart {
     };
 }
 
-/// A value that can be varied, or kept.
+/// A value that can be varied or kept.
 export interface Parameter {
     readonly name: string; // of the setting, or `production 3`
     readonly label: string;
@@ -94,7 +94,7 @@ export interface Axis {
     readonly values: readonly string[];
 }
 
-/// Values that lie about the present one; whole numbers where nothing else has a meaning.
+/// A range around the present value; whole numbers where required.
 export function rangeOf(parameter: Parameter, most: string): { from: number; to: number } {
     const value = Number(parameter.value);
     if (parameter.kind === "n") {
@@ -108,7 +108,7 @@ export function rangeOf(parameter: Parameter, most: string): { from: number; to:
     return { from: rounded(value - away), to: rounded(value + away) };
 }
 
-/// `count` values from one to the other, fewer if they are whole numbers that lie close.
+/// `count` values in a range; fewer if the range contains fewer whole numbers.
 export function valuesOf(parameter: Parameter, from: number, to: number, count: number): string[] {
     const isWhole = parameter.kind === "n" || parameter.kind === "seed" || parameter.name === "angle factor";
     const values = Array.from({ length: count }, (_, index) => {
@@ -122,7 +122,7 @@ function rounded(value: number): number {
     return Number(value.toPrecision(4));
 }
 
-/// A cell of a sheet of two parameters, and other values near it in case it is invalid.
+/// A cell of a sheet of two parameters, followed by nearby values in case it is invalid.
 export function sheetVariants(pattern: Pattern, across: Axis, down: Axis, column: number, row: number): Variant[] {
     const made = (x: string, y: string): Variant => ({
         pattern: withSetting(withSetting(pattern, across.parameter.name, x), down.parameter.name, y),
@@ -142,7 +142,7 @@ export function sheetVariants(pattern: Pattern, across: Axis, down: Axis, column
     return [made(x, y), ...others.filter(({ label }) => label !== made(x, y).label)];
 }
 
-/// Edited productions, and other values of what is not kept. The same seed and index give the same variant.
+/// A variant with edited productions and other values, except those kept. Depends only on seed and index.
 export function mutantOf(
     pattern: Pattern,
     facts: Opened,
@@ -197,14 +197,14 @@ function edited(
     if (!production) return null;
     const names = namesIn(facts.keys.find(({ name }) => name === "symbols")?.value);
     const axiom = facts.keys.find(({ name }) => name === "axiom")?.value ?? "";
-    // Where parameters are used, only the production's own modules surely have the right names in them.
+    // Only the production's own modules are certain to use valid names of parameters.
     const sources = production.successor.includes("(")
         ? [production.successor]
         : [...facts.productions.map(({ successor }) => successor), axiom];
     const alphabet = alphabetOf(sources, names).filter((module) => sources.length === 1 || !module.includes("("));
     const successor = mutated(production.successor, alphabet, chance, names);
     if (successor === null) return null;
-    // The text may have been edited in this line already: then it does not fit, and stays.
+    // If this line was already edited, the production no longer matches and is left as it is.
     const made = withSuccessor(text, production, successor);
     if (made === null) return null;
     const { predecessor } = production;

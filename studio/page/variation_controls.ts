@@ -1,4 +1,4 @@
-// Controls of variations: what is kept as it is, and which values are varied from where to where.
+// Controls of variations: the values to keep, and the ranges of the values to vary.
 import { element, icon } from "./elements";
 import type { Parameter } from "./variants";
 
@@ -11,7 +11,7 @@ export interface AxisChoice {
 const lock = "M4.5 7.5V5.2a3.5 3.5 0 0 1 7 0v2.3M3.5 7.5h9v6.5h-9z";
 const longest = 24; // characters of a production
 
-/// A button for each parameter that keeps it.
+/// A button for each parameter, which locks it.
 export function makeLocks(
     parameters: readonly Parameter[],
     kept: ReadonlySet<string>,
@@ -37,7 +37,7 @@ export function makeLocks(
     });
     return element(
         "div",
-        { class: "variations-locks", role: "group", "aria-label": "Keep as it is" },
+        { class: "variations-locks", role: "group", "aria-label": "Keep unchanged" },
         element("span", { class: "variations-word" }, "Keep"),
         ...chips,
     );

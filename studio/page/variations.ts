@@ -1,4 +1,4 @@
-// The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click takes one.
+// The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click uses one.
 import type { MakePanel, Studio, Work } from "./context";
 import { button, element } from "./elements";
 import type { Opened } from "./protocol";
@@ -55,8 +55,8 @@ class Variations {
     private readonly kept = new Set<string>(["derivation length", "seed"]);
     private readonly axes: { across: AxisChoice | null; down: AxisChoice | null } = { across: null, down: null };
     private base: { facts: Opened; work: Work } | null = null; // what is varied
-    private adopted: Work["pattern"] | null = null; // that this panel put into the work
-    private isStale = false; // what is shown is not complete, or drawn with other options
+    private adopted: Work["pattern"] | null = null; // the pattern that this panel put into the work
+    private isStale = false; // the sheet is incomplete, or drawn with other options
     private first = 0; // index of the first candidate
     private tried = 0;
     private search: AbortController | null = null;
@@ -84,7 +84,7 @@ class Variations {
             return chip;
         });
         this.again = button("Next 24", () => this.more());
-        this.fromHere = button("Vary the one taken", () => this.adopt(), { kind: "primary" });
+        this.fromHere = button("Vary the chosen one", () => this.adopt(), { kind: "primary" });
         this.fromHere.hidden = true;
         this.element.append(
             element(
@@ -154,7 +154,7 @@ class Variations {
         this.restart();
     }
 
-    // The same variants, drawn in another way.
+    // The same variants, drawn differently.
     private setDraw(draw: Work["draw"]): void {
         if (!this.base) return;
         this.base = { ...this.base, work: { ...this.base.work, draw } };
@@ -163,7 +163,7 @@ class Variations {
         else this.isStale = true;
     }
 
-    // The variant that was taken becomes what is varied.
+    // Varies the chosen variant from now on.
     private adopt(): void {
         const { opened } = this.studio;
         if (opened) this.setBase(opened.facts, opened.work);
@@ -204,8 +204,8 @@ class Variations {
         }
         if (this.mode === "values") this.settings.append(...this.axisRows(base.facts));
         const seedNote = !base.facts.is_random
-            ? "This pattern makes no random choices, so every seed draws the same. " +
-              "Productions with weights do: F --> FF : 0.8"
+            ? "This pattern makes no random choices, so all seeds draw the same. " +
+              "Add weights to productions for random choices: F --> FF : 0.8"
             : this.isSeedLocked
               ? "The seed is locked."
               : "";
@@ -268,7 +268,7 @@ class Variations {
             this.status.textContent = "";
             return;
         }
-        this.status.textContent = "Looking …";
+        this.status.textContent = "Searching…";
         const cells = this.prepare(plan.cells, plan.headings);
         const found: Found[] = [];
         let tried = 0;
@@ -300,7 +300,7 @@ class Variations {
                 onTried: (count, valid) => {
                     if (search.signal.aborted || performance.now() - told < 400) return;
                     told = performance.now();
-                    this.status.textContent = `Looking … ${valid} among ${count}`;
+                    this.status.textContent = `Searching… ${valid} of ${count} are valid`;
                 },
             });
         } catch (error) {
@@ -366,7 +366,7 @@ class Variations {
         };
     }
 
-    // Empty cells, so that nothing moves while pictures come.
+    // Empty cells, so that nothing moves while pictures arrive.
     private prepare(cells: number, headings?: Plan["headings"]): HTMLButtonElement[] {
         this.sheet.classList.toggle("of-values", !!headings);
         this.sheet.style.setProperty("--columns", String(headings ? headings.across.values.length : columns));
@@ -421,7 +421,7 @@ class Variations {
             caption.textContent = variant.label;
         }
         cell.title = variant.label;
-        cell.querySelector(".unseen")!.textContent = `Take ${variant.label}`;
+        cell.querySelector(".unseen")!.textContent = `Use ${variant.label}`;
         cell.disabled = false;
         cell.classList.remove("waits");
     }
@@ -432,7 +432,7 @@ class Variations {
         this.adopted = variant.pattern;
         this.studio.store.change({ pattern: variant.pattern });
         this.adopted = this.studio.store.work.pattern;
-        this.studio.say(`Taken: ${variant.label}`);
+        this.studio.say(`Using ${variant.label}`);
         this.markTaken();
         for (const each of this.cells) each.tabIndex = each === cell ? 0 : -1;
     }
@@ -485,7 +485,7 @@ interface Plan {
     readonly headings?: { across: Axis; down: Axis };
 }
 
-// Which values to begin with.
+// Order in which values are suggested.
 function rank({ kind }: Parameter): number {
     return { define: 0, angle: 1, n: 2, seed: 3, production: 4 }[kind];
 }

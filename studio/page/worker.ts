@@ -36,9 +36,9 @@ async function answer(message: ToWorker): Promise<void> {
         const { bytes, memory } = made;
         send({ id: message.id, json: JSON.parse(made.json), bytes, memory }, [bytes.buffer as ArrayBuffer]);
     } catch (error) {
-        send({ id: message.id, broken: String(error) }); // out of memory, or a fault: the instance is not used again
+        send({ id: message.id, broken: String(error) }); // out of memory, or a crash: the instance is not used again
     }
 }
 
-onmessageerror = () => send({ failed: "this browser cannot hand a WebAssembly module to a worker" });
+onmessageerror = () => send({ failed: "this browser cannot send a WebAssembly module to a worker" });
 onmessage = (event: MessageEvent<ToWorker>) => void answer(event.data);

@@ -25,7 +25,7 @@ export function makeZlib() {
             Object.assign(stream, { output, next_out: 0, avail_out: output.length });
             const state: number = isDeflate ? deflate.deflate(stream, flush) : inflate.inflate(stream, flush);
             const left = { state, input: stream.avail_in as number, output: stream.avail_out as number };
-            stream.input = stream.output = null; // views of the module's memory, which may move
+            stream.input = stream.output = null; // views of the module's memory, which can be reallocated
             return left;
         },
         reset(handle: number): number {

@@ -1,4 +1,4 @@
-// The kolam bench without a browser: its grids, lines and symmetries are those of the libraries.
+// The kolam bench without a browser: its grids, lines and symmetries agree with those of the libraries.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -122,7 +122,7 @@ test("one line with a quarter turn, near to what is drawn", () => {
 test("a 15 x 15 grid is followed within a millisecond", () => {
     const grid = parseGrid("15x15");
     const states = random(grid, 1);
-    let least = Infinity; // other work of the machine does not count
+    let least = Infinity; // the minimum, to ignore other load on the machine
     for (let i = 0; i < 200; ++i) {
         const begin = performance.now();
         followLines(grid, states);

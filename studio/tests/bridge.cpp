@@ -1,5 +1,5 @@
-// studio/tests/bridge.cpp: request() for tests: reads requests from standard input and writes the replies to standard
-// output, each as the sizes of its JSON and its bytes in decimal, a line feed, and both.
+// studio/tests/bridge.cpp: request() for tests: reads requests from standard input and writes replies to standard
+// output. Each is preceded by a line with the sizes of its JSON and of its bytes, in decimal.
 #include "studio/bridge.h"
 
 #include <cstdio>

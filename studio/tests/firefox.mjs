@@ -1,4 +1,4 @@
-// The page in Firefox: it opens from a file, draws, reports errors, and its parts open without errors.
+// Tests the page in Firefox: it opens from a file, draws, reports errors, and all panels open without errors.
 //     node tests/firefox.mjs sikku-studio.html
 import puppeteer from "puppeteer-core";
 import assert from "node:assert/strict";
@@ -21,7 +21,7 @@ try {
         (wanted) => document.querySelector("#facts")?.textContent.includes(wanted), { timeout: 30_000 }, text);
     await facts("No errors");
 
-    // Colours on the screen.
+    // The colours on the screen.
     const colours = async () => page.evaluate(async (screenshot) => {
         const image = new Image();
         image.src = `data:image/png;base64,${screenshot}`;
@@ -52,20 +52,20 @@ try {
     await press("End");
     await page.keyboard.type("angel: 4");
     await facts("1 error");
-    assert.ok(await has(0x8c3b2a), "the last good picture stays");
+    assert.ok(await has(0x8c3b2a), "the last valid picture stays");
     for (let i = 0; i < 8; ++i) await page.keyboard.press("Backspace");
     await facts("No errors");
     await press("a");
     await page.keyboard.type("axiom: F+F+F\nground: #123456");
     await facts("No errors");
-    assert.ok(await has(0x123456), "the picture follows the text");
+    assert.ok(await has(0x123456), "the picture is redrawn from the text");
 
     for (const tab of await page.$$("[role=tab]")) {
         await tab.click();
         await new Promise((wait) => setTimeout(wait, 500));
     }
     assert.deepEqual(problems, []);
-    console.log(`Firefox ${await browser.version()}: opens, draws, reports errors, opens every part`);
+    console.log(`Firefox ${await browser.version()}: opens, draws, reports errors, opens every panel`);
 } finally {
     await browser.close();
 }

@@ -1,4 +1,4 @@
-// Loads a module of the page for a test in node.
+// Loads a module of the page for tests in node.
 import { build } from "esbuild";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,4 +1,4 @@
-// Coordinates, cameras, flights and tiles of the map: arithmetic that loses no digit.
+// Coordinates, cameras, flights and tiles of the map, computed without losing digits.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -172,7 +172,7 @@ test("the plane lies as the drawing does on the page", () => {
     assert.equal(cameraOfSheet(sheet, laid, size, facts, [["rotate", "30"]]), null);
 });
 
-// With the libraries, if they have been built.
+// Uses the libraries, if they have been built.
 const built = join(dirname(fileURLToPath(import.meta.url)), "../../build/studio/sikku-bridge.wasm");
 test(
     "tiles join without a seam",

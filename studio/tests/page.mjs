@@ -1,4 +1,4 @@
-// Tests of the page in a browser, by its labels, as a user finds them:
+// Tests the page in a browser, finding elements by their labels:
 //     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE] [--measure]
 import { chromium } from "playwright-core";
 import assert from "node:assert/strict";
@@ -42,7 +42,7 @@ const ctrl = "Control";
 const wide = { width: 1280, height: 800 };
 const narrow = { width: 390, height: 844 };
 
-// A page with the studio, and what went wrong in it.
+// Opens the studio and collects its errors.
 async function openStudio({ viewport = wide, colorScheme = "light", fragment = "", context, at = address } = {}) {
     const own =
         context ??
@@ -83,7 +83,7 @@ async function textOf(page) {
     );
 }
 
-// The map as a number: different pictures have different ones.
+// A hash of the map's picture.
 async function picture(page) {
     return page.evaluate(() => {
         const canvas = document.querySelector(".map-canvas");
@@ -104,7 +104,7 @@ async function pictureAfter(page, before) {
     throw new Error("the picture did not change");
 }
 
-// The picture when nothing is drawn any more.
+// The picture once drawing has finished.
 async function steadyPicture(page) {
     let last = await picture(page);
     for (let same = 0; same < 4;) {
@@ -133,7 +133,7 @@ async function screenshot(page, name) {
 
 const tests = [];
 const test = (name, run) => tests.push({ name, run });
-const shared = { page: null }; // of the tests that need no page of their own
+const shared = { page: null }; // for tests that do not need a new page
 
 test("the page opens and draws", async () => {
     const page = await openStudio();
@@ -144,7 +144,7 @@ test("the page opens and draws", async () => {
     await screenshot(page, "first");
 });
 
-test("typing draws again", async ({ page }) => {
+test("typing redraws the picture", async ({ page }) => {
     await text(page).click();
     const before = await steadyPicture(page);
     await page.keyboard.press(`${ctrl}+Home`);
@@ -160,7 +160,7 @@ test("typing draws again", async ({ page }) => {
 });
 
 test("errors are shown in place, and the picture stays", async ({ page }) => {
-    await page.waitForTimeout(1000); // a step of its own
+    await page.waitForTimeout(1000); // makes a separate step of the history
     const before = await steadyPicture(page);
     await text(page).click();
     await page.keyboard.press(`${ctrl}+End`);
@@ -195,7 +195,7 @@ test("keys are completed and explained", async ({ page }) => {
     await page.mouse.move(900, 400);
 });
 
-test("sliders change values, and a double click takes them back", async ({ page }) => {
+test("sliders change values, and a double click resets them", async ({ page }) => {
     const n = slider(page, "n");
     assert.match(await cost(page), /63 segments/);
     await n.focus();
@@ -248,7 +248,7 @@ test("everything can be undone, and a reload loses nothing", async ({ page }) =>
     await page.getByRole("button", { name: /^Undo/ }).click();
 });
 
-test("the seed is stepped, thrown and locked", async ({ page }) => {
+test("the seed is stepped, randomised and locked", async ({ page }) => {
     await page.getByRole("tab", { name: "Gallery" }).click();
     await page.getByRole("searchbox", { name: "Search patterns" }).fill("by chance");
     await page.locator(".card:visible").first().click();
@@ -259,10 +259,10 @@ test("the seed is stepped, thrown and locked", async ({ page }) => {
     assert.equal(Number(await seed.inputValue()), first + 1);
     await page.getByRole("button", { name: "Previous seed" }).click();
     assert.equal(Number(await seed.inputValue()), first);
-    await page.getByRole("button", { name: "Throw the dice" }).click();
+    await page.getByRole("button", { name: "Random seed" }).click();
     assert.notEqual(Number(await seed.inputValue()), first);
     await page.getByRole("button", { name: "Lock the seed" }).click();
-    assert.ok(await page.getByRole("button", { name: "Throw the dice" }).isDisabled());
+    assert.ok(await page.getByRole("button", { name: "Random seed" }).isDisabled());
     await page.getByRole("button", { name: "Lock the seed" }).click();
     await page.waitForTimeout(300);
     await screenshot(page, "plant");
@@ -390,7 +390,7 @@ test("a print that is dropped gives its pattern and values back", async ({ page 
     await page.getByRole("button", { name: "Reset n" }).click();
 });
 
-test("a link holds everything and runs nothing before it is opened", async ({ page }) => {
+test("a link contains everything and runs nothing before it is opened", async ({ page }) => {
     await slider(page, "n").focus();
     await page.keyboard.press("ArrowLeft");
     await page.getByRole("button", { name: "Share" }).click();
@@ -538,7 +538,7 @@ test("patterns that the program wrote into the page are open and in the gallery"
     rmSync(folder, { recursive: true });
 });
 
-// Times that a user feels, in milliseconds; each machine has its own.
+// Response times in milliseconds, which depend on the machine.
 async function measure() {
     const context = await browser.newContext({ viewport: wide });
     await context.addInitScript(() => {

@@ -1,6 +1,6 @@
 // Compares the libraries as WebAssembly with the native ones and with the program, byte for byte.
 //     node parity.mjs NATIVE_BUILD [--quick]
-// NATIVE_BUILD has bin/sikku and bin/sikku-bridge; the module is in build/studio.
+// NATIVE_BUILD contains bin/sikku and bin/sikku-bridge; the module is in build/studio.
 import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -12,7 +12,7 @@ const is_quick = process.argv.includes("--quick");
 const failures = [];
 const counts = new Map();
 
-/// Asks the native program, one request after the other.
+/// Sends requests to the native program, one after another.
 function native_bridge() {
     const program = spawn(join(build, "bin/sikku-bridge"), { stdio: ["pipe", "pipe", "inherit"] });
     const output = program.stdout[Symbol.asyncIterator]();
@@ -56,7 +56,7 @@ function fail(request, what) {
     failures.push(`${request.do} ${request.format ?? ""} ${request.pattern?.name ?? request.name ?? ""}: ${what}`);
 }
 
-/// Where two texts differ.
+/// The position where two texts differ.
 function difference(a, b) {
     let at = 0;
     while (at < a.length && a[at] === b[at]) ++at;
@@ -84,7 +84,7 @@ async function compare(request, bytes = Buffer.alloc(0)) {
     return expected;
 }
 
-// Vector formats, models, scores. Bytes of pictures differ as their writers do; `pixels` compares what they show.
+// Vector formats, models, scores. Picture files differ because their writers differ; `pixels` compares the pictures.
 const drawn = ["svg", "pdf", "hpgl", "gcode", "obj", "glb"];
 const played = ["mid", "musicxml", "ly", "notes.svg", "html"];
 
@@ -122,7 +122,7 @@ for (const { name, text } of patterns) {
     }
 }
 
-// Damaged patterns: pieces cut out, doubled, exchanged; characters replaced. The same ones every time.
+// Damaged patterns: parts removed, doubled or exchanged, characters replaced; the same in every run.
 let state = 1;
 const random = (below) => {
     state = (Math.imul(state, 1103515245) + 12345) >>> 0;
@@ -148,7 +148,7 @@ for (let i = 0; i < (is_quick ? 60 : 200); ++i) {
     await compare_pattern({ name: `${name}.lsys`, text: damage(text), settings: [] }, false);
 }
 
-// Links, and what is read from them; damaged ones, too.
+// Links and their contents, including damaged links.
 for (const { name, text } of patterns) {
     const pattern = { name: `${name}.lsys`, text, variant: "", settings: [["derivation length", "3"], ["seed", "7"]] };
     const shared = { pattern, draw: [["size", "A3"], ["dots", ""]], play: [["tempo", "90"]], page: { panel: "map" } };
@@ -169,7 +169,7 @@ for (const name of readdirSync(imports, { recursive: true })) {
     if (/\.(l|frm)$/.test(name)) await compare({ do: "import", name: basename(name) }, readFileSync(join(imports, name)));
 }
 
-// What the program writes.
+// Compares with the files of the program.
 const folder = mkdtempSync(join(tmpdir(), "sikku-parity-"));
 const sikku = (...command) => execFileSync(join(build, "bin/sikku"), command, { maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
 const asked = (request) => {
@@ -200,7 +200,7 @@ for (const { name, text } of patterns.filter((_, i) => !is_quick || i % 4 === 0)
     same({ do: "measure", pattern }, () => sikku("-q", "measure", name, "--json"));
     same({ do: "kolam", pattern }, () => sikku("-q", "kolam", name, "--json"));
 }
-// What the program makes from links.
+// Compares files that the program makes from links.
 for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) === 0)) {
     const pattern = { name: `${name}.lsys`, text, variant: "", settings: [["seed", "7"]] };
     const [draw, play] = [[["size", "A5"], ["rotate", "17"], ["stroke", "0.4mm navy"]], [["humanise", "0.5"]]];
@@ -214,7 +214,7 @@ for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) ==
     same({ do: "make", interpreter: "play", format: "mid", options: play, pattern }, () => written("play", "mid"));
 }
 
-// The commands that the page shows write what the page saves.
+// The commands shown by the page write the same files as the page.
 for (const [name, interpreter, format, options, settings] of [
     ["snake-kolam", "draw", "svg", [["dots", ""], ["border", "kaavi"], ["size", "A3"]], [["derivation length", "3"]]],
     ["plant-d", "draw", "svg", [["stroke", "0.3mm navy"], ["landscape", "true"]], [["seed", "11"]]],

@@ -1,5 +1,5 @@
-// Plays and draws in the built page, in headless Chromium: the lit production, loop, tempo, edits while playing, MIDI,
-// the kolam bench by pointer and keys.
+// Plays and draws in the built page, in headless Chromium: the highlighted production, loop, tempo, edits while
+// playing, MIDI, the kolam bench by pointer and keys.
 //     node tests/play_and_bench.mjs [PAGE]
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -18,7 +18,7 @@ const page = await context.newPage();
 const errors = [];
 page.on("pageerror", (error) => errors.push(error.message));
 
-// A MIDI output that keeps what it is sent, and the marks of lit notes.
+// A MIDI output that records its messages, and the marks of highlighted notes.
 await page.addInitScript(() => {
     window.midi = [];
     const port = {
@@ -63,7 +63,7 @@ async function play() {
     await page.keyboard.press("Control+a");
     await write(readFileSync(join(root, "patterns/melodies/hilbert-in-c.lsys"), "utf8"));
     await until(() => /103 notes in 16 bars/.test(document.querySelector(".play-facts").textContent));
-    await page.locator(".play-curve-canvas").click({ position: { x: 40, y: 12 } }); // out of the editor
+    await page.locator(".play-curve-canvas").click({ position: { x: 40, y: 12 } }); // leaves the editor
     await page.keyboard.press("Space");
     await until(() => window.lit.length >= 25);
     const lit = await page.evaluate(() => window.lit);
@@ -94,9 +94,9 @@ async function play() {
     await page.fill('[aria-label="Loop from bar"]', "2");
     await page.fill('[aria-label="Loop to bar"]', "2");
     await page.keyboard.press("Tab");
-    await page.click('[aria-label="Stop, and go to the beginning"]');
+    await page.click('[aria-label="Stop and return to the beginning"]');
     await until(() => /^Bar 2 of 16, beat 1/.test(document.querySelector(".play-place").textContent));
-    await page.fill('[aria-label="Tempo, quarters a minute"]', "300");
+    await page.fill('[aria-label="Tempo, quarter notes per minute"]', "300");
     await page.keyboard.press("Enter");
     await page.click(".play-main");
     for (let i = 0; i < 8; ++i) {
@@ -152,7 +152,7 @@ async function bench() {
         await text(".bench [aria-live='assertive']"),
         /^Gap between row 8 dot \d+ and row 8 dot \d+: turned back; 13 lines$/,
     );
-    await page.click("button:has-text('Make it one line')");
+    await page.click("button:has-text('Make a single line')");
     await until(() => document.querySelector(".bench-count").textContent === "1 line");
     await until(() =>
         /^One closed line around 225 dots/.test(document.querySelector(".bench-certificate").textContent),
@@ -170,7 +170,7 @@ async function bench() {
     await page.keyboard.press("Enter");
     await page.click('[aria-label="Turns and mirrors"]');
     await until(() => /symmetry D4/.test(document.querySelector(".bench-certificate").textContent));
-    await page.click("button:has-text('Make it one line')");
+    await page.click("button:has-text('Make a single line')");
     await until(() => document.querySelector("#message").textContent.length > 0);
     console.log(`${await text(".bench-count")}: ${await text("#message")}`);
 }

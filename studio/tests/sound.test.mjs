@@ -1,4 +1,4 @@
-// The studio's sound without a browser: time that does not drift, timbres by their numbers, MIDI messages.
+// The sound of the studio without a browser: timing without drift, measurements of timbres, MIDI messages.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load } from "./load.mjs";
@@ -34,7 +34,7 @@ function melodyOf(notes, { tempo = 120, end = 0, voices = 1 } = {}) {
     return readMelody({ count: notes.length, end: last, tempo, beats: 4, unit: 4, ticks, parts }, bytes);
 }
 
-/// Plays by a clock that runs unevenly, as a timer does, and gathers what is handed over.
+/// Plays by an irregular clock, like a timer, and records the notes sent.
 function player(melody) {
     const clock = { time: 3.1 };
     const heard = [];
@@ -210,7 +210,7 @@ test("MIDI: notes with times, bends for pitches between the keys, 24 clocks in a
     assert.deepEqual(songPosition(4 * 480, 480), [0xf2, 16, 0]);
 });
 
-/// Frequency near `expected`: how far the phase advances between two windows.
+/// The frequency near `expected`, from the phase difference between two windows.
 function frequencyOf(data, expected) {
     const size = Math.min(16384, Math.floor(data.length / 2));
     const hop = Math.round(0.02 * rate);
@@ -230,7 +230,7 @@ function frequencyOf(data, expected) {
     return expected + (beyond * rate) / (2 * Math.PI * hop);
 }
 
-/// The mean frequency of the power around the fundamental of a signal that repeats.
+/// The mean frequency, weighted by power, around the fundamental of a periodic signal.
 function meanFrequency(data, expected) {
     const bin = rate / data.length;
     const centre = Math.round(expected / bin);

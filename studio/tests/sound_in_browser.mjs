@@ -1,5 +1,5 @@
-// Measures the studio's sound in headless Chromium, through everything it goes through: peaks, levels, pitch, decay,
-// ends of notes, and ten minutes of notes against the clock.
+// Measures the sound of the studio in headless Chromium, after all processing: peaks, levels, pitch, decay, ends of
+// notes, and the timing of notes over ten minutes.
 //     node tests/sound_in_browser.mjs
 import assert from "node:assert/strict";
 import { build } from "esbuild";
@@ -62,7 +62,7 @@ try {
     await browser.close();
 }
 
-/// In the page.
+/// Runs in the page.
 async function measure() {
     const { SoundOutput, timbres, renderTimbre, renderedKey } = globalThis.sikku;
     const rate = 44100;
@@ -149,7 +149,7 @@ async function measure() {
         let decay = 0;
         for (let t = 0.15; t < 3.8; t += 0.05) if (level(data, t, t + 0.05) > most * 0.01) decay = t;
         const hertz = 440 * 2 ** ((key - 69) / 12);
-        // How much faster the wave moves where the note ends than it ever does in the note.
+        // The sharpest bend of the wave at the end of the note, relative to the sharpest within the note.
         let before = 0;
         let after = 0;
         const end = Math.round(1.6 * rate);
@@ -168,14 +168,14 @@ async function measure() {
             soft: centroid(soft, Math.round(0.15 * rate)),
             loud: centroid(loud, Math.round(0.15 * rate)),
             decay,
-            cents: isWide ? 0 : 1200 * Math.log2(found / hertz), // ensembles are many pitches around one: see sound.test.mjs
+            cents: isWide ? 0 : 1200 * Math.log2(found / hertz), // ensembles have many pitches around one; see sound.test.mjs
             step: Math.max(0, after - before),
         });
     }
     return rows;
 }
 
-/// In the page: each note as it is heard, against where it belongs.
+/// In the page: compares the time of each note with the expected one.
 async function tenMinutes() {
     const { Transport, readMelody } = globalThis.sikku;
     const rate = 8000;

@@ -1,4 +1,4 @@
-// Reading models, and the eye that looks at them.
+// Reading models, and views of them.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { load } from "./load.mjs";
@@ -53,9 +53,9 @@ test("a model is read", () => {
     assert.deepEqual([...model.parts[0].corners], [0, 1, 2]);
 });
 
-test("what is no model is refused", () => {
+test("invalid models are refused", () => {
     const faults = {
-        "a corner that is missing": (_, binary) => {
+        "a corner is missing": (_, binary) => {
             new Uint32Array(binary, 72)[1] = 3;
         },
         "not finite": (_, binary) => {
@@ -64,7 +64,7 @@ test("what is no model is refused", () => {
         "beyond the end": (json) => {
             json.bufferViews[2].byteLength = json.accessors[2].count = 99;
         },
-        "another type": (json) => {
+        "wrong type": (json) => {
             json.accessors[0].componentType = 5125;
         },
         "not a whole number": (json) => {
@@ -76,16 +76,16 @@ test("what is no model is refused", () => {
         "a material is missing": (json) => {
             json.meshes[0].primitives[0].material = 1;
         },
-        "no list of materials": (json) => {
+        "'materials' is not a list": (json) => {
             delete json.materials;
         },
-        "a colour that is none": (json) => {
+        "invalid colour": (json) => {
             json.materials[0].pbrMetallicRoughness.baseColorFactor = [9, 0, 0, 1];
         },
         "no triangles": (json) => {
             json.meshes[0].primitives = [];
         },
-        "without triangles": (json) => {
+        "does not consist of triangles": (json) => {
             json.meshes[0].primitives[0].mode = 1;
         },
     };

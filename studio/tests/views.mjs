@@ -27,7 +27,7 @@ const browser = await chromium.launch({
 
 const pattern = (path) => readFileSync(join(root, "patterns", `${path}.lsys`), "utf8");
 
-// A page that begins with a pattern.
+// Opens a page with a pattern.
 async function open(path, { settings = [], place = null, panel = "map", reducedMotion = "reduce" } = {}) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion });
     const page = await context.newPage();
@@ -109,7 +109,7 @@ const tests = {
         await page.getByRole("alert").filter({ hasText: "decimal number" }).waitFor();
         await page.getByLabel("Centre x, in steps").fill("-1152921504606846900.25");
         await page.getByLabel("Centre y, in steps").fill("384307168202282325.5");
-        await page.getByLabel("Steps in a pixel").fill("0.05");
+        await page.getByLabel("Steps per pixel").fill("0.05");
         await page.getByRole("button", { name: "Go there" }).click();
         await described(page, "x -1152921504606846900.25, y 384307168202282325.5");
         await page.keyboard.press("Escape");
@@ -117,7 +117,7 @@ const tests = {
         await close(page);
     },
 
-    async "the map works by keyboard, and says when the drawing is elsewhere"() {
+    async "the map works by keyboard, and reports when the drawing is outside the view"() {
         const page = await open("kolams/snake-kolam");
         await described(page, "closed");
         await map(page).focus();
@@ -136,7 +136,7 @@ const tests = {
         await close(page);
     },
 
-    async "a plant is turned, grows, and lends its view to prints"() {
+    async "a plant is turned and grown, and its view is used for prints"() {
         const page = await open("plants/bush-3d", { settings: [["derivation length", "5"]], panel: "space" });
         const triangles = page.locator(".space-facts", { hasText: "triangles" });
         await triangles.waitFor();
@@ -158,13 +158,13 @@ const tests = {
         await close(page);
     },
 
-    async "drawings without a model say so"() {
+    async "drawings without a model are reported"() {
         const page = await open("kolams/snake-kolam", { panel: "space" });
         await page.locator(".space-note", { hasText: "straight lines" }).waitFor();
         await close(page);
     },
 
-    async "24 mutations are shown, the same each time, and one is taken"() {
+    async "24 mutations are shown, the same each time, and one is chosen"() {
         const page = await open("kolams/snake-kolam", { panel: "variations" });
         await found(page, 24);
         const labels = () => variants(page).evaluateAll((cells) => cells.map((cell) => cell.title));
@@ -178,20 +178,20 @@ const tests = {
         await page.waitForFunction(() => document.querySelector(".variations-status").textContent === "");
         assert.deepEqual(await labels(), first);
         await variants(page).nth(3).click();
-        await page.locator("#message", { hasText: "Taken" }).waitFor();
+        await page.locator("#message", { hasText: "Using" }).waitFor();
         await page.waitForTimeout(700);
         const { text } = (await kept(page)).pattern;
         assert.ok(text.includes(first[3].split(" → ")[1]) || first[3].startsWith("angle"));
         await page.keyboard.press("ArrowRight");
         await page.keyboard.press("Enter");
         await page.waitForFunction(() => document.activeElement.getAttribute("aria-pressed") === "true");
-        await page.getByRole("button", { name: "Vary the one taken" }).click();
+        await page.getByRole("button", { name: "Vary the chosen one" }).click();
         await page.waitForFunction((title) => document.querySelector(".variant").title !== title, first[0]);
         await found(page, 24);
         await close(page);
     },
 
-    async "filters leave out what does not pass"() {
+    async "filters leave out variants that do not pass"() {
         const page = await open("kolams/snake-kolam", { panel: "variations" });
         await found(page, 24);
         const all = await variants(page).evaluateAll((cells) => cells.map((cell) => cell.title));
@@ -217,7 +217,7 @@ const tests = {
         await random.getByRole("button", { name: "Seeds" }).click();
         await found(random, 24);
         await random
-            .getByRole("button", { name: /Take seed/ })
+            .getByRole("button", { name: /Use seed/ })
             .nth(5)
             .click();
         await random.waitForTimeout(700);
@@ -226,7 +226,7 @@ const tests = {
     },
 };
 
-// Frames and times; each machine has its own.
+// Frame rates and times, which depend on the machine.
 async function measure() {
     const page = await open("curves/hilbert", {
         settings: [["derivation length", "60"]],

@@ -1,4 +1,4 @@
-// The board: rice powder on red earth. The gap under the pointer shows what a click would do.
+// The board: rice powder on red earth. The gap under the pointer previews the effect of a click.
 import { makeChance } from "../sound/chance";
 import type { DotGrid } from "./dot_grid";
 import { followLines } from "./dot_grid";
@@ -6,7 +6,7 @@ import { traceSegments, traceStrand } from "./strand_path";
 
 export const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
 const earth = "#7d3324";
-const line_width = 0.16 * Math.SQRT2; // as in the pattern: 0.16 of a step, which leads across a corner
+const line_width = 0.16 * Math.SQRT2; // as in the pattern: 0.16 of a step, which is the diagonal of a unit square
 const margin = 1.55; // around the outermost dots
 
 export interface Scene {
@@ -16,9 +16,9 @@ export interface Scene {
     isColoured: boolean;
     isFilled: boolean;
     hasDots: boolean;
-    cursor: number; // gap under the pointer or the keys, -1: none
+    cursor: number; // gap selected by pointer or keyboard, -1: none
     orbit: number[]; // gaps that change with it
-    isFocused: boolean; // the cursor belongs to the keys
+    isFocused: boolean; // the gap was selected by keyboard
 }
 
 export class Board {
@@ -26,7 +26,7 @@ export class Board {
     private width = 1;
     private height = 1;
     private ratio = 1;
-    private scale = 1; // pixels in a unit, which is half a spacing of dots
+    private scale = 1; // pixels per unit, which is half the dot spacing
     private readonly grain = grainTile(7, 26, 34);
     private readonly powders: HTMLCanvasElement[] = []; // by colour
     private ground: HTMLCanvasElement | null = null;
@@ -67,7 +67,7 @@ export class Board {
         this.scale = Math.min(this.width / (2 * across), this.height / (2 * up), 56);
     }
 
-    /// The gap nearest to a place of the canvas, -1 if that is beside the grid.
+    /// The gap nearest to a point of the canvas; -1 outside the grid.
     gapAt(scene: Scene, x: number, y: number): number {
         this.place(scene);
         const px = (x - this.width / 2) / this.scale;
@@ -152,7 +152,7 @@ export class Board {
         const chance = makeChance(5);
         context.fillStyle = "#f6ecd9";
         for (const { x, y } of grid.dots) {
-            // Set by hand: none is quite round, none quite in its place.
+            // Dots look placed by hand: none is perfectly round or exactly in place.
             const radius = 0.125 + 0.022 * chance();
             const tilt = Math.PI * chance();
             const dx = 0.022 * (chance() - 0.5);
@@ -174,7 +174,7 @@ export class Board {
     private drawLines(context: CanvasRenderingContext2D, scene: Scene): void {
         const paths = this.paths(scene);
         context.lineJoin = "round";
-        // A shadow, as powder lies on the earth.
+        // The shadow of the powder on the earth.
         context.save();
         context.translate(0.025, -0.045);
         context.strokeStyle = "rgb(40 10 4 / 34%)";
@@ -191,7 +191,7 @@ export class Board {
             context.strokeStyle = powder;
             context.lineWidth = line_width * 0.96;
             context.stroke(path);
-            // The hand lets more of it fall here and there.
+            // The amount of powder varies along the line.
             context.lineWidth = line_width * 1.14;
             context.lineCap = "round";
             context.setLineDash([0.5, 1.3, 1.1, 1.6, 0.3, 1.9]);
@@ -205,7 +205,7 @@ export class Board {
         return (this.powders[colour] ??= powderTile(line_colours[colour]));
     }
 
-    /// The pieces that a click would draw, over a patch of earth.
+    /// The pieces that a click would draw, on a patch of earth.
     private drawPreview(context: CanvasRenderingContext2D, scene: Scene): void {
         const { grid, states, cursor, orbit } = scene;
         const after = states.slice();

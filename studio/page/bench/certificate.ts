@@ -1,6 +1,6 @@
-// What the examination of a kolam has found, in a sentence.
+// Summarises the examination of a kolam in a sentence.
 
-/// The answer to `kolam`, as far as the bench shows it.
+/// The part of the answer to `kolam` that the bench shows.
 export interface Examined {
     kolam: boolean;
     faults: string[];

@@ -1,8 +1,8 @@
-// Kolams on a grid of dots: the gaps between dots, and the lines they form. The same rules as art/kolam/dot_grid.h, in
-// the page, so that every click is answered at once.
+// Kolams on a grid of dots: the gaps between dots, and the lines that they form. Follows the rules of
+// art/kolam/dot_grid.h, but in the page, so that clicks take effect at once.
 
 /// A gap's state is a number so that states are a Uint8Array.
-export const turned = 0; // the lines turn back on either side
+export const turned = 0; // the lines turn back on both sides
 export const crossed = 1; // two lines cross
 export type GapState = typeof turned | typeof crossed; // later: joined, where two dots share a loop
 
@@ -30,9 +30,9 @@ export interface DotGrid {
     dotAt(x: number, y: number): number; // -1: none
 }
 
-const most_gaps = 1000; // that a pattern lists, so that it can be read again
+const most_gaps = 1000; // that a pattern can list and the bench can read back
 
-const tooLarge = (): Error => new Error(`A grid on the bench has at most ${most_gaps} gaps, such as 22 x 22 dots.`);
+const tooLarge = (): Error => new Error(`A grid has at most ${most_gaps} gaps, such as 22 x 22 dots.`);
 
 /// Throws an Error with a message for the user.
 export function makeGrid(rows: number[]): DotGrid {
@@ -40,7 +40,7 @@ export function makeGrid(rows: number[]): DotGrid {
         throw new Error("Enter rows and columns, such as 7x7, or the dots of each row, such as 1-3-5-3-1.");
     }
     if (rows.some((row) => row % 2 !== rows[0] % 2)) {
-        throw new Error("Rows must all have odd numbers of dots, or all even ones: they are centred.");
+        throw new Error("All rows must have an odd number of dots, or all an even one, because they are centred.");
     }
     const count = rows.reduce((sum, row) => sum + row, 0);
     if (count > most_gaps) throw tooLarge();
@@ -110,7 +110,7 @@ export function parseCrossings(grid: DotGrid, text: string): Uint8Array | null {
 // --- lines --------------------------------------------------------------------------------------------------------
 
 export interface Lines {
-    /// Each line as the middles of the sides that it passes: x, y, x, y …
+    /// Each line as the midpoints of the sides that it crosses: x, y, x, y …
     strands: number[][];
     lineOfArc: Int32Array; // by 4 * dot + arc
 }
@@ -148,7 +148,7 @@ export function countLines(grid: DotGrid, states: Uint8Array): number {
     return followLines(grid, states).strands.length;
 }
 
-/// Whether the lines that meet in a gap are two.
+/// True if two different lines meet in a gap.
 export function joinsTwoLines(grid: DotGrid, states: Uint8Array, lines: Lines, index: number): boolean {
     const { from, to, side } = grid.gaps[index];
     const first = lines.lineOfArc[4 * from + side];

@@ -1,4 +1,4 @@
-// Gaps in words, and the way from gap to gap by keys.
+// Describes gaps in words, and finds neighbouring gaps for the keyboard.
 import type { DotGrid } from "./dot_grid";
 import { crossed } from "./dot_grid";
 import type { Kolam } from "./kolam";
@@ -19,7 +19,7 @@ export function gapText({ grid, states, count }: Kolam, gap: number): string {
     return `Gap between ${dotName(grid, from)} and ${dotName(grid, to)}: ${state}; ${counted(count, "line")}`;
 }
 
-/// What a click would do: `Turn back in 4 gaps: 3 → 5 lines`
+/// The effect of a click: `Turn back in 4 gaps: 3 → 5 lines`
 export function changeText(kolam: Kolam, gap: number): string {
     const then = kolam.countAfter(gap);
     const act = kolam.states[gap] === crossed ? "Turn back" : "Cross";

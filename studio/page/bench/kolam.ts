@@ -1,4 +1,4 @@
-// The kolam on the bench: a grid, the states of its gaps, and the symmetry that changes keep.
+// The kolam on the bench: a grid, the states of its gaps, and the symmetry that changes preserve.
 import type { DotGrid, Lines } from "./dot_grid";
 import { countLines, crossed, followLines, makeGrid, parseGrid } from "./dot_grid";
 import type { Symmetry } from "./symmetry";
@@ -27,7 +27,7 @@ export class Kolam {
         return this.states.reduce((sum, state) => sum + (state === crossed ? 1 : 0), 0);
     }
 
-    /// Another grid with the states of its gaps; the symmetry stays if the grid has it.
+    /// Sets another grid with the states of its gaps; the symmetry stays if the grid has it.
     set(grid: DotGrid, states: Uint8Array): void {
         this.grid = grid;
         if (!hasSymmetry(grid, this.symmetry)) this.symmetry = "none";
@@ -40,7 +40,7 @@ export class Kolam {
         this.lines = followLines(this.grid, this.states);
     }
 
-    /// The states after a change of a gap and all that its symmetry takes it to.
+    /// The states after changing a gap and its images under the symmetry.
     after(gap: number): Uint8Array {
         const states = this.states.slice();
         const state = 1 - states[gap];
@@ -52,7 +52,7 @@ export class Kolam {
         return countLines(this.grid, this.after(gap));
     }
 
-    /// True if the drawing had to change for it.
+    /// Returns true if this changes the drawing.
     setSymmetry(symmetry: Symmetry): boolean {
         if (!hasSymmetry(this.grid, symmetry)) return false;
         this.symmetry = symmetry;
@@ -62,7 +62,7 @@ export class Kolam {
         return this.states.join("") !== before;
     }
 
-    /// Gaps of the old grid that the new one has keep their states: from the middle, or from the upper left corner.
+    /// Gaps that both grids have keep their states, aligned at the centre or at the upper left corner.
     setGrid(grid: DotGrid): void {
         const old = this.grid;
         const isCentred = isEven(grid.rows[0] - old.rows[0]) && isEven(grid.rows.length - old.rows.length);
@@ -76,7 +76,7 @@ export class Kolam {
         this.setStates(symmetrised(this.orbits, this.states));
     }
 
-    /// The grid with more or fewer rows and columns; rows of several lengths change by two dots each. Null if nothing
+    /// The grid with more or fewer rows and columns; rows of different lengths change by two dots each. Null if nothing
     /// would be left. Throws an Error with a message for the user.
     resized(rows: number, columns: number): DotGrid | null {
         const old = this.grid.rows;

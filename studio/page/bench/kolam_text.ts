@@ -1,10 +1,10 @@
-// The bench's kolam in the text of a pattern, and back.
+// Writes the kolam of the bench into the text of a pattern, and reads it back.
 import type { DotGrid } from "./dot_grid";
 import { gridText, parseCrossings, parseGrid } from "./dot_grid";
 
 const dots_line = "dots: 0.2 step #fffaf0";
 
-/// The text with the dots drawn, or as it is.
+/// The text with dots added if wanted.
 export function withDots(text: string, hasDots: boolean): string {
     return hasDots ? `${text.trimEnd()}\n${dots_line}\n` : text;
 }
@@ -18,7 +18,7 @@ export interface ReadKolam {
     hasDots: boolean;
 }
 
-/// The grid and its crossings, if the text is one that the bench has made.
+/// The grid and its crossings, if the bench made the text.
 export function readKolam(text: string): ReadKolam | null {
     const title = /^title:.*?\bon ([\dx-]+) dots/m.exec(text);
     const crossings = /^\/\/ crossings:([\d ]*)$/m.exec(text);
@@ -46,8 +46,8 @@ function otherKeys(text: string): Map<string, string> {
     return found;
 }
 
-/// The new text with the lines that were edited by hand in the old one. `made`: the old one as the libraries wrote it,
-/// empty if that is not known.
+/// The new text with the lines that the user edited in the old one. `made`: the old text as written by the libraries;
+/// empty if unknown.
 export function withEditsOf(old: string, made: string, fresh: string): string {
     const was = otherKeys(made);
     const now = otherKeys(fresh);

@@ -1,4 +1,4 @@
-// What shapes the kolam, beside the board.
+// The controls beside the board.
 import { button, element, icon } from "../elements";
 import { gridText } from "./dot_grid";
 import { counted } from "./gap_names";
@@ -27,7 +27,7 @@ const symmetry_icons: Record<Symmetry, string> = {
 const dice_icon = "M3 3h10v10H3zM5.7 5.7h.01M10.3 5.7h.01M8 8h.01M5.7 10.3h.01M10.3 10.3h.01";
 const keys_text =
     "Click a gap between two dots to cross the lines there or turn them back; drag to change several. "
-    + "On the board, arrow keys move from gap to gap and space changes one.";
+    + "On the board, the arrow keys select a gap and the space key changes it.";
 
 export interface Look {
     isColoured: boolean;
@@ -69,7 +69,7 @@ export class Side {
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
     private readonly boxes = new Map<keyof Look, HTMLInputElement>();
     private kolam: Kolam | null = null;
-    private counted: unknown = null; // the lines that were counted last
+    private counted: unknown = null; // the lines counted last
     private chances: Chances = { density: 0.7, seed: 1 };
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
 
@@ -82,7 +82,7 @@ export class Side {
             this.section(
                 "Look",
                 this.toggle("Each line in its own colour", "isColoured"),
-                this.toggle("Fill every other field", "isFilled"),
+                this.toggle("Fill alternate fields", "isFilled"),
                 this.toggle("Dots", "hasDots"),
             ),
             element("p", { class: "bench-keys", id: "bench-keys" }, keys_text),
@@ -163,7 +163,7 @@ export class Side {
             const seed = Number(this.seed.value);
             acts.chances({ ...this.chances, seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : this.chances.seed });
         });
-        const dice = button("Throw the dice", () => acts.chances({ ...this.chances, seed: this.chances.seed + 1 }), {
+        const dice = button("Random kolam", () => acts.chances({ ...this.chances, seed: this.chances.seed + 1 }), {
             icon: dice_icon,
             shows: true,
         });
@@ -172,7 +172,7 @@ export class Side {
             element(
                 "div",
                 { class: "toolbar" },
-                button("Make it one line", () => acts.single(), { kind: "primary" }),
+                button("Make a single line", () => acts.single(), { kind: "primary" }),
                 button("Cross all", () => acts.setAll(() => 1)),
                 button("Turn all back", () => acts.setAll(() => 0)),
                 button("Swap all", () => acts.setAll((state) => 1 - state)),
@@ -199,7 +199,7 @@ export class Side {
         return element("label", { class: "switch" }, box, label);
     }
 
-    /// Says why a grid is refused.
+    /// Shows why a grid is invalid.
     refuse(message: string): void {
         this.problem.textContent = message;
         this.problem.hidden = false;
@@ -213,7 +213,7 @@ export class Side {
             this.counted = kolam.lines;
             this.count.textContent = counted(count, "line");
             this.count.classList.toggle("single", count === 1);
-            // Until the libraries have examined it.
+            // Shown until the libraries have examined the kolam.
             const gaps = `${kolam.crossings} of ${counted(grid.gaps.length, "gap")} crossed`;
             this.certificate.textContent = `${counted(grid.dots.length, "dot")}, ${gaps}.`;
         }

@@ -1,4 +1,4 @@
-// A line as the libraries draw it: its points control a uniform cubic B-spline (engine/geometry/spline.h).
+// Traces a line as the libraries draw it: its points control a uniform cubic B-spline (engine/geometry/spline.h).
 
 export interface Pen {
     moveTo(x: number, y: number): void;
@@ -6,13 +6,13 @@ export interface Pen {
     closePath(): void;
 }
 
-/// The closed curve of points x, y, x, y …
+/// Traces the closed curve of points x, y, x, y …
 export function traceStrand(pen: Pen, points: readonly number[]): void {
     traceSegments(pen, points, 0, points.length / 2);
     pen.closePath();
 }
 
-/// The pieces from the point `first` on, so many of them.
+/// Traces `count` pieces from the point `first`.
 export function traceSegments(pen: Pen, points: readonly number[], first: number, count: number): void {
     const size = points.length / 2;
     const at = (i: number): number => 2 * (((i % size) + size) % size);

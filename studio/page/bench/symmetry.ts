@@ -1,4 +1,4 @@
-// The symmetries of a grid of dots, and which gaps they take to each other.
+// The symmetries of a grid of dots, and the orbits of its gaps.
 import type { DotGrid } from "./dot_grid";
 import { countLines } from "./dot_grid";
 
@@ -23,8 +23,8 @@ const generators: Record<Symmetry, Isometry[]> = {
 
 export const symmetries: { name: Symmetry; label: string }[] = [
     { name: "none", label: "No symmetry" },
-    { name: "mirror-x", label: "Left and right mirror each other" },
-    { name: "mirror-y", label: "Top and bottom mirror each other" },
+    { name: "mirror-x", label: "Left-right mirror" },
+    { name: "mirror-y", label: "Top-bottom mirror" },
     { name: "mirrors", label: "Both mirrors" },
     { name: "C2", label: "Half turn" },
     { name: "C4", label: "Quarter turn" },
@@ -42,7 +42,7 @@ export function hasSymmetry(grid: DotGrid, symmetry: Symmetry): boolean {
     );
 }
 
-/// For each gap the gaps of its orbit, itself included.
+/// For each gap, the gaps of its orbit, including itself.
 export function gapOrbits(grid: DotGrid, symmetry: Symmetry): number[][] {
     const byPlace = new Map(grid.gaps.map((gap, i) => [`${gap.x} ${gap.y}`, i]));
     const orbits: number[][] = grid.gaps.map(() => []);
@@ -65,7 +65,7 @@ export function gapOrbits(grid: DotGrid, symmetry: Symmetry): number[][] {
     return orbits;
 }
 
-/// Each orbit gets the state that most of its gaps have.
+/// Sets each orbit to the state of most of its gaps.
 export function symmetrised(orbits: number[][], states: Uint8Array): Uint8Array {
     const result = states.slice();
     for (const orbit of new Set(orbits)) {
@@ -75,8 +75,8 @@ export function symmetrised(orbits: number[][], states: Uint8Array): Uint8Array 
     return result;
 }
 
-/// Changes whole orbits as long as that leaves fewer lines; the drawing stays as near to itself as this finds.
-/// Null if several lines are left.
+/// Changes whole orbits as long as that reduces the number of lines, with few changes to the drawing. Null if several
+/// lines remain.
 export function singleLineNear(
     grid: DotGrid,
     orbits: number[][],
@@ -87,7 +87,7 @@ export function singleLineNear(
     const tries = 40;
     for (let attempt = 0; attempt < tries; ++attempt) {
         const found = states.slice();
-        // Later attempts begin a few changes away.
+        // Later attempts start a few changes away.
         for (let i = 0; i < attempt; ++i) flip(found, all[Math.floor(chance() * all.length)]);
         let lines = countLines(grid, found);
         for (let isImproved = true; isImproved && lines > 1;) {

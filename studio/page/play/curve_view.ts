@@ -1,5 +1,5 @@
-// The curve as it sounds: the whole path faint, what has sounded in the colour of its voice, what sounds bright, and
-// the place where the music is.
+// The curve as it is played: the whole path faint, past notes in the colour of their voice, current notes bright, and
+// the current position.
 import type { Melody } from "../sound/melody";
 import { eachSounding, firstFrom } from "../sound/melody";
 import type { Ink } from "./surface";
@@ -7,10 +7,10 @@ import { readInk, Surface } from "./surface";
 import { voiceColour } from "./voice_colours";
 
 const room = 28; // pixels around the curve
-const most_traced = 6000; // notes that a frame adds to a layer: browsers paint later than they are told to
-const fine_scale = 4; // pixels in a step below which a glass shows what sounds
+const most_traced = 6000; // notes that a frame adds to a layer, because browsers paint asynchronously
+const fine_scale = 4; // pixels per step below which a magnifier shows the current notes
 const glass_scale = 15;
-const glass_notes = 500; // before and after what sounds
+const glass_notes = 500; // before and after the current one
 
 export class CurveView {
     private readonly surface: Surface;
@@ -21,8 +21,8 @@ export class CurveView {
     private faintCount = 0; // notes that the layers show
     private doneCount = 0;
     private byEnd = new Uint32Array(0);
-    private before: Int32Array = new Int32Array(0); // the note that leads to each, without a jump
-    private scale = 1; // pixels in a turtle step
+    private before: Int32Array = new Int32Array(0); // the note that leads to each without a jump
+    private scale = 1; // pixels per turtle step
     private left = 0;
     private top = 0;
     private muted: (voice: number) => boolean = () => false;
@@ -82,7 +82,7 @@ export class CurveView {
         return Math.min(6, Math.max(Math.min(1.3, this.scale * 0.8), this.scale * 0.17));
     }
 
-    /// True if some of it is left for the next frame.
+    /// True if work is left for the next frame.
     draw(tick: number): boolean {
         const { surface, melody, faint, done } = this;
         const { context } = surface;
@@ -111,7 +111,7 @@ export class CurveView {
         this.faintCount = end;
     }
 
-    /// The run that leads to the note, and the note's piece up to a share of it.
+    /// Traces the run that leads to the note, and a share of the note's own piece.
     private trace(melody: Melody, layer: CanvasRenderingContext2D, i: number, share: number): void {
         const { path } = melody;
         const before = this.before[i];
@@ -137,7 +137,7 @@ export class CurveView {
 
     private drawDone(melody: Melody, layer: CanvasRenderingContext2D, tick: number): void {
         if (this.doneCount > 0 && !this.ended(melody, this.doneCount - 1, tick)) {
-            layer.clearRect(0, 0, this.surface.width, this.surface.height); // back to an earlier place
+            layer.clearRect(0, 0, this.surface.width, this.surface.height); // moved back to an earlier position
             this.doneCount = 0;
         }
         layer.lineCap = "round";
@@ -158,7 +158,7 @@ export class CurveView {
         }
     }
 
-    /// Where the curve is too fine to be followed: the notes around the one that sounds, larger.
+    /// A magnifier for curves that are too fine: the notes around the current one, enlarged.
     private drawGlass(melody: Melody, tick: number): void {
         const { context, width, height } = this.surface;
         const side = Math.min(220, height * 0.5, width * 0.4);
@@ -247,7 +247,7 @@ export class CurveView {
         context.stroke();
     }
 
-    /// The tick of the piece that is nearest to a place of the canvas, within 40 pixels.
+    /// The tick of the piece nearest to a point of the canvas, within 40 pixels.
     tickAt(x: number, y: number): number | null {
         const { melody } = this;
         if (!melody) return null;
@@ -270,8 +270,8 @@ export class CurveView {
     }
 }
 
-/// The note of the same voice from whose end a straight run leads to each note; -1 where the curve jumps, and where
-/// another voice sounds that run.
+/// The note of the same voice from whose end a straight run leads to each note; -1 where the curve jumps, or if
+/// another voice plays that run.
 function leading(melody: Melody): Int32Array {
     const before = new Int32Array(melody.count).fill(-1);
     const last = new Int32Array(melody.voices).fill(-1);

@@ -1,4 +1,4 @@
-// Sending the melody to instruments that are connected by MIDI, where the browser can.
+// Sends the melody to connected MIDI instruments, if the browser supports it.
 import { button, element } from "../elements";
 import type { Player } from "./player";
 
@@ -6,7 +6,7 @@ export function makeMidiMenu(player: Player): HTMLElement {
     const note = element(
         "p",
         { class: "play-hint", role: "status" },
-        "Notes, clock, start and stop go to a connected instrument or another program.",
+        "Sends notes, clock, start and stop to a connected instrument or another program.",
     );
     const ports = element("select", { id: "play-midi-port" }, element("option", { value: "" }, "None"));
     const alone = element("input", { type: "checkbox", checked: true });
@@ -16,7 +16,7 @@ export function makeMidiMenu(player: Player): HTMLElement {
         { class: "play-midi", hidden: true },
         element("div", { class: "field" }, element("label", { for: "play-midi-port" }, "MIDI output"), ports),
         element("label", { class: "switch" }, clock, "Send clock, start and stop"),
-        element("label", { class: "switch" }, alone, "Silence the sound of this page"),
+        element("label", { class: "switch" }, alone, "Mute the sound of this page"),
     );
     let access: MIDIAccess | null = null;
 
@@ -43,7 +43,7 @@ export function makeMidiMenu(player: Player): HTMLElement {
                     access = await navigator.requestMIDIAccess();
                 } catch {
                     note.textContent =
-                        "The browser has not allowed MIDI. Allow it in the settings of this page, then connect again.";
+                        "The browser has blocked MIDI. Allow it in the settings of this page, then connect again.";
                     return;
                 }
                 access.onstatechange = list;
@@ -56,7 +56,7 @@ export function makeMidiMenu(player: Player): HTMLElement {
     for (const control of [ports, alone, clock]) control.addEventListener("change", apply);
     if (!("requestMIDIAccess" in navigator)) {
         connect.disabled = true;
-        note.textContent = "This browser has no MIDI. Save the melody as a MIDI file instead.";
+        note.textContent = "This browser does not support MIDI. Save the melody as a MIDI file instead.";
     }
     return element("div", { class: "play-section" }, connect, settings, note);
 }

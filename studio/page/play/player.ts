@@ -1,4 +1,4 @@
-// The melody of the work and the clock of its sound. Without an audio device the curve is played in silence.
+// Plays the melody of the work by the clock of the audio device; without a device, plays silently.
 import type { Studio } from "../context";
 import { MidiOutput } from "../sound/midi_output";
 import type { Melody } from "../sound/melody";
@@ -11,14 +11,14 @@ import { Timer } from "../sound/timer";
 import type { NoteSink } from "../sound/transport";
 import { Transport } from "../sound/transport";
 
-const interval = 25; // milliseconds between two looks ahead
+const interval = 25; // milliseconds between scheduling notes
 const most_prepared = 60; // keys rendered before the first note
 const audition_notes = 5;
-const prepare_seconds = 1.5; // that the first note waits for them at most
+const prepare_seconds = 1.5; // longest wait of the first note for them
 
 export interface Voice extends VoiceSettings {
     name: string;
-    chosen: string; // a timbre, or empty: that of the part's instrument
+    chosen: string; // a timbre; empty: that of the part's instrument
 }
 
 export class Player {
@@ -26,17 +26,17 @@ export class Player {
     melody: Melody | null = null;
     voices: Voice[] = [];
     volume = 0.8;
-    onChange: () => void = () => {}; // playing or not, and voices
+    onChange: () => void = () => {}; // called when playback or voices change
     isStarting = false;
 
     private context: AudioContext | null = null;
     private output: SoundOutput | null = null;
     private renderer: Renderer | null = null;
     private midi: MidiOutput | null = null;
-    private isSilent = false; // only MIDI is heard
+    private isSilent = false; // only MIDI plays
     private readonly timer = new Timer(() => this.tick());
     private lastPrepared = 0;
-    private wallOffset = Infinity; // of the page's clock to the sound's, milliseconds
+    private wallOffset = Infinity; // from the page's clock to the sound's, milliseconds
 
     constructor(private readonly studio: Studio) {
         const each = (act: (sink: NoteSink) => void): void => {
@@ -66,19 +66,19 @@ export class Player {
         return this.context ? this.context.currentTime : performance.now() / 1000;
     }
 
-    /// The time of the sound that is heard at this moment.
+    /// The time of the sound being heard now.
     heard(): number {
         const { context } = this;
         if (!context) return this.now();
         const plain = context.currentTime - Math.min(0.5, context.outputLatency || context.baseLatency || 0);
         const stamp = context.getOutputTimestamp?.();
         if (!stamp?.contextTime || !stamp.performanceTime) return plain;
-        // Between two blocks of the device the clock of the page goes on.
+        // Between two blocks of the device, the clock of the page fills in.
         const smooth = stamp.contextTime + (performance.now() - stamp.performanceTime) / 1000;
         return Math.abs(smooth - plain) < 0.12 ? smooth : plain;
     }
 
-    /// Where the music is for the listener.
+    /// The position in the music that the listener hears now.
     place(): number {
         return this.transport.tickAt(this.heard());
     }
@@ -130,7 +130,7 @@ export class Player {
         this.onChange();
     }
 
-    /// A few notes of a voice in its timbre.
+    /// Plays a few notes of a voice in its timbre.
     private async audition(voice: number): Promise<void> {
         const { melody } = this;
         this.open();
@@ -172,7 +172,7 @@ export class Player {
         this.output?.master.setVolume(volume);
     }
 
-    /// Notes go to that port, too, or instead.
+    /// Sends notes to a port, in addition to the sound or instead of it.
     setMidi(
         port: { send(bytes: number[], time?: number): void; clear?(): void } | null,
         isAlone: boolean,
@@ -190,8 +190,8 @@ export class Player {
         if (wasPlaying) this.transport.play();
     }
 
-    /// Milliseconds of the page's clock at which a time of the sound is heard. The two clocks are compared again and
-    /// again, and the mean is used: a single look may be off by a block of the device.
+    /// Milliseconds of the page's clock at which a time of the sound is heard. The two clocks are compared repeatedly
+    /// and averaged, because a single comparison can be off by a block of the device.
     private wallTime(time: number): number {
         const offset = performance.now() - this.heard() * 1000;
         const isNear = Math.abs(offset - this.wallOffset) < 40;
@@ -211,7 +211,7 @@ export class Player {
             this.applyVoices();
         } catch {
             this.context = null;
-            this.studio.say("This browser offers no sound; the curve plays in silence.", "warning");
+            this.studio.say("This browser cannot play sound; the curve plays silently.", "warning");
         }
     }
 
@@ -241,7 +241,7 @@ export class Player {
         void this.context?.close().catch(() => {});
         this.renderer?.close();
         this.context = this.output = this.renderer = null;
-        this.studio.say("The browser has not opened a sound device; the curve plays in silence.", "warning");
+        this.studio.say("The browser could not open a sound device; the curve plays silently.", "warning");
     }
 
     pause(): void {
@@ -267,7 +267,7 @@ export class Player {
         this.prepareAhead(false);
     }
 
-    /// Renders what sounds within the next seconds.
+    /// Renders the notes of the next seconds.
     private prepareAhead(isUrgent: boolean): Promise<void> {
         const { melody, renderer } = this;
         const now = performance.now();

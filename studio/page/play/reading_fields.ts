@@ -4,7 +4,7 @@ import type { Help, Options } from "../protocol";
 
 const names = "scale tonic instrument unit meter mapping vertical runs velocity range transpose bars".split(" ");
 
-/// The fields, in the order of importance; not while one of them is being edited.
+/// Shows the fields, the most important first, unless one of them is being edited.
 export function showReading(place: HTMLElement, help: Help, options: Options, act: OptionAct): void {
     if (place.contains(document.activeElement)) return;
     const rows = names.flatMap((name) => offered(help.play.options).filter((option) => option.name === name));

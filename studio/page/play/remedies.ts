@@ -1,4 +1,4 @@
-// What helps where a curve gives no melody.
+// Suggestions for curves that give no melody.
 import type { Options, PatternRequest } from "../protocol";
 
 export interface Remedy {
@@ -7,8 +7,8 @@ export interface Remedy {
     pattern?: Required<PatternRequest>;
 }
 
-/// The pattern with moves (f) as steps that are drawn (F); every place in the text stays where it is. Null if it
-/// draws already, or does not move.
+/// The pattern with moves (f) replaced by drawn steps (F), without changing places in the text. Null if it already
+/// draws, or does not move.
 export function withMovesDrawn(pattern: Required<PatternRequest>): Required<PatternRequest> | null {
     let inWord = false;
     let draws = false;
@@ -30,7 +30,7 @@ function replaced(options: Options, name: string, value: string): Options {
     return [...options.filter(([each]) => each !== name), [name, value]];
 }
 
-/// In the order in which they are offered.
+/// The suggestions for an error, in the order in which they are shown.
 export function remediesFor(message: string, pattern: Required<PatternRequest>, options: Options): Remedy[] {
     const found: Remedy[] = [];
     const isSet = (name: string, value: string) => options.some(([each, given]) => each === name && given === value);
@@ -43,7 +43,7 @@ export function remediesFor(message: string, pattern: Required<PatternRequest>, 
             found.push({ label: "Play moves (f) as if they were drawn (F)", pattern: drawn });
         } else {
             if (!isSet("vertical", "voice")) {
-                found.push({ label: "Let vertical runs sound", options: replaced(options, "vertical", "voice") });
+                found.push({ label: "Play vertical runs", options: replaced(options, "vertical", "voice") });
             }
             if (!isSet("mapping", "symbols")) {
                 found.push({ label: "Read symbols as notes", options: replaced(options, "mapping", "symbols") });

@@ -8,13 +8,13 @@ import { voiceColour } from "./voice_colours";
 
 const ruler = 24; // pixels
 const gutter = 34;
-const head_share = 0.3; // of the width: where the music is while the notes move
+const head_share = 0.3; // share of the width: the current position while the notes move
 const drag_start = 6; // pixels
 
 export interface RollActs {
     seek(tick: number): void;
     loop(loop: Loop): void;
-    point(text: string | null): void; // what the pointer is over
+    point(text: string | null): void; // describes the note under the pointer
     redraw(): void;
 }
 
@@ -24,7 +24,7 @@ export class RollView {
     private melody: Melody | null = null;
     private ink: Ink = readInk();
     private left = 0; // tick at the left edge
-    private pixels = 0.05; // in a tick
+    private pixels = 0.05; // per tick
     private low = 55;
     private high = 75;
     private shownLoop: Loop | null = null;
@@ -84,7 +84,7 @@ export class RollView {
         this.pixels = Math.min(1.5, Math.max(Math.min(least, 0.2), width / ticks));
     }
 
-    /// By a factor, around a place of the canvas or where the music is.
+    /// Zooms by a factor, around a point of the canvas or the current position.
     zoom(factor: number, x = gutter + head_share * (this.surface.width - gutter)): void {
         if (!this.melody) return;
         const tick = this.tickOf(x);
@@ -111,7 +111,7 @@ export class RollView {
         return ruler + (this.high - key + 0.5) * this.rowHeight();
     }
 
-    /// The bars stay with the music: they move under its head, or turn like pages where motion is not wanted.
+    /// Follows the music: scrolls under the playhead, or turns pages if the user prefers reduced motion.
     follow(tick: number, isPlaying: boolean): void {
         if (!this.melody || !this.follows || this.drag) return;
         if (isPlaying && !prefersStillness()) this.scrollTo(tick - head_share * this.span);
@@ -203,7 +203,7 @@ export class RollView {
             const voice = melody.voice[i];
             const x = this.x(melody.onset[i]);
             const width = melody.duration[i] * this.pixels;
-            // Of notes that fall on one pixel one is seen.
+            // Draws only one of the notes that fall on the same pixel.
             if (width < 0.7 && x - lastX[voice] < 0.7 && melody.key[i] === lastKey[voice]) return;
             lastX[voice] = x;
             lastKey[voice] = melody.key[i];
@@ -237,7 +237,7 @@ export class RollView {
         context.fill();
     }
 
-    // --- the pointer ----------------------------------------------------------------------------------------------
+    // --- pointer --------------------------------------------------------------------------------------------------
 
     private place(event: MouseEvent): { x: number; y: number } {
         const box = this.canvas.getBoundingClientRect();

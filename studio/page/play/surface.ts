@@ -12,7 +12,7 @@ export interface Ink {
     isDark: boolean;
 }
 
-/// The page's colours, as they are now.
+/// The present colours of the page.
 export function readInk(): Ink {
     const style = getComputedStyle(document.documentElement);
     const of = (name: string) => style.getPropertyValue(`--${name}`).trim();
@@ -45,7 +45,7 @@ export class Surface {
         }).observe(canvas);
     }
 
-    /// True if the size is another.
+    /// True if the size has changed.
     fit(): boolean {
         const { clientWidth, clientHeight } = this.canvas;
         const ratio = Math.min(3, window.devicePixelRatio || 1);
@@ -60,7 +60,7 @@ export class Surface {
         return true;
     }
 
-    /// Another canvas of the same size, to keep what does not change.
+    /// Another canvas of the same size, for parts that do not change.
     layer(): CanvasRenderingContext2D {
         const canvas = document.createElement("canvas");
         canvas.width = this.canvas.width;

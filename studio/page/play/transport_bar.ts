@@ -1,4 +1,4 @@
-// Play, stop, loop, tempo, volume, and where the music is.
+// Play, stop, loop, tempo, volume, and the current position.
 import { button, element, icon } from "../elements";
 import type { Melody } from "../sound/melody";
 import { barsOf, placeText } from "../sound/melody";
@@ -12,7 +12,7 @@ const icons = {
     stop: "M4 4h8v8H4z",
     loop: "M3 8V7a3 3 0 0 1 3-3h6.5M10.5 2l2 2-2 2M13 8v1a3 3 0 0 1-3 3H3.5M5.5 14l-2-2 2-2",
 };
-const slowest = 20; // of the slider; more can be typed
+const slowest = 20; // of the slider; the field accepts other values
 const fastest = 300;
 
 function timeText(seconds: number): string {
@@ -48,7 +48,7 @@ export class TransportBar {
         kind: "primary play-main",
         icon: icons.play,
     });
-    private readonly stop = button("Stop, and go to the beginning", () => this.player.stop(), { icon: icons.stop });
+    private readonly stop = button("Stop and return to the beginning", () => this.player.stop(), { icon: icons.stop });
     private readonly loop = button("Loop", () => this.setLooping(!this.isLooping), { icon: icons.loop });
     private readonly from = barField("Loop from bar");
     private readonly to = barField("Loop to bar");
@@ -59,7 +59,7 @@ export class TransportBar {
     private readonly tempoField = element("input", {
         type: "text",
         inputmode: "numeric",
-        "aria-label": "Tempo, quarters a minute",
+        "aria-label": "Tempo, quarter notes per minute",
         class: "number",
     });
     private readonly volume = element("input", { type: "range", id: "play-volume", min: 0, max: 100, step: 1 });
@@ -125,7 +125,7 @@ export class TransportBar {
     private setLooping(isLooping: boolean): void {
         const { melody } = this.player;
         if (isLooping && melody) {
-            // Four bars from where the music is, unless it is in the range that was chosen.
+            // Four bars from the current position, unless it is in the chosen range.
             const bar = Math.min(barsOf(melody), Math.floor(this.player.place() / melody.bar) + 1);
             const [from, to] = this.bars;
             if (bar < from || bar > to) this.bars = [bar, Math.min(barsOf(melody), bar + 3)];
@@ -134,7 +134,7 @@ export class TransportBar {
         this.applyLoop();
     }
 
-    /// A range that was dragged over the bars.
+    /// Sets the range that was dragged over the bars.
     setLoop(loop: Loop): void {
         const { melody } = this.player;
         if (!melody) return;
@@ -175,11 +175,11 @@ export class TransportBar {
         const share = (Math.min(fastest, Math.max(slowest, tempo)) - slowest) / (fastest - slowest);
         this.tempo.valueAsNumber = tempo;
         this.tempo.style.setProperty("--at", `${share * 100}%`);
-        this.tempo.setAttribute("aria-valuetext", `${tempo} quarters a minute`);
+        this.tempo.setAttribute("aria-valuetext", `${tempo} quarter notes per minute`);
         if (document.activeElement !== this.tempoField) this.tempoField.value = String(tempo);
     }
 
-    /// Whether it plays, or has something to play.
+    /// Shows whether the player is playing, and whether there is anything to play.
     update(): void {
         const { melody, transport, isStarting } = this.player;
         const isActive = transport.playing || isStarting;

@@ -1,4 +1,4 @@
-// The volume of the last visit.
+// Remembers the volume between visits.
 
 const name = "sikku-volume";
 const usual = 0.8;
@@ -8,7 +8,7 @@ export function rememberedVolume(): number {
         const value = Number(localStorage.getItem(name) ?? usual);
         return value >= 0 && value <= 1 ? value : usual;
     } catch {
-        return usual; // a page without a memory
+        return usual; // no storage available
     }
 }
 
@@ -16,6 +16,6 @@ export function rememberVolume(volume: number): void {
     try {
         localStorage.setItem(name, String(volume));
     } catch {
-        // a page without a memory
+        // no storage available
     }
 }

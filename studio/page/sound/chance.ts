@@ -1,6 +1,6 @@
-// Chance that is the same in every browser: a timbre sounds the same today and tomorrow.
+// Random numbers that are the same in every browser, so that a timbre always sounds the same.
 
-/// Numbers in [0, 1). Source: Steele, Lea & Flood 2014, reduced to 32 bits (mulberry32).
+/// A generator of numbers in [0, 1). Source: Steele, Lea & Flood 2014, reduced to 32 bits (mulberry32).
 export function makeChance(seed: number): () => number {
     let state = seed >>> 0;
     return () => {

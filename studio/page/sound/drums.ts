@@ -1,10 +1,10 @@
-// Drums by the keys of General MIDI's channel 10.
+// Drums for the keys of General MIDI's channel 10.
 import { makeChance } from "./chance";
 import { addKnock, onset, partials } from "./partials";
 import type { Sample } from "./sample";
 import { faded, keyFrequency } from "./sample";
 
-/// A skin whose pitch falls as it calms down.
+/// A drum skin whose pitch falls as it decays.
 function skin(rate: number, from: number, to: number, fall: number, seconds: number): Float32Array {
     const data = new Float32Array(Math.round(seconds * rate));
     let phase = 0;
@@ -43,7 +43,7 @@ function mixed(parts: [Float32Array, number][]): Float32Array {
     return data;
 }
 
-/// A loaded skin, as of the mridangam: its partials are nearly harmonic. Source: Raman 1934.
+/// A loaded skin, as on the mridangam, whose partials are nearly harmonic. Source: Raman 1934.
 function loadedSkin(rate: number, key: number, seconds: number, closed: boolean): Float32Array {
     const list = [1, 2, 3.003, 4.006, 5.01].map((ratio, k) => ({
         ratio,
@@ -72,7 +72,7 @@ function clap(rate: number): Float32Array {
     return data;
 }
 
-/// The stroke that a key means; other keys are strokes of a mridangam of their pitch.
+/// The sound of a key; keys without a drum are strokes of a mridangam at their pitch.
 function stroke(key: number, rate: number): Float32Array {
     switch (key) {
         case 35:
@@ -166,7 +166,7 @@ export function drum(key: number, rate: number): Sample {
     return { data: faded(stroke(Math.round(key), rate), rate, 0.02), frequency: 0, loops: false };
 }
 
-/// A drum that follows the melody.
+/// A drum tuned to the melody.
 export function tunedDrum(key: number, rate: number): Sample {
     return { data: faded(loadedSkin(rate, key, 0.9, false), rate, 0.1), frequency: keyFrequency(key), loops: false };
 }

@@ -1,6 +1,6 @@
-// The inverse Fourier transform: a sound from its spectrum.
+// The inverse Fourier transform, which makes a sound from its spectrum.
 
-/// The real signal of `size` samples whose bin k has amplitude and phase; `size` is a power of two.
+/// The real signal of `size` samples from the amplitude and phase of each bin; `size` is a power of two.
 export function signalOf(size: number, amplitude: Float64Array, phase: Float64Array): Float32Array {
     // Even and odd samples are the real and imaginary parts of a signal of half the size. Bin k of the whole and its
     // conjugate at size - k become bins k and half - k of that signal.
@@ -43,7 +43,7 @@ function rootsOf(half: number): { cosines: Float64Array; sines: Float64Array } {
     return found;
 }
 
-/// In place, with positive exponents and without a factor.
+/// Transforms in place, with positive exponents and without scaling.
 function transform(real: Float64Array, imaginary: Float64Array): void {
     const size = real.length;
     for (let i = 1, j = 0; i < size; ++i) {

@@ -1,4 +1,4 @@
-// What all voices go through: a room, and a limit that no sum of notes passes.
+// The effects on the sum of all voices: reverb, and a limiter.
 import { makeChance } from "./chance";
 
 const ceiling = 0.891; // -1 dBFS
@@ -43,7 +43,7 @@ export class Master {
         this.setVolume(0.8);
     }
 
-    /// From 0 to 1.
+    /// Sets the volume, from 0 to 1.
     setVolume(share: number): void {
         this.volume.gain.setTargetAtTime(1.8 * share * share, this.context.currentTime, 0.015);
     }
@@ -51,7 +51,7 @@ export class Master {
 
 const clip_range = 4;
 
-/// Straight up to two thirds of the ceiling, then bending towards it; beyond the range the curve's ends hold.
+/// The curve of the limiter: linear up to two thirds of the ceiling, then bending towards it, and constant beyond.
 function clipCurve(): Float32Array<ArrayBuffer> {
     const size = 8193;
     const knee = 0.66 * ceiling;
@@ -64,7 +64,7 @@ function clipCurve(): Float32Array<ArrayBuffer> {
     return curve;
 }
 
-/// Noise that decays and darkens, and a few early echoes.
+/// The impulse response of a room: noise that decays and darkens, and a few early echoes.
 function impulse(context: BaseAudioContext): AudioBuffer {
     const rate = context.sampleRate;
     const length = Math.round(room_seconds * rate);

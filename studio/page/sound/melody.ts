@@ -1,16 +1,16 @@
-// The notes of a melody as columns, in the order of their onsets.
+// The notes of a melody as arrays, in the order of their onsets.
 import type { Notes } from "../protocol";
 
-const doubles = 10; // of a note in the answer to `notes`
+const doubles = 10; // per note in the answer to `notes`
 
 export interface Melody {
     readonly count: number;
-    readonly end: number; // ticks, rests included
-    readonly ticks: number; // of a quarter
+    readonly end: number; // ticks, including rests
+    readonly ticks: number; // per quarter note
     readonly bar: number; // ticks
     readonly beat: number; // ticks
-    readonly beats: number; // of a bar
-    readonly tempo: number; // quarters a minute
+    readonly beats: number; // per bar
+    readonly tempo: number; // quarter notes per minute
     readonly parts: Notes["parts"];
     readonly voices: number;
     readonly partOfVoice: number[];
@@ -78,7 +78,7 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
     };
 }
 
-/// Voices come one after the other; here they are mixed.
+/// Merges the voices, which are listed one after another, in the order of onsets.
 function inOrder(all: Float64Array, count: number): Uint32Array {
     const order = Uint32Array.from({ length: count }, (_, i) => i);
     let isSorted = true;
@@ -104,7 +104,7 @@ export function firstFrom(melody: Melody, tick: number): number {
     return low;
 }
 
-/// Calls `see` for every note that sounds at some time between two ticks.
+/// Calls `see` for every note that sounds between two ticks.
 export function eachSounding(melody: Melody, begin: number, end: number, see: (note: number) => void): void {
     for (let i = firstFrom(melody, begin - melody.longest); i < melody.count && melody.onset[i] < end; ++i) {
         if (melody.onset[i] + melody.duration[i] > begin) see(i);

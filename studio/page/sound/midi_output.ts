@@ -1,4 +1,4 @@
-// Notes, clock, start and stop for instruments that are connected by MIDI.
+// Sends notes, clock, start and stop to connected MIDI instruments.
 import type { Melody } from "./melody";
 import type { NoteSink } from "./transport";
 
@@ -7,24 +7,24 @@ export interface MidiPort {
     clear?(): void;
 }
 
-const bend_range = 2; // semitones to either side, which all instruments start with
+const bend_range = 2; // semitones up and down: the default of instruments
 const percussion = 9;
 
-/// A channel for each voice, so that every voice has pitch bends of its own; not the channel of drums.
+/// The channel of a voice. Voices have separate channels for their pitch bends, and avoid the channel of drums.
 export function channelOf(voice: number, isDrums: boolean): number {
     if (isDrums) return percussion;
     const channel = voice % 15;
     return channel < percussion ? channel : channel + 1;
 }
 
-/// The key, and the bend to the pitch beside it.
+/// The nearest key, and the pitch bend from it.
 export function bentKey(key: number): { key: number; bend: number } {
     const whole = Math.min(127, Math.max(0, Math.round(key)));
     const bend = Math.round(8192 + ((key - whole) / bend_range) * 8192);
     return { key: whole, bend: Math.min(16383, Math.max(0, bend)) };
 }
 
-/// Sixteenths from the beginning, as instruments count them.
+/// The song position of MIDI: sixteenth notes from the beginning.
 export function songPosition(tick: number, ticks: number): number[] {
     const sixteenths = Math.min(16383, Math.round((4 * tick) / ticks));
     return [0xf2, sixteenths & 127, sixteenths >> 7];
@@ -104,7 +104,7 @@ export class MidiOutput implements NoteSink {
         this.on.push({ channel, key, begin: at, end: off });
     }
 
-    /// Messages that were handed over cannot be taken back one by one: all are dropped, and what sounds is ended.
+    /// Messages cannot be cancelled individually: drops all of them, and sends the ends of the sounding notes again.
     cancel(time: number): void {
         if (!this.port.clear) return;
         this.port.clear();

@@ -1,4 +1,4 @@
-// Where in the pattern's text the notes come from, looked up before they sound.
+// Looks up the origins of notes in the text of the pattern, before they are played.
 import type { Engine } from "../context";
 import type { Origins, PatternRequest } from "../protocol";
 import type { Melody } from "./melody";
@@ -33,7 +33,7 @@ export class NoteOrigins {
         return this.melody ? (this.found.get(this.melody.symbol[note]) ?? null) : null;
     }
 
-    /// Asks for the notes from this one on, unless they are known.
+    /// Requests the origins of the notes from this one on, unless they are known.
     async lookAhead(note: number): Promise<void> {
         const { melody, pattern } = this;
         if (!melody || !pattern || this.asking) return;
@@ -45,7 +45,7 @@ export class NoteOrigins {
             if (firstUnknown < 0) firstUnknown = i;
             wanted.add(melody.symbol[i]);
         }
-        // Half a batch is left: time enough for the next.
+        // Half a batch is left, which is enough time to request the next.
         if (firstUnknown < 0 || (firstUnknown > note + batch / 2 && until < melody.count)) return;
         const symbols = [...wanted];
         const generation = this.generation;
@@ -62,7 +62,7 @@ export class NoteOrigins {
             });
         } catch {
             if (generation !== this.generation) return;
-            for (const symbol of symbols) this.found.set(symbol, null); // not asked for again
+            for (const symbol of symbols) this.found.set(symbol, null); // not requested again
         }
         this.asking = false;
     }

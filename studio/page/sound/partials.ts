@@ -1,17 +1,17 @@
-// Sounds as sums of partials that decay on their own: bells, bars, pianos, strings on a curved bridge.
+// Sounds as sums of independently decaying partials: bells, bars, pianos, strings on a curved bridge.
 import { makeChance } from "./chance";
 import type { Sample } from "./sample";
 import { faded, keyFrequency } from "./sample";
 
 export interface Partial {
-    ratio: number; // of its frequency to the fundamental's
+    ratio: number; // of its frequency to the fundamental
     level: number;
-    seconds: number; // until it has lost 60 dB
+    seconds: number; // until it has decayed by 60 dB
 }
 
-const step = 32; // samples between two looks at the envelopes
+const step = 32; // samples between two points of the envelopes
 
-/// `level(partial, seconds)` is the envelope beside the decay; it is followed in straight lines.
+/// `level(partial, seconds)` is an envelope applied in addition to the decay, in linear segments.
 export function partials(
     list: readonly Partial[],
     key: number,
@@ -54,7 +54,7 @@ export function partials(
     return data;
 }
 
-/// Begins from silence within a few milliseconds, as random phases would click.
+/// Fades in within a few milliseconds, because random phases would click.
 export function onset(data: Float32Array, rate: number, seconds: number): Float32Array {
     const length = Math.min(data.length, Math.max(1, Math.round(seconds * rate)));
     for (let i = 0; i < length; ++i) data[i] *= 0.5 - 0.5 * Math.cos((Math.PI * i) / length);
@@ -86,7 +86,7 @@ export function addKnock(
 
 export interface Struck {
     partials: Partial[]; // decay at C5
-    stretch: number; // octaves down double the decay this many times
+    stretch: number; // number of times that an octave down doubles the decay
     attack: number; // seconds
     knock?: [number, number, number]; // hertz, seconds, level
 }
@@ -101,7 +101,7 @@ export function struck(bar: Struck, key: number, rate: number): Sample {
     return { data: faded(data, rate, 0.15), frequency: keyFrequency(key) * bar.partials[0].ratio, loops: false };
 }
 
-/// A piano: stiff strings that decay fast at first and slowly afterwards, and of which two are slightly apart.
+/// A piano: pairs of slightly detuned stiff strings, which decay quickly at first and slowly afterwards.
 export function piano(key: number, rate: number): Sample {
     const fundamental = keyFrequency(key);
     const stiffness = 0.000018 * 2 ** ((key - 48) / 9);
@@ -114,7 +114,7 @@ export function piano(key: number, rate: number): Sample {
         const level = (Math.abs(Math.sin(Math.PI * k * 0.12)) * Math.exp(-(k - 1) * damping)) / k ** 0.35;
         if (level > 3e-4) list.push({ ratio: stretched(k), level, seconds: decay / (1 + 0.28 * k) });
     }
-    // Two strings, 0.35 cents to either side, beat; the struck one loses its first force within a second.
+    // Two strings, 0.35 cents above and below, beat; the struck one loses most of its energy within a second.
     const shape = (index: number, time: number): number => {
         const apart = Math.PI * 2 * fundamental * (index + 1) * 0.0002 * time;
         return 0.42 * Math.exp((-9 * time * (1 + 0.28 * index)) / decay) + 0.58 * (0.75 + 0.25 * Math.cos(apart));
@@ -124,7 +124,7 @@ export function piano(key: number, rate: number): Sample {
     return { data: faded(data, rate, 0.3), frequency: fundamental, loops: false };
 }
 
-/// An electric piano: a tine that a tone bar answers. Source: Chowning 1973 (frequency modulation).
+/// An electric piano: a tine with a tone bar. Source: Chowning 1973 (frequency modulation).
 export function electricPiano(key: number, rate: number): Sample {
     const frequency = keyFrequency(key);
     const omega = (2 * Math.PI * frequency) / rate;
@@ -145,15 +145,15 @@ export function electricPiano(key: number, rate: number): Sample {
     return { data: faded(onset(data, rate, 0.002), rate, 0.3), frequency, loops: false };
 }
 
-/// A string on a curved bridge, as of the veena, the sitar and the tanpura: its overtones swell one after the other,
-/// the high ones first.
+/// A string on a curved bridge, as on the veena, the sitar and the tanpura: its overtones swell one after another, the
+/// high ones first.
 export interface CurvedBridge {
-    seconds: number; // the fundamental of C4 loses 60 dB
-    begin: number; // partial that is loudest at first
-    end: number; // partial that it sinks to
+    seconds: number; // until the fundamental of C4 has decayed by 60 dB
+    begin: number; // the loudest partial at first
+    end: number; // the loudest partial at the end
     fall: number; // seconds
-    buzz: number; // how much louder
-    position: number; // where it is plucked
+    buzz: number; // boost of the loudest partial
+    position: number; // position of the pluck
     attack: number;
 }
 

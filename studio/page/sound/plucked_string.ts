@@ -1,13 +1,13 @@
-// A plucked string: a wave that runs around a loop and loses its high partials first.
+// A plucked string: a wave in a delay loop that loses its high partials first.
 // Source: Karplus & Strong 1983; Jaffe & Smith 1983 (tuning, pluck position, stretched decay).
 import { makeChance } from "./chance";
 import type { Sample } from "./sample";
 import { faded, keyFrequency } from "./sample";
 
 export interface PluckedString {
-    seconds: number; // the fundamental of C4 loses 60 dB
-    ring: number; // a partial at 4 kHz loses 60 dB in this share of that time, 0 to 1
-    position: number; // where it is plucked, as a share of its length
+    seconds: number; // until the fundamental of C4 has decayed by 60 dB
+    ring: number; // decay of a partial at 4 kHz as a share of that time, 0 to 1
+    position: number; // position of the pluck as a share of the length
     hardness: number; // 0: a soft finger; 1: a plectrum
     noise: number; // of the attack, 0 to 1
     body: [number, number, number][]; // resonances: hertz, bandwidth in hertz, level
@@ -32,7 +32,7 @@ function excitation(length: number, string: PluckedString, rate: number, key: nu
     const burst = new Float64Array(length);
     burst[0] = 1;
     for (let i = 0; i < length; ++i) burst[i] += (string.noise * (2 * chance() - 1)) / Math.sqrt(length);
-    // The width of the finger.
+    // The width of the finger or plectrum.
     const cutoff = 700 + 9000 * string.hardness ** 1.5 + 2 * keyFrequency(key);
     const share = 1 - Math.exp((-2 * Math.PI * cutoff) / rate);
     for (let pass = 0; pass < 2; ++pass) {
@@ -45,12 +45,12 @@ function excitation(length: number, string: PluckedString, rate: number, key: nu
         }
     }
     scatter(burst);
-    // Where it is plucked: partials with a node there are silent.
+    // Partials with a node at the position of the pluck are silent.
     const shift = Math.max(1, Math.round(string.position * length));
     return burst.map((value, i) => value - burst[(i + length - shift) % length]);
 }
 
-/// Shifts the phases of the partials against each other: a pluck of the same colour with a lower peak.
+/// Shifts the phases of the partials: the pluck keeps its timbre but has a lower peak.
 function scatter(burst: Float64Array): void {
     for (let pass = 0; pass < 24; ++pass) {
         let input = 0;
@@ -102,7 +102,7 @@ export function pluckedString(string: PluckedString, key: number, rate: number):
     return { data: faded(data, rate, 0.2), frequency, loops: false };
 }
 
-/// Adds the answers of a body to its string.
+/// Adds the resonances of a body to its string.
 function resonate(data: Float32Array, body: PluckedString["body"], rate: number): void {
     const dry = data.slice();
     for (const [frequency, bandwidth, level] of body) {

@@ -1,4 +1,4 @@
-// Rendered notes as buffers of the browser: made in a worker, a while before they sound.
+// Renders notes to audio buffers in a worker, before they are played.
 import source from "worker:./render_worker.ts";
 import type { Rendered, RenderRequest } from "./render_worker";
 import type { Timbre } from "./timbres";
@@ -14,7 +14,7 @@ const most_bytes = 48 * 1024 * 1024;
 
 export class Renderer {
     private readonly worker: Worker;
-    private readonly ready = new Map<string, Voiced>(); // the ones used last come last
+    private readonly ready = new Map<string, Voiced>(); // the most recently used last
     private readonly waiting = new Map<string, (() => void)[]>();
     private bytes = 0;
 
@@ -27,7 +27,7 @@ export class Renderer {
         return `${timbre} ${key}`;
     }
 
-    /// The buffer for a key, if it is there; otherwise it is asked for.
+    /// The buffer for a key, if it is ready; otherwise requests it.
     find(timbre: Timbre, key: number): Voiced | null {
         const name = this.name(timbre.name, renderedKey(timbre, key));
         const found = this.ready.get(name);
@@ -40,7 +40,7 @@ export class Renderer {
         return this.nearest(timbre, key);
     }
 
-    /// Something to play for the moment.
+    /// A substitute until the buffer is ready.
     private nearest(timbre: Timbre, key: number): Voiced | null {
         const whole = renderedKey(timbre, key);
         if (timbre.everyKey) return null;

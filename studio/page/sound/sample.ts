@@ -2,7 +2,7 @@
 
 export interface Sample {
     data: Float32Array;
-    frequency: number; // that it sounds with, in hertz; 0: it has no pitch
+    frequency: number; // in hertz; 0: without pitch
     loops: boolean; // the whole of `data` repeats without a seam
 }
 
@@ -10,7 +10,7 @@ export const keyFrequency = (key: number): number => 440 * 2 ** ((key - 69) / 12
 
 const window_seconds = 0.25;
 const loudness = 0.07; // root mean square of the loudest quarter of a second
-const most_peak = 1.25; // the master limits sums of notes anyway
+const most_peak = 1.25; // the master limits sums of notes
 
 /// The loudest quarter of a second, or the whole if that is shorter.
 export function loudestLevel(data: Float32Array, rate: number): number {
@@ -26,7 +26,7 @@ export function loudestLevel(data: Float32Array, rate: number): number {
     return Math.sqrt(most / length);
 }
 
-/// As loud as a note seems: the loudest moment of one that decays; for one that lasts, between that and the mean.
+/// The perceived level of a note: the loudest moment if it decays; between that and the mean if it is sustained.
 export function levelOf({ data, loops }: Sample, rate: number): number {
     const loudest = loudestLevel(data, rate);
     if (!loops) return loudest;
@@ -34,7 +34,7 @@ export function levelOf({ data, loops }: Sample, rate: number): number {
     return Math.sqrt(loudest * Math.sqrt(power));
 }
 
-/// Scales to the loudness that all timbres share. High notes seem louder than low ones and are made a little softer.
+/// Scales to the loudness that all timbres share; high notes, which seem louder, are made a little softer.
 export function levelled(sample: Sample, rate: number, key: number): Float32Array {
     const { data } = sample;
     const level = levelOf(sample, rate);
@@ -47,7 +47,7 @@ export function levelled(sample: Sample, rate: number, key: number): Float32Arra
     return data;
 }
 
-/// Lets a sound end in silence.
+/// Fades a sound out at its end.
 export function faded(data: Float32Array, rate: number, seconds: number): Float32Array {
     const length = Math.min(data.length, Math.round(seconds * rate));
     for (let i = 0; i < length; ++i) {

@@ -1,4 +1,4 @@
-// Plays notes: a rendered sample through a filter, an envelope, the strip of its voice and the master.
+// Plays notes: a rendered sample through a filter, an envelope, the channel strip of its voice and the master.
 import { Master } from "./master";
 import type { Melody } from "./melody";
 import type { Voiced } from "./renderer";
@@ -7,7 +7,7 @@ import type { Timbre } from "./timbres";
 import { timbreNamed } from "./timbres";
 import type { NoteSink } from "./transport";
 
-/// What a voice is heard through.
+/// The channel strip of a voice.
 export interface VoiceSettings {
     timbre: string;
     volume: number;
@@ -15,7 +15,7 @@ export interface VoiceSettings {
     solo: boolean;
 }
 
-/// Buffers of timbres: Renderer, or what a test has.
+/// Source of buffers: Renderer, or a substitute in tests.
 export interface Buffers {
     find(timbre: Timbre, key: number): Voiced | null;
 }
@@ -60,7 +60,7 @@ export class SoundOutput implements NoteSink {
             const level = isHeard ? voice.volume * voice.volume * 1.25 : 0;
             strip.gain.gain.setTargetAtTime(level, now, 0.012);
             strip.send.gain.setTargetAtTime(timbreNamed(voice?.timbre ?? "").reverb, now, 0.012);
-            // Voices sit beside each other, the first in the middle.
+            // Voices are spread to the left and right, the first in the middle.
             const place =
                 voices.length < 2
                     ? 0
@@ -83,7 +83,7 @@ export class SoundOutput implements NoteSink {
         this.strips.push({ gain, pan, send });
     }
 
-    /// A silent note costs nothing.
+    /// Skips silent notes.
     private isHeard(voice: number): boolean {
         const settings = this.voices[voice];
         if (!settings || settings.muted) return false;
@@ -111,7 +111,7 @@ export class SoundOutput implements NoteSink {
         source.loop = voiced.loops;
         source.playbackRate.value = rate;
 
-        // Loud notes are bright.
+        // Loud notes are brighter.
         const force = Math.min(1, velocity / 127);
         const filter = context.createBiquadFilter();
         filter.type = "lowpass";
@@ -132,7 +132,7 @@ export class SoundOutput implements NoteSink {
 
         const vibrato = this.vibrato(timbre, source, begin, seconds, rate);
         const last = end + 9 * tau;
-        // A loop begins anywhere: notes of one key are not copies of each other.
+        // Loops begin at random positions, so that notes of one key are not identical.
         source.start(begin, voiced.loops ? ((begin * 7.31) % 1) * voiced.buffer.duration : 0);
         source.stop(last);
         vibrato?.stop(last);
@@ -169,7 +169,7 @@ export class SoundOutput implements NoteSink {
     private fade(sounding: Sounding, time: number, tau: number): void {
         const { gain } = sounding.envelope;
         if (gain.cancelAndHoldAtTime) {
-            gain.cancelAndHoldAtTime(time); // amid an attack, too
+            gain.cancelAndHoldAtTime(time); // also works during an attack
         } else {
             const now = gain.value;
             gain.cancelScheduledValues(time);

@@ -1,4 +1,4 @@
-// Sounds that last as long as their note: a spectrum, and noise in it, whose signal repeats without a seam.
+// Sustained sounds, as signals that loop seamlessly, made from a spectrum with noise.
 // Source: Nasca 2005 (PADsynth): a harmonic that is spread over some bins of the transform sounds like an ensemble.
 import { makeChance } from "./chance";
 import { signalOf } from "./fourier";
@@ -6,10 +6,10 @@ import type { Sample } from "./sample";
 import { keyFrequency } from "./sample";
 
 export interface Sustained {
-    /// Of the harmonic k (from 1) at that many hertz.
+    /// The level of harmonic k (from 1) at a frequency.
     level(k: number, hertz: number, key: number): number;
-    spread: number; // cents that the harmonics are wide: 0 for one player, 20 and more for many
-    breath: number; // noise: share of the tone's level
+    spread: number; // width of the harmonics in cents: 0 for one player, 20 and more for many
+    breath: number; // noise, relative to the level of the tone
     breath_hertz?: [number, number]; // of its band; absent: around the harmonics
 }
 
@@ -37,7 +37,7 @@ export function sustained(sound: Sustained, key: number, rate: number): Sample {
     return { data: signalOf(size, amplitude, phase), frequency: fundamental * bin, loops: true };
 }
 
-/// A bell-shaped band of bins with the power of one.
+/// A bell-shaped band of bins with the power of a single bin.
 function spread(amplitude: Float64Array, centre: number, width: number, level: number): void {
     const reach = Math.ceil(3 * width);
     let sum = 0;
@@ -72,7 +72,7 @@ function breathe(
     for (let k = 0; k < noise.length; ++k) amplitude[k] = Math.hypot(amplitude[k], factor * noise[k]);
 }
 
-/// Resonances that do not move with the key, such as those of a voice or a violin: hertz, bandwidth, level.
+/// Resonances that do not depend on the key, as in a voice or a violin: hertz, bandwidth, level.
 export function formants(list: readonly [number, number, number][], floor: number): (hertz: number) => number {
     return (hertz) =>
         list.reduce((sum, [centre, bandwidth, level]) => {

@@ -1,4 +1,4 @@
-// The timbres, and which of them plays each instrument of General MIDI.
+// The timbres, and the timbre of each General MIDI instrument.
 import { drum, tunedDrum } from "./drums";
 import type { Partial } from "./partials";
 import { curvedBridge, electricPiano, piano, struck } from "./partials";
@@ -15,11 +15,11 @@ export interface Timbre {
     attack: number; // seconds
     release: number; // seconds until the note is silent after its end
     brightness: [number, number]; // the filter opens to this many harmonics for the softest and the loudest notes
-    vibrato?: { hertz: number; cents: number; delay: number }; // comes late
-    reverb: number; // share that is sent
-    trim?: number; // of the level, after the filter has taken its part
-    lasts?: boolean; // as long as its note
-    everyKey?: boolean; // each key is a sound of its own: a drum kit
+    vibrato?: { hertz: number; cents: number; delay: number }; // begins after a delay
+    reverb: number; // share sent to the reverb
+    trim?: number; // level, to compensate for the filter
+    lasts?: boolean; // sustained as long as the note
+    everyKey?: boolean; // each key has a different sound, as in a drum kit
 }
 
 const lasting = (sound: Sustained) => ({
@@ -250,7 +250,7 @@ export function timbreNamed(name: string): Timbre {
     return list.find((timbre) => timbre.name === name) ?? list[0];
 }
 
-/// From the first program of each row, 0 to 127.
+/// Timbres by the first program that uses them, 0 to 127.
 const programs: [number, string][] = [
     [0, "piano"], [4, "electric-piano"], [6, "harpsichord"], [8, "celesta"], [11, "vibraphone"], [12, "marimba"],
     [13, "xylophone"], [14, "bell"], [15, "koto"], [16, "organ"], [19, "pipe-organ"], [20, "accordion"],
@@ -269,10 +269,10 @@ export function timbreOf(program: number): Timbre {
     return timbreNamed(name);
 }
 
-/// Keys that are rendered: the others play the nearest at another rate.
+/// Distance between rendered keys; other keys play the nearest one at another rate.
 const spacing = (timbre: Timbre): number => (timbre.everyKey ? 1 : timbre.lasts ? 3 : 2);
 
-/// The rendered key that plays a key.
+/// The rendered key used for a key.
 export function renderedKey(timbre: Timbre, key: number): number {
     const step = spacing(timbre);
     return Math.min(120, Math.max(12, Math.round(key / step) * step));

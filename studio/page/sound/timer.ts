@@ -1,4 +1,4 @@
-// A timer that is not slowed down while the page is in the background: browsers leave those of workers alone.
+// A timer in a worker, because browsers slow down the timers of pages in the background.
 
 const source = `let timer;
 onmessage = ({ data }) => {

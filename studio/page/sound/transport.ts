@@ -1,16 +1,17 @@
-// Time: when each note sounds. Every time is computed from whole ticks and one anchor, so that nothing adds up.
+// The times at which notes are played. All times are computed from whole ticks and one anchor, so that rounding errors
+// do not accumulate.
 import type { Melody } from "./melody";
 import { eachSounding, firstFrom } from "./melody";
 
-/// Where notes go. Times are seconds of the clock.
+/// Receives notes. Times are in seconds of the clock.
 export interface NoteSink {
     note(index: number, time: number, seconds: number): void;
-    /// Drops what begins after this time; what sounds goes on.
+    /// Cancels notes that begin after this time; sounding notes continue.
     cancel(time: number): void;
     silence(): void;
     started?(tick: number, time: number): void;
     stopped?(time: number): void;
-    clock?(time: number): void; // 24 times in a quarter
+    clock?(time: number): void; // 24 times per quarter note
 }
 
 export interface Loop {
@@ -19,10 +20,10 @@ export interface Loop {
 } // ticks
 
 const lead = 0.06; // seconds from pressing the key to the first note
-const clocks = 24; // in a quarter, as MIDI has it
+const clocks = 24; // per quarter note, as in MIDI
 
 export class Transport {
-    ahead = 0.25; // seconds that notes are handed over before they sound
+    ahead = 0.25; // seconds by which notes are sent in advance
     playing = false;
     onEnd: () => void = () => {};
 
@@ -50,7 +51,7 @@ export class Transport {
         return this.loopRange;
     }
 
-    /// The place in the melody at a time of the clock.
+    /// The position in the melody at a time of the clock.
     tickAt(time: number): number {
         if (!this.playing) return this.anchorTick;
         const straight = this.anchorTick + Math.max(0, time - this.anchorTime) / this.secondsPerTick;
@@ -64,12 +65,12 @@ export class Transport {
         return loop.from + ((straight - loop.to) % (loop.to - loop.from));
     }
 
-    /// A loop that lies behind the anchor is not entered any more.
+    /// A loop that ends before the anchor is not entered again.
     private activeLoop(): Loop | null {
         return this.loopRange && this.anchorTick < this.loopRange.to ? this.loopRange : null;
     }
 
-    /// When a tick counted from the anchor without loops sounds.
+    /// The time of a tick, counted from the anchor without loops.
     private timeOf(straight: number): number {
         return this.anchorTime + (straight - this.anchorTick) * this.secondsPerTick;
     }
@@ -111,7 +112,7 @@ export class Transport {
         this.schedule();
     }
 
-    /// Sounds what began before the anchor, and goes on with what begins there.
+    /// Starts the notes that began before the anchor, and continues with those that begin there.
     private begin(time: number): void {
         const melody = this.melody!;
         this.anchorTime = time;
@@ -144,7 +145,7 @@ export class Transport {
         if (!melody && this.playing) this.pause();
     }
 
-    /// What was handed over and has not begun is handed over again, at its new time.
+    /// Sends notes that have not begun again, at their new times.
     private keepingPlace(change: () => void): void {
         if (!this.playing || !this.melody) {
             change();
@@ -159,13 +160,13 @@ export class Transport {
         this.anchorTick = Math.min(tick, this.melody.end);
         this.anchorTime = now;
         this.pass = 0;
-        // A note at this very moment has begun.
+        // A note at exactly this time has begun.
         this.next = firstFrom(this.melody, this.anchorTick + 1e-6);
         this.nextClock = Math.floor((this.anchorTick * clocks) / this.melody.ticks) + 1;
         this.schedule();
     }
 
-    /// Hands over what sounds within the next moment; called every few milliseconds.
+    /// Sends the notes of the next moment; called every few milliseconds.
     schedule(): void {
         const melody = this.melody;
         if (!this.playing || !melody) return;
@@ -175,7 +176,7 @@ export class Transport {
         for (;;) {
             if (loop && (this.next >= melody.count || melody.onset[this.next] >= loop.to)) {
                 const again = loop.to + this.pass * (loop.to - loop.from);
-                if (this.timeOf(again) > until) break; // the next pass is looked at when its time comes
+                if (this.timeOf(again) > until) break; // the next pass comes later
                 ++this.pass;
                 this.next = firstFrom(melody, loop.from);
                 continue;
