@@ -53,7 +53,7 @@ export class Application implements Studio {
         this.waiting = window.setTimeout(() => { byId("facts").textContent = "Working…"; }, patience);
         try {
             const { json } = await this.engine.request<Opened>({ do: "open", pattern: work.pattern }, { key: "open" });
-            if (work === this.store.work) clearTimeout(this.waiting);
+            if (work.pattern === this.store.work.pattern) clearTimeout(this.waiting);
             this.opened = { facts: json, work };
             for (const listener of this.failed) listener(null, json.warnings);
             for (const listener of this.listeners) listener(json, work);
