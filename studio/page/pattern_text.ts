@@ -2,8 +2,8 @@
 // places where changed values are written.
 import type { PatternRequest } from "./protocol";
 
-// Texts come from anywhere. `[ \t]` instead of `\s`, which matches line breaks, keeps the time linear: otherwise all of a
-// million empty lines would be read again from each of them.
+// Texts come from anywhere. `[ \t]` instead of `\s`, which matches line breaks, keeps the time linear: otherwise all
+// empty lines would be read again from each of them.
 
 // Expressions as they stand in `define r = 0.75` or `variant a: r = 0.8, derivation length = 9`.
 function written(line: string, name: string): string | null {
@@ -29,7 +29,8 @@ function withoutLastBreaks(text: string): string {
 /// The value that a key or define has in the text, the chosen variant included; null if the text does not set it.
 export function valueInText(pattern: PatternRequest, name: string): string | null {
     if (pattern.variant) {
-        const line = new RegExp(`^[ \\t]*variant[ \\t]+${escaped(pattern.variant)}[ \\t]*:(.*)$`, "mu").exec(pattern.text);
+        const start = `[ \\t]*variant[ \\t]+${escaped(pattern.variant)}[ \\t]*:`;
+        const line = new RegExp(`^${start}(.*)$`, "mu").exec(pattern.text);
         for (const part of line?.[1]!.split(",") ?? []) {
             const value = written(part, name);
             if (value !== null) return value;
