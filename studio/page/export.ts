@@ -247,7 +247,12 @@ class Export {
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
             const text = "Only the program can write this format; copy the command below.";
-            this.showRemarks([{ is_warning: false, text }]);
+            const needs = "A GIF is an animation: set the option “Generations”, such as 0:4.";
+            const isStill = format.extension === "gif" && !request.options.some(([name]) => name === "generations");
+            this.showRemarks([
+                { is_warning: false, text },
+                ...(isStill ? [{ is_warning: true, text: needs }] : []),
+            ]);
             return;
         }
         try {

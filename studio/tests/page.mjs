@@ -360,7 +360,7 @@ test("export writes the file and tells the command", async ({ page }) => {
     // A choice made while another is being written, and a format that only the program writes.
     await dialog.getByText("SVG", { exact: true }).click();
     await dialog.getByText("GIF", { exact: true }).click();
-    await dialog.locator(".remarks", { hasText: "Only the program writes this format" }).waitFor();
+    await dialog.locator(".remarks", { hasText: "Only the program can write this format" }).waitFor();
     await page.waitForTimeout(800);
     assert.ok(await dialog.getByRole("button", { name: "Save", exact: true }).isDisabled());
     await dialog.locator(".command", { hasText: ".gif" }).waitFor();
