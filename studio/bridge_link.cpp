@@ -5,7 +5,12 @@
 namespace sikku {
 
 Json answer_link(const Json& request) {
-    return {{"link", link_of(read_shared_json(member(request, "shared").dump()))}};
+    const std::string shared = member(request, "shared").dump();
+    try {
+        return {{"link", link_of(read_shared_json(shared))}};
+    } catch (const LinkError& error) {
+        throw BadRequest(error.what());
+    }
 }
 
 Json answer_read_link(const Json& request) {
