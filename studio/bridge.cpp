@@ -203,7 +203,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
 }
 
 /// An answer that reports an error.
-Json failure(const std::string& kind, const std::string& message, Json more = Json::object()) {
+Json failure(const std::string& kind, const std::string& message, const Json& more = Json::object()) {
     Json error = {{"kind", kind}, {"message", message}};
     error.update(more);
     return {{"error", std::move(error)}};

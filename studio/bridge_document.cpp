@@ -454,19 +454,20 @@ Json answer_command(const Json& request) {
         } else if (key == "seed") {
             command += " --seed " + quoted(value);
         } else {
-            command += " --set " + quoted(key + "=" + value);
+            command += fmt::format(" --set {}", quoted(fmt::format("{}={}", key, value)));
         }
     }
     for (const OptionValue& value : options_of(request)) {
         const OptionInfo* option = find_option(interpreter.options(), value.name);
         if (!option) {  // a key or a define of the pattern
-            command += " --set " + quoted(value.name + "=" + value.text);
+            command += fmt::format(" --set {}", quoted(fmt::format("{}={}", value.name, value.text)));
         } else if (option->kind == OptionKind::flag) {
             command += (value.text == "false" ? " --no-" : " --") + value.name;
         } else if (option->value.starts_with('[')) {  // may be left out: `--dots[=SIZE COLOUR]`
-            command += " --" + value.name + (value.text.empty() ? "" : "=" + quoted(value.text));
+            command += " --" + value.name;
+            if (!value.text.empty()) command += "=" + quoted(value.text);
         } else {
-            command += " --" + value.name + " " + quoted(value.text);
+            command += fmt::format(" --{} {}", value.name, quoted(value.text));
         }
     }
     const std::string stem = std::filesystem::path(name).stem().string();
