@@ -1,6 +1,6 @@
 // The colours of stroke and ground.
 import type { Application } from "./application";
-import { splitStroke } from "./controls";
+import { splitStroke } from "./stroke_value";
 import { element } from "./elements";
 import { valueInText } from "./pattern_text";
 import type { Opened } from "./protocol";

@@ -8,6 +8,7 @@ import type { Opened } from "./protocol";
 import { makeSeed } from "./seed";
 import { makeSlider, type Slider } from "./slider";
 import { makeColours } from "./colours";
+import { splitStroke } from "./stroke_value";
 
 interface Row {
     slider: Slider;
@@ -284,13 +285,6 @@ function readNumber(text: string): number | null {
     const fraction = /^\s*(-?[\d.]+)\s*\/\s*([\d.]+)\s*$/.exec(text);
     const number = fraction ? Number(fraction[1]) / Number(fraction[2]) : Number(text);
     return text.trim() !== "" && Number.isFinite(number) ? number : null;
-}
-
-export function splitStroke(value: string): { width: string; unit: string; rest: string } {
-    const parts = /^\s*(\d*\.?\d+)\s*(mm|cm|in|pt|px|step)?\s*(.*)$/.exec(value);
-    return parts
-        ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! }
-        : { width: "", unit: "mm", rest: value.trim() };
 }
 
 function withColour(value: string, colour: string): string {
