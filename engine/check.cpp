@@ -17,6 +17,31 @@ constexpr std::size_t most_variant_bytes = std::size_t{256} << 20;  // of all va
 constexpr std::size_t most_errors = 50;
 constexpr double most_compositions = 100'000;  // of symbols and steps: a few milliseconds
 
+/// True if each bracket in the text has its counterpart.
+bool is_balanced(std::string_view text) {
+    std::int64_t depth = 0;
+    for (const char byte : text) {
+        depth += byte == '[' ? 1 : byte == ']' ? -1 : 0;
+        if (depth < 0) return false;
+    }
+    return depth == 0;
+}
+
+/// The first successor with brackets that do not balance, else the axiom.
+Span unbalanced_span(const Pattern& pattern) {
+    std::vector<const std::vector<ProductionText>*> lists = {&pattern.common};
+    for (const TableText& table : pattern.tables) lists.push_back(&table.productions);
+    lists.push_back(&pattern.interpret);
+    const Key* axiom = pattern.find("axiom");
+    if (axiom && !is_balanced(axiom->value.view())) return axiom->value;
+    for (const std::vector<ProductionText>* productions : lists) {
+        for (const ProductionText& production : *productions) {
+            if (!is_balanced(production.successor.view())) return production.successor;
+        }
+    }
+    return axiom ? axiom->value : Span();
+}
+
 class Checker {
 public:
     Checker(std::span<const Interpreter* const> interpreters, const Monitor& monitor)
@@ -55,17 +80,6 @@ private:
         if (!diagnostics.has_errors()) check_brackets(pattern, grammar, diagnostics);
     }
 
-    static void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
-        const double steps = static_cast<double>(grammar.steps()) + 1;
-        if (grammar.is_spatial() || static_cast<double>(grammar.symbols().size()) * steps > most_compositions) return;
-        try {
-            fold(grammar);
-        } catch (const WordError& error) {
-            const Key* axiom = pattern.find("axiom");
-            diagnostics.error(axiom ? axiom->value : Span(), error.what());
-        }
-    }
-
     /// Each is compiled in full: many variants of a large pattern would take minutes.
     void check_variants(const Pattern& pattern) {
         const std::size_t size = pattern.source->text().size();
@@ -95,6 +109,16 @@ private:
 };
 
 }  // namespace
+
+void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
+    const double steps = static_cast<double>(grammar.steps()) + 1;
+    if (grammar.is_spatial() || static_cast<double>(grammar.symbols().size()) * steps > most_compositions) return;
+    try {
+        fold(grammar);
+    } catch (const WordError& error) {
+        diagnostics.error(unbalanced_span(pattern), error.what());
+    }
+}
 
 std::vector<Diagnostic> check_pattern(std::string name, std::string text,
                                       std::span<const Interpreter* const> interpreters, const Monitor& monitor) {

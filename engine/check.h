@@ -9,6 +9,10 @@
 
 namespace sikku {
 
+/// Reports brackets of the word that do not balance, at the first successor or axiom in which they do not. Words in
+/// space and those whose composition takes long are not checked.
+void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
+
 /// Checks a pattern with each of its variants: the language, the keys of the interpreters, and whether the brackets
 /// of the word balance. Sorted by place; what several variants share is reported once. Past 50 errors variants are
 /// skipped.

@@ -4,6 +4,7 @@
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/text.h"
+#include "engine/check.h"
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/origins.h"
 #include "engine/import/import.h"
@@ -235,6 +236,19 @@ bool has_view(const Document& document) {
 
 }  // namespace
 
+namespace {
+
+/// Warnings, and errors of the word.
+Json warnings_of(const Document& document) {
+    Diagnostics diagnostics;
+    check_brackets(document.pattern(), document.grammar(), diagnostics);
+    Json list = json_of(document.warnings());
+    for (Json& error : json_of(diagnostics.list())) list.push_back(std::move(error));
+    return list;
+}
+
+}  // namespace
+
 Json answer_open(const Json& request, const Monitor& monitor) {
     const Document document = document_of(request);
     Json variants = Json::array();
@@ -247,7 +261,7 @@ Json answer_open(const Json& request, const Monitor& monitor) {
                    {"defines", defines_of(document)},
                    {"keys", keys_of(document)},
                    {"productions", productions_of(document)},
-                   {"warnings", json_of(document.warnings())},
+                   {"warnings", warnings_of(document)},
                    {"is_melody", sets_keys_of(scores(), document)},
                    {"is_spatial", document.grammar().is_spatial()},
                    {"is_random", document.grammar().is_stochastic()},
@@ -403,12 +417,22 @@ Json answer_show(const Json& request, const std::string& file) {
     MemoryOutput output;
     output.write(file);
     const std::filesystem::path path = output.temporary();
-    std::optional<Provenance> found = read_provenance(path);
+    const std::string name = text_of(request, "name");
+    std::optional<Provenance> found;
+    try {
+        found = read_provenance(path);
+    } catch (const std::runtime_error& error) {
+        std::string message = error.what();  // about the temporary file
+        if (const std::size_t at = message.find(path.string()); at != std::string::npos) {
+            message.replace(at, path.string().size(), printable(name));
+        }
+        throw std::runtime_error(message);
+    }
     if (!found && is_midi_file(path)) {
         MidiTexts texts = read_midi_texts({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
         if (!texts.pattern.empty()) found = Provenance{std::move(texts.pattern), std::move(texts.made)};
     }
-    if (!found) throw std::runtime_error(text_of(request, "name") + ": this file contains no pattern");
+    if (!found) throw std::runtime_error(printable(name) + ": this file contains no pattern");
     return {{"text", found->pattern}, {"made", found->made}};
 }
 

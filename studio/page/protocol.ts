@@ -92,7 +92,7 @@ export interface Opened {
     defines: { name: string; value: string; line: number }[]; // in the text, with changed values
     keys: { name: string; value: string; line: number }[];
     productions: { line: number; column: number; length: number; predecessor: string; successor: string; table: string }[];
-    warnings: Diagnostic[];
+    warnings: Diagnostic[]; // and errors of the word, such as brackets that do not balance
     is_melody: boolean; // sets keys of melodies
     is_spatial: boolean; // draws in space: no windows; models instead
     is_random: boolean; // depends on the seed

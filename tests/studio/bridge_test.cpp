@@ -151,6 +151,14 @@ TEST(Bridge, OriginsStopInTime) {
     EXPECT_EQ(kind_of_failure(damaged), "request");
 }
 
+TEST(Bridge, BracketsThatDoNotBalanceAreErrorsOfTheirProduction) {
+    const Json open =
+        asked({{"do", "open"}, {"pattern", pattern("axiom: X\nderivation length: 2\nX --> F[+X]]F\n")}});
+    ASSERT_EQ(open["warnings"].size(), 1U) << open;
+    EXPECT_EQ(open["warnings"][0]["line"], 3);
+    EXPECT_EQ(open["warnings"][0]["warning"], false);
+}
+
 TEST(Bridge, ScaleFilesAreKept) {
     const std::string scale = "! test.scl\n!\nThree equal steps\n 3\n!\n 400.\n 800.\n 2/1\n";
     EXPECT_EQ(kind_of_failure({{"do", "scale"}, {"name", "x.txt"}}, scale), "request");
@@ -167,6 +175,8 @@ TEST(Bridge, ScaleFilesAreKept) {
 
 TEST(Bridge, FilesWithoutPatternsAreRefused) {
     EXPECT_EQ(kind_of_failure({{"do", "show"}, {"name", "x.png"}}, "no picture"), "other");
+    EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, "<svg></svg>")["error"]["message"],
+              "x.svg: this SVG file contains no pattern");
     EXPECT_EQ(kind_of_failure({{"do", "import"}, {"name", "x.l"}}, "no system"), "other");
     const Reply svg = request(
         Json({{"do", "make"}, {"interpreter", "draw"}, {"format", "svg"}, {"pattern", pattern(koch)}}).dump(), {});
