@@ -232,12 +232,12 @@ export class Editor {
 
     // The strip below the text: the number of errors, the first one, and errors without a place.
     private showStrip(error: Failure["error"] | null, diagnostics: Diagnostic[]): string {
-        this.strip.hidden = error === null;
+        const errors = diagnostics.filter((each) => !each.warning); // of the word, too, if the pattern could be read
+        this.strip.hidden = error === null && errors.length === 0;
         this.strip.replaceChildren();
-        if (!error) return "";
-        const errors = diagnostics.filter((each) => !each.warning);
+        if (this.strip.hidden) return "";
         const first = errors.find((each) => each.line > 0);
-        const message = errors[0]?.message ?? error.message;
+        const message = errors[0]?.message ?? error?.message ?? "";
         const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
         const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
         this.strip.append(element("span", {}, where + message + more));

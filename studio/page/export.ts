@@ -156,12 +156,13 @@ class Export {
                     const radio = element("input", { type: "radio", name: "format", class: "unseen" });
                     radio.checked = each === this.choice;
                     radio.addEventListener("change", () => this.choose(each));
+                    const isByProgram = by_the_program.has(each.format.extension);
                     return element(
                         "label",
-                        { class: "format", title: each.format.label },
+                        { class: isByProgram ? "format by-program" : "format", title: each.format.label },
                         radio,
                         element("span", {}, nameOf(each.format)),
-                        element("small", {}, `.${each.format.extension}`),
+                        element("small", {}, isByProgram ? "program only" : `.${each.format.extension}`),
                     );
                 });
             return element("fieldset", {}, element("legend", {}, group), ...labels);

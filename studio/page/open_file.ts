@@ -80,8 +80,11 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
         { do: "import", name, ...(view ? { view: await view.text() } : {}) },
         { bytes },
     );
-    const open = (system: Imported["systems"][number]) =>
+    // A system with errors has no text: the work stays.
+    const open = (system: Imported["systems"][number]) => {
+        if (system.text === "") return studio.say(reasonOf(name, system, json), "error");
         openPattern(studio, { name: `${system.name}.lsys`, text: system.text, variant: "", settings: [] });
+    };
     const [only] = json.systems;
     if (!only) {
         studio.say(`${name} contains no L-system. ${json.diagnostics[0]?.message ?? ""}`, "error");
@@ -89,7 +92,7 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
     }
     if (json.systems.length === 1) {
         open(only);
-        if (only.losses.length > 0) studio.say(`Left out: ${only.losses.join("; ")}`, "warning");
+        if (only.text !== "" && only.losses.length > 0) studio.say(`Left out: ${only.losses.join("; ")}`, "warning");
         return;
     }
     const dialog = openDialog(`${json.systems.length} patterns in ${name}`);
@@ -104,6 +107,17 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
         list.append(entry);
     }
     dialog.body.append(list);
+}
+
+// Why a system of a collection cannot be opened: the importer's first message about it, with its place.
+function reasonOf(name: string, system: Imported["systems"][number], { systems, diagnostics }: Imported): string {
+    const end = Math.min(...systems.map(({ line }) => line).filter((line) => line > system.line));
+    const errors = diagnostics.filter((each) => !each.warning);
+    const first = errors.find((each) => each.line >= system.line && each.line < end) ?? errors[0] ?? diagnostics[0];
+    if (!first) return `${name}: ${system.name} cannot be read.`;
+    return first.line > 0
+        ? `${name}, line ${first.line}, column ${first.column}: ${first.message}`
+        : `${name}: ${first.message}`;
 }
 
 /// Lets the user drop files anywhere on the page.

@@ -133,6 +133,8 @@ export async function inspectLink(application: Application, link: string): Promi
         },
     });
     inspected = dialog;
+    dialog.body.classList.add("link-contents");
+    const text = element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, shown.text);
     dialog.body.append(
         element(
             "p",
@@ -140,7 +142,7 @@ export async function inspectLink(application: Application, link: string): Promi
             element("strong", {}, excerpt(titleOf(pattern), most_value).text),
             ". It has not been run. A pattern is only data: it can draw and play, nothing else.",
         ),
-        element("pre", { class: "link-text", tabindex: 0, "aria-label": "Text of the pattern" }, shown.text),
+        text,
         ...(shown.rest > 0
             ? [element("p", { class: "note warning" }, `${count(String(shown.rest))} more characters are not shown.`)]
             : []),
@@ -164,7 +166,7 @@ export async function inspectLink(application: Application, link: string): Promi
         button("Discard", () => dialog.close()),
         open,
     );
-    open.focus();
+    text.focus(); // not Open: whoever presses Enter has read nothing yet
 }
 
 function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
@@ -179,7 +181,7 @@ function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {
         element("h3", {}, "Values and options"),
         element(
             "ul",
-            { class: "link-values" },
+            { class: "link-values", tabindex: 0, "aria-label": "Values and options" },
             ...rows
                 .slice(0, most_rows)
                 .map(([name, value]) =>

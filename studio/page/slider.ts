@@ -22,6 +22,10 @@ export interface Slider {
 
 let last = 0;
 
+function finite(number: number, otherwise: number): number {
+    return Number.isFinite(number) ? number : otherwise;
+}
+
 /// `slide` receives the position of the thumb, `type` the text of the field.
 export function makeSlider(
     label: string,
@@ -66,13 +70,15 @@ export function makeSlider(
             field.setAttribute("aria-invalid", String(isInvalid));
         },
         set(state) {
-            range.min = String(state.least);
-            range.max = String(state.most);
+            // A value such as 1e400 may be typed; the libraries say what is wrong with it.
+            const least = finite(state.least, 0);
+            const most = finite(state.most, Math.max(least, 0) + 1);
+            const number = Math.min(Math.max(finite(state.number, state.number > 0 ? most : least), least), most);
+            range.min = String(least);
+            range.max = String(most);
             range.step = String(state.step);
-            range.valueAsNumber = state.number;
-            const share =
-                (Math.min(Math.max(state.number, state.least), state.most) - state.least) /
-                (state.most - state.least || 1);
+            range.valueAsNumber = number;
+            const share = (number - least) / (most - least || 1);
             range.style.setProperty("--at", `${(share * 100).toFixed(2)}%`);
             range.setAttribute("aria-valuetext", state.description ?? state.value);
             if (document.activeElement !== field || field.value === "") field.value = state.value;
