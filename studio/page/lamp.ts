@@ -38,6 +38,7 @@ export function makeLamp(change: (light: Light) => void): { element: HTMLElement
         { class: "space-light-fields" },
         field("Direction", around.input),
         field("Height", height.input),
+        element("p", { class: "space-light-note" }, "Prints keep their own light."),
     );
     return {
         element: element("details", { class: "space-light" }, element("summary", {}, "Light"), fields),

@@ -62,10 +62,16 @@ export const makeMapPanel: MakePanel = (studio) => {
         place.update(pointer);
         toDrawing.disabled = !view.hasPlane;
         toPage.setAttribute("aria-pressed", String(view.mode === "page" && !view.isMagnified));
-        const now = view.problem || (view.isElsewhere ? "The drawing is outside this view; press F to fit it." : "");
+        const empty = view.isElsewhere
+            ? "The drawing is outside this view; press F to fit it."
+            : view.isEmpty
+              ? "No line in this view; press F to fit the drawing."
+              : "";
+        const now = view.problem || empty;
         if (now !== text) {
             text = now;
             problem.textContent = text;
+            problem.classList.toggle("quiet", view.problem === "");
             problem.hidden = text === "";
         }
         describer();

@@ -60,6 +60,7 @@ export function addGestures(view: MapView, onPointer: (at: Finger | null) => voi
         (event) => {
             event.preventDefault();
             const { left, top } = at(event);
+            onPointer({ left, top }); // the wheel may turn before the pointer has moved
             const unit =
                 event.deltaMode === WheelEvent.DOM_DELTA_LINE
                     ? 33

@@ -6,10 +6,19 @@ import type { MapView } from "./map_view";
 import { sheetOf } from "./sheet";
 import type { Store } from "./context";
 
-/// A coordinate for display, as precise as a pixel; very long ones are shortened in the middle.
-function shortText(value: Exact, scale: number): string {
+const manyDigits = 40; // written smaller
+
+/// A coordinate for display, as precise as a pixel; one with more than `most` digits is shortened in the middle.
+function shortText(value: Exact, scale: number, most: number): string {
     const text = exactText(value, decimalsOf(scale));
-    return text.replace("-", "").length > 26 ? `${grouped(text.slice(0, 8))}…${text.slice(-14)}` : grouped(text);
+    if (text.length <= most) return grouped(text);
+    const half = Math.floor(most / 2);
+    return `${text.slice(0, half)}…${text.slice(-half)}`;
+}
+
+/// The number of digits for which a view has room, on three lines.
+function roomFor(width: number): number {
+    return Math.max(26, 3 * Math.floor((width - 250) / 7.5));
 }
 
 /// A short text for a number of steps.
@@ -94,8 +103,11 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
             barLine.style.width = `${steps / camera.scale}px`;
             const point = pointer ? pointAt(camera, size, pointer.left, pointer.top) : camera;
             whose.textContent = pointer ? "Pointer" : "Centre";
-            x.textContent = `x ${shortText(point.x, camera.scale)}`;
-            y.textContent = `y ${shortText(point.y, camera.scale)}`;
+            const most = roomFor(size.width);
+            const texts = [shortText(point.x, camera.scale, most), shortText(point.y, camera.scale, most)] as const;
+            x.textContent = `x ${texts[0]}`;
+            y.textContent = `y ${texts[1]}`;
+            toggle.classList.toggle("long", texts.some((text) => text.length > manyDigits));
         },
     };
 }

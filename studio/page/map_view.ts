@@ -159,6 +159,18 @@ export class MapView {
         return high.x < x0 - pen || low.x > x1 + pen || high.y < y0 - pen || low.y > y1 + pen;
     }
 
+    /// True if the pictures of this part of the plane are complete, and the drawing has no line in it.
+    get isEmpty(): boolean {
+        if (this.mode !== "plane" || this.size.width === 0 || !this.isResting) return false;
+        const { camera, size, overview } = this;
+        if (overview?.kind === "plane" && overview.name === this.planeName && covers(overview, camera, size)) {
+            if (overview.bitmap.isEmpty) return true;
+        }
+        if (!this.isTiled) return false;
+        const seen = seenTiles(camera, size, this.grid, camera.scale);
+        return seen.length > 0 && seen.every((tile) => this.tiles.picture(this.planeName, tile)?.isEmpty);
+    }
+
     /// True if the view shows only part of the page.
     get isMagnified(): boolean {
         return this.mode === "page" && this.loupe.zoom > 1;

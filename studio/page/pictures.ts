@@ -8,7 +8,13 @@ export interface Bitmap {
     readonly width: number;
     readonly height: number;
     readonly bytes: number;
+    readonly isEmpty: boolean; // the drawing has no line there
     close(): void;
+}
+
+// As the libraries say it.
+function isEmpty({ remarks }: Pixels): boolean {
+    return remarks.some(({ text }) => text === "the window contains no part of the drawing");
 }
 
 /// Makes a bitmap from the answer to `pixels`.
@@ -16,7 +22,7 @@ export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap>
     const { width, height } = json;
     const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
     const source = await createImageBitmap(new ImageData(values, width, height));
-    return { source, width, height, bytes: width * height * 4, close: () => source.close() };
+    return { source, width, height, bytes: width * height * 4, isEmpty: isEmpty(json), close: () => source.close() };
 }
 
 /// The same synchronously, for pictures that are needed at once.
@@ -32,6 +38,7 @@ export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
         width,
         height,
         bytes: width * height * 4,
+        isEmpty: isEmpty(json),
         close: () => {
             source.width = source.height = 0;
         },

@@ -59,6 +59,8 @@ export const makeSpacePanel: MakePanel = (studio) => {
     };
 };
 
+const flatReason = "This pattern is flat: prints show it from above, so they need no view.";
+
 class SpaceView {
     private readonly growth: Growth;
     private readonly note = element("p", { class: "note space-note", role: "status", hidden: true });
@@ -69,6 +71,7 @@ class SpaceView {
     private readonly turn: HTMLButtonElement;
     private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
     private readonly use: HTMLButtonElement;
+    private readonly flat = element("p", { class: "space-flat", hidden: true }, flatReason);
     private readonly lamp = makeLamp((light) => {
         this.light = light;
         this.draw();
@@ -170,6 +173,7 @@ class SpaceView {
                 element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"),
                 this.use,
             ),
+            this.flat,
         );
     }
 
@@ -247,6 +251,9 @@ class SpaceView {
         const isSame = name === this.subject && n === this.most;
         this.work = work;
         this.opened = facts;
+        this.use.disabled = !facts.is_spatial;
+        this.use.title = facts.is_spatial ? "" : flatReason;
+        this.flat.hidden = facts.is_spatial;
         this.subject = name;
         if (isOther) {
             this.whole = null;

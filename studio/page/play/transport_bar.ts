@@ -56,6 +56,7 @@ export class TransportBar {
     private readonly place = element("p", { class: "play-place" });
     private readonly time = element("p", { class: "play-time number" });
     private readonly tempo = element("input", { type: "range", id: "play-tempo", min: slowest, max: fastest, step: 1 });
+    private tempoText = ""; // the tempo that is played
     private readonly tempoField = element("input", {
         type: "text",
         inputmode: "numeric",
@@ -101,8 +102,12 @@ export class TransportBar {
         this.tempo.addEventListener("input", () => acts.tempo(this.tempo.valueAsNumber));
         this.tempo.addEventListener("dblclick", () => acts.tempo(null));
         this.tempoField.addEventListener("change", () => {
-            const value = Number(this.tempoField.value);
-            acts.tempo(value > 0 ? Math.min(600, Math.max(5, value)) : null);
+            const text = this.tempoField.value.trim();
+            const value = Number(text);
+            // Empty: as written. What is no tempo leaves the last one.
+            if (text === "" && !this.tempoField.validity.badInput) acts.tempo(null);
+            else if (value > 0 && Number.isFinite(value)) acts.tempo(Math.min(600, Math.max(5, value)));
+            this.tempoField.value = this.tempoText;
         });
         this.volume.addEventListener("input", () => {
             player.setVolume(this.volume.valueAsNumber / 100);
@@ -116,8 +121,8 @@ export class TransportBar {
         const { melody } = this.player;
         if (!melody) return;
         const bars = barsOf(melody);
-        const from = Math.min(bars, Math.max(1, Math.round(Number(this.from.value)) || 1));
-        const to = Math.min(bars, Math.max(from, Math.round(Number(this.to.value)) || from));
+        const from = Math.min(bars, Math.max(1, Math.round(Number(this.from.value)) || this.bars[0]));
+        const to = Math.min(bars, Math.max(from, Math.round(Number(this.to.value)) || this.bars[1]));
         this.bars = [from, to];
         this.applyLoop();
     }
@@ -172,6 +177,7 @@ export class TransportBar {
     }
 
     showTempo(tempo: number): void {
+        this.tempoText = String(tempo);
         const share = (Math.min(fastest, Math.max(slowest, tempo)) - slowest) / (fastest - slowest);
         this.tempo.valueAsNumber = tempo;
         this.tempo.style.setProperty("--at", `${share * 100}%`);
