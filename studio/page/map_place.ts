@@ -10,7 +10,10 @@ const manyDigits = 40; // written smaller
 
 /// A coordinate for display, as precise as a pixel; one with more than `most` digits is shortened in the middle.
 function shortText(value: Exact, scale: number, most: number): string {
-    const text = exactText(value, decimalsOf(scale));
+    const decimals = Math.max(0, decimalsOf(scale));
+    const [whole = "", fraction = ""] = exactText(value, decimals).split(".");
+    // With zeros at the end, so that the digits tell the precision and do not jump.
+    const text = decimals > 0 ? `${whole}.${fraction.padEnd(decimals, "0")}` : whole;
     if (text.length <= most) return grouped(text);
     const half = Math.floor(most / 2);
     return `${text.slice(0, half)}…${text.slice(-half)}`;
