@@ -80,7 +80,10 @@ function choicesOf(application: Application): Choice[] {
 
 // Capitalises "sound", but not "glTF".
 function nameOf({ label, extension }: FormatHelp): string {
-    return /^[a-z ]+$/.test(label) ? capital(label) : label || extension.toUpperCase();
+    const isKind = /^[a-z ]+$/.test(label);
+    // Two formats are "sound", and their row has no room for the extension.
+    if (isKind && by_the_program.has(extension)) return extension.toUpperCase();
+    return isKind ? capital(label) : label || extension.toUpperCase();
 }
 
 class Export {

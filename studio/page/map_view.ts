@@ -7,7 +7,7 @@ import { layersOf } from "./layers";
 import { Motion } from "./map_motion";
 import { Painter, type Loupe, type Overview } from "./map_painter";
 import { Overviews } from "./overviews";
-import { TileLoader, type Subject } from "./pictures";
+import { colourOf, TileLoader, type Bitmap, type Colour, type Subject } from "./pictures";
 import type { Opened } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
@@ -46,6 +46,7 @@ export class MapView {
     private restTimer = 0;
     private keepTimer = 0;
     private kept: Work["place"] = null;
+    private bare: { ground: string; colour: Colour } | null = null; // what a picture without lines looks like
 
     /// @param onChange  after every frame
     constructor(
@@ -164,11 +165,20 @@ export class MapView {
         if (this.mode !== "plane" || this.size.width === 0 || !this.isResting) return false;
         const { camera, size, overview } = this;
         if (overview?.kind === "plane" && overview.name === this.planeName && covers(overview, camera, size)) {
-            if (overview.bitmap.isEmpty) return true;
+            if (this.isBare(overview.bitmap)) return true;
         }
         if (!this.isTiled) return false;
         const seen = seenTiles(camera, size, this.grid, camera.scale);
-        return seen.length > 0 && seen.every((tile) => this.tiles.picture(this.planeName, tile)?.isEmpty);
+        return seen.length > 0 && seen.every((tile) => this.isBare(this.tiles.picture(this.planeName, tile)));
+    }
+
+    // True of a picture of the ground alone; one within a line is plain, too.
+    private isBare(bitmap: Bitmap | undefined): boolean {
+        if (!bitmap?.plain) return bitmap?.isEmpty ?? false;
+        if (bitmap.isEmpty || bitmap.plain[3] === 0) return true;
+        const ground = this.groundOf(this.work);
+        if (this.bare?.ground !== ground) this.bare = { ground, colour: colourOf(ground) };
+        return this.bare.colour.every((part, at) => Math.abs(part - bitmap.plain![at]!) <= 1);
     }
 
     /// True if the view shows only part of the page.

@@ -1,7 +1,11 @@
 // Pictures of the map: of the whole view, and tiles of the endless plane.
 import type { Answer, Engine } from "./context";
+import { element } from "./elements";
 import type { Options, PatternRequest, Pixels } from "./protocol";
 import { PictureCache, tileName, tileWindow, type Tile, type TileGrid } from "./tiles";
+
+/// Red, green, blue, alpha: 0 to 255.
+export type Colour = readonly [number, number, number, number];
 
 export interface Bitmap {
     readonly source: CanvasImageSource;
@@ -9,7 +13,14 @@ export interface Bitmap {
     readonly height: number;
     readonly bytes: number;
     readonly isEmpty: boolean; // the drawing has no line there
+    readonly plain: Colour | null; // the only colour in it
     close(): void;
+}
+
+// The colour of a picture that has only one.
+function plainOf(values: Uint8ClampedArray): Colour | null {
+    for (let at = 4; at < values.length; ++at) if (values[at] !== values[at - 4]) return null;
+    return [values[0]!, values[1]!, values[2]!, values[3]!];
 }
 
 // As the libraries say it.
@@ -22,7 +33,7 @@ export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap>
     const { width, height } = json;
     const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
     const source = await createImageBitmap(new ImageData(values, width, height));
-    return { source, width, height, bytes: width * height * 4, isEmpty: isEmpty(json), close: () => source.close() };
+    return { source, width, height, bytes: width * height * 4, isEmpty: isEmpty(json), plain: plainOf(values), close: () => source.close() };
 }
 
 /// The same synchronously, for pictures that are needed at once.
@@ -39,10 +50,21 @@ export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
         height,
         bytes: width * height * 4,
         isEmpty: isEmpty(json),
+        plain: plainOf(values),
         close: () => {
             source.width = source.height = 0;
         },
     };
+}
+
+/// A colour of CSS as a picture contains it.
+export function colourOf(text: string): Colour {
+    const canvas = element("canvas", { width: 1, height: 1 });
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = text === "none" ? "transparent" : text;
+    context.fillRect(0, 0, 1, 1);
+    const [red = 0, green = 0, blue = 0, alpha = 0] = context.getImageData(0, 0, 1, 1).data;
+    return [red, green, blue, alpha];
 }
 
 export function isAbort(error: unknown): boolean {
