@@ -139,13 +139,14 @@ export class History implements Store {
     }
 
     private saveSoon(): void {
-        clearTimeout(this.timer);
-        this.timer = window.setTimeout(() => this.save(), 400);
+        // Further changes do not put it off.
+        if (this.timer === 0) this.timer = window.setTimeout(() => this.save(), 400);
     }
 
     // The storage is small: if all does not fit, the newest steps are kept, and steps rather than their thumbnails.
     private save(): void {
         clearTimeout(this.timer);
+        this.timer = 0;
         const isSaved = this.attempts().some(store);
         if (!isSaved && this.isSaved) this.warn();
         this.isSaved = isSaved;
