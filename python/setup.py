@@ -30,7 +30,8 @@ class CMakeBuild(build_ext):
             "-DCMAKE_INSTALL_BINDIR=bin", "-DCMAKE_INSTALL_LIBDIR=lib", "-DCMAKE_INSTALL_DATADIR=share",
             "-DSIKKU_PYTHON=ON", "-DSIKKU_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}",
         ]
-        if not (build / "CMakeCache.txt").exists():
+        # Written last: absent if configuring failed before.
+        if not (build / "build.ninja").exists():
             subprocess.run(configure, check=True)
         subprocess.run(
             ["cmake", "--build", str(build), "--target", "sikku_python", "--parallel", jobs], check=True
