@@ -3,6 +3,7 @@
 #include "art/prints.h"
 #include "cli/link_argument.h"
 #include "cli/options.h"
+#include "engine/base/output_file.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
 
@@ -179,6 +180,12 @@ void Progress::show() {
     } else {
         tell("\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
     }
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
 }
 
 }  // namespace sikku

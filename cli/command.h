@@ -114,6 +114,9 @@ private:
     double last_;
 };
 
+/// Writes a text to a file, which appears whole or not at all.
+void write_file(const std::filesystem::path& path, const std::string& text);
+
 /// Reads the pattern in a MIDI file (a regular file). @throws std::runtime_error, naming the file, if it contains
 /// no pattern or is damaged
 Provenance read_score_provenance(const std::string& file);

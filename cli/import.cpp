@@ -2,7 +2,6 @@
 #include "engine/import/import.h"
 
 #include "cli/command.h"
-#include "engine/base/output_file.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -72,12 +71,6 @@ void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<
                        ? "complete"
                        : fmt::format("{} not supported", counted(system.losses.size(), "feature")));
     }
-}
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-    OutputFile file(path);
-    file.write(text);
-    file.commit();
 }
 
 /// Writes each system to a file of its name; a number is added to names in use.

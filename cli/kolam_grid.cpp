@@ -5,7 +5,6 @@
 #include "art/kolam/dot_grid_pattern.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
-#include "engine/base/output_file.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -34,9 +33,7 @@ void write(const std::string& output, const std::string& text) {
         fmt::print("{}", text);
         return;
     }
-    OutputFile file(output);
-    file.write(text);
-    file.commit();
+    write_file(output, text);
 }
 
 /// A kolam and how it came about.

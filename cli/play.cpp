@@ -46,18 +46,10 @@ void make_score(const PlayCommand& command, const std::string& format, const std
     make(*work, command.output, quiet);
 }
 
-/// Uses the seed of the pattern for the options of the score, too.
-void add_seed(const PatternOptions& options, const SharedWork* link, OptionValues& values) {
-    if (has_option(values, "seed")) return;
-    std::string seed;
-    if (!options.seed.empty()) {
-        seed = std::to_string(seed_of(options));
-    } else if (link) {
-        for (const OptionValue& setting : link->settings) {
-            if (setting.name == "seed") seed = setting.text;
-        }
-    }
-    if (!seed.empty()) values.push_back({"seed", seed});
+/// Uses the seed of the pattern for the options of the score, too. Those of a link have it already: see assign().
+void add_seed(const PatternOptions& options, OptionValues& values) {
+    if (options.seed.empty() || has_option(values, "seed")) return;
+    values.push_back({"seed", std::to_string(seed_of(options))});
 }
 
 void run(const PlayCommand& command, bool quiet) {
@@ -82,7 +74,7 @@ void run(const PlayCommand& command, bool quiet) {
             if (documents.size() == 1) values = assigned.options;
         }
         if (documents.size() == 1) {
-            add_seed(one, work, values);
+            add_seed(one, values);
             if (work) shared = work->play;
         }
     }

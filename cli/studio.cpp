@@ -5,7 +5,6 @@
 #include "cli/studio_page.h"
 #include "engine/base/input_file.h"
 #include "engine/base/installation.h"
-#include "engine/base/output.h"
 #include "engine/language/pattern.h"
 
 #include <fcntl.h>
@@ -57,12 +56,6 @@ SharedWork read_work(const std::string& pattern) {
     work.name = pattern == "-" ? "pattern.lsys" : fs::path(text.name).filename().string();
     work.text = std::move(text.text);
     return work;
-}
-
-void write_file(const fs::path& target, const std::string& text) {
-    const auto output = file_system().open(target);
-    output->write(text);
-    output->commit();
 }
 
 void write_page(const fs::path& page, const std::vector<SharedWork>& works, const fs::path& target) {

@@ -1,6 +1,7 @@
 // studio/bridge_document.cpp: requests about a pattern: facts, pictures, and files of other programs.
 #include "art/draw_settings.h"
 #include "art/drawing/seen_drawing.h"
+#include "art/gallery/shards.h"
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/text.h"
@@ -437,24 +438,6 @@ Json answer_show(const Json& request, const std::string& file) {
 }
 
 namespace {
-
-/// Quotes a text for the shell.
-std::string quoted(const std::string& text) {
-    const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char byte) {
-        return std::isalnum(byte) != 0 ||
-               std::string_view("_-./:,=@%+").find(static_cast<char>(byte)) != std::string_view::npos;
-    });
-    if (is_plain) return text;
-    std::string result = "'";
-    for (const char byte : text) {
-        if (byte == '\'') {
-            result += "'\\''";
-        } else {
-            result += byte;
-        }
-    }
-    return result + "'";
-}
 
 /// A file of that name rather than an option.
 std::string quoted_file(const std::string& name) {

@@ -20,7 +20,7 @@ export function limited(scale: number): number {
     return Math.min(coarsestScale, Math.max(finestScale, scale));
 }
 
-/// The camera of a place as works and links contain it; null if it is no place.
+/// Reads a place of a work or a link as a camera; null if the place is invalid.
 export function cameraOf(place: unknown): Camera | null {
     const { x, y, scale } = (place ?? {}) as Record<string, unknown>;
     if (typeof x !== "string" || typeof y !== "string" || typeof scale !== "number") return null;

@@ -1,4 +1,4 @@
-// What a link says about the page, which may come from anyone: checked before it is used.
+// Checks the values that a link sets on the page. Links are untrusted.
 import { cameraOf } from "./camera";
 import type { Work } from "./context";
 import type { Help, Shared } from "./protocol";
@@ -18,7 +18,7 @@ export function readPlace(text: string | undefined): Work["place"] {
     return place && camera && { x: place.x, y: place.y, scale: camera.scale };
 }
 
-/// The names of the values that are locked; none if the text is no list of texts.
+/// Reads the names of locked values; an empty list if the text is not a list of strings.
 export function readLocked(text: string | undefined): string[] {
     const names = parsed(text);
     return Array.isArray(names) && names.every((name) => typeof name === "string") ? [...new Set(names)] : [];

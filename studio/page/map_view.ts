@@ -122,7 +122,7 @@ export class MapView {
         this.draw();
     }
 
-    // Of splines, the extent is that of the points that guide them.
+    // The extent of a spline is that of its control points.
     private async measure(facts: Opened, work: Work): Promise<void> {
         try {
             const { json } = await this.studio.engine.request<{ box?: (string | number)[] }>(
@@ -355,6 +355,11 @@ export class MapView {
         else this.rest();
     }
 
+    // Makes an overview of a work from the bitmap that is still to come.
+    private overviewOf(work: Work, rest: Omit<Overview, "pattern" | "bitmap" | "ground">): (bitmap: Bitmap) => Overview {
+        return (bitmap) => ({ ...rest, pattern: work.pattern.name, bitmap, ground: this.groundOf(work) });
+    }
+
     private askPage(ratio: number): void {
         const { laid, size, work, pageName: name } = this;
         const camera = this.pageCamera;
@@ -371,17 +376,7 @@ export class MapView {
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
-            (bitmap) => ({
-                kind: "page",
-                name,
-                pattern: work.pattern.name,
-                bitmap,
-                ratio,
-                camera,
-                size,
-                laid,
-                ground: this.groundOf(work),
-            }),
+            this.overviewOf(work, { kind: "page", name, ratio, camera, size, laid }),
         );
     }
 
@@ -414,17 +409,7 @@ export class MapView {
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
-            (bitmap) => ({
-                kind: "plane",
-                name,
-                pattern: work.pattern.name,
-                bitmap,
-                ratio,
-                camera,
-                size,
-                laid,
-                ground: this.groundOf(work),
-            }),
+            this.overviewOf(work, { kind: "plane", name, ratio, camera, size, laid }),
         );
     }
 

@@ -1,4 +1,4 @@
-// What is on the screen, as options of `sikku draw`: the options of the work, and the window that the map shows.
+// Converts the current view to options of `sikku draw`: the options of the work, and the window of the map.
 import { cameraOf, windowOf } from "./camera";
 import type { Studio } from "./context";
 import type { Options } from "./protocol";

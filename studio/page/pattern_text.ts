@@ -15,7 +15,7 @@ function escaped(name: string): string {
     return name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 }
 
-// What stands before the value of a key or define, as the source of a regular expression.
+// A regular expression for the text before the value of a key or define.
 function startOf(name: string): string {
     return `[ \\t]*(?:define[ \\t]+${escaped(name)}[ \\t]*=|${escaped(name)}[ \\t]*:)`;
 }

@@ -332,7 +332,7 @@ class PlayPanel implements Panel {
         const tick = Math.min(heard + half_frame / secondsPerTick, melody.end);
         let note = firstFrom(melody, tick + 1e-6) - 1;
         void this.origins.lookAhead(Math.max(0, note));
-        // Of notes that begin together, the one in the first audible voice.
+        // Among notes that begin together, choose the first audible voice.
         for (let i = note; i >= 0 && melody.onset[i] === melody.onset[note]; --i) {
             if (this.player.isHeard(melody.voice[i])) note = i;
         }

@@ -93,7 +93,7 @@ test("another grid keeps the gaps that it shares with the old one, and the symme
     assert.equal(new Kolam("1x1").count, 1);
 });
 
-test("gaps are told in words, and every one is reached by keys", () => {
+test("gaps are described in words, and the keys reach every gap", () => {
     const kolam = new Kolam("3x4");
     assert.equal(gapText(kolam, 2), "Gap between row 1 dot 3 and row 1 dot 4: crossed; 1 line");
     assert.match(changeText(kolam, 2), /^Turn back: 1 → 2 lines$/);

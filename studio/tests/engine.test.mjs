@@ -1,4 +1,4 @@
-// The pool of workers, with workers that are no workers.
+// Tests of the pool of workers, with stand-ins for workers.
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 import { load } from "./load.mjs";

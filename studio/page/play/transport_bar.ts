@@ -104,7 +104,7 @@ export class TransportBar {
         this.tempoField.addEventListener("change", () => {
             const text = this.tempoField.value.trim();
             const value = Number(text);
-            // Empty: as written. What is no tempo leaves the last one.
+            // An empty field restores the tempo of the pattern; an invalid one keeps the last tempo.
             if (text === "" && !this.tempoField.validity.badInput) acts.tempo(null);
             else if (value > 0 && Number.isFinite(value)) acts.tempo(Math.min(600, Math.max(5, value)));
             this.tempoField.value = this.tempoText;

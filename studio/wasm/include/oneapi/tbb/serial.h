@@ -59,8 +59,7 @@ private:
     std::deque<Value> values_;
 };
 
-// --- pipelines: one item at a time goes through all filters
-// ---------------------------------------------------------
+// --- pipelines: one item at a time passes all filters ----------------------------------------------------------
 
 enum class filter_mode { serial_in_order, parallel };
 
