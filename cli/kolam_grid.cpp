@@ -2,6 +2,7 @@
 #include "cli/kolam_grid.h"
 
 #include "art/kolam/dot_grid_enumeration.h"
+#include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
@@ -36,44 +37,79 @@ void write(const std::string& output, const std::string& text) {
     write_file(output, text);
 }
 
+/// Text of an option, or of the file that it names with `@`.
+std::string text_of(const std::string& value) {
+    return value.starts_with('@') ? read_pattern_text(value.substr(1)).text : value;
+}
+
 /// A kolam and how it came about.
 struct MadeKolam {
-    Crossings crossings;
+    GapStates states;
+    GridSymmetry symmetry = GridSymmetry::none;
     std::size_t changed = 0;
     int attempt = 1;
 };
 
-MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid, const RandomKolam& random) {
-    if (options.crossings) {
-        MadeKolam made;
-        made.crossings = of_option("--crossings", [&] {
-            const std::string& text = *options.crossings;
-            return parse_crossings(grid, text.starts_with('@') ? read_pattern_text(text.substr(1)).text : text);
-        });
-        if (options.single_line) made.changed = make_single_line(grid, made.crossings, options.seed, stop_monitor());
-        return made;
+MadeKolam make_of_gaps(const KolamGridOptions& options, const DotGrid& grid) {
+    MadeKolam made;
+    made.states = of_option("--crossings", [&] { return parse_gap_states(grid, text_of(*options.crossings)); });
+    if (options.single_line) {
+        if (const auto obstacle = single_line_obstacle(grid, GridSymmetry::none)) throw std::runtime_error(*obstacle);
+        made.changed = make_single_line(grid, made.states, options.seed, stop_monitor());
     }
-    if (!options.single_line) return {random_crossings(grid, random)};
-    if (const auto obstacle = single_line_obstacle(grid, random.symmetry)) throw std::runtime_error(*obstacle);
-    auto found = find_single_line(grid, random, options.attempts, stop_monitor());
-    if (!found) {
-        throw std::runtime_error(fmt::format(
-            "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
-            "--attempts; on a small grid --enumerate shows whether there is one",
-            grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
+    return made;
+}
+
+MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, RandomKolam random,
+                      const std::vector<GridSymmetry>& symmetries) {
+    for (const GridSymmetry symmetry : symmetries) {
+        random.symmetry = symmetry;
+        if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
+            throw std::runtime_error(*obstacle);
+        }
+        // Where the symmetry is not requested, the next one is tried sooner.
+        const int attempts = options.symmetry ? options.attempts : std::min(options.attempts, 100);
+        auto found = find_single_line(grid, random, attempts, stop_monitor());
+        if (found) return {std::move(found->states), symmetry, found->changed, found->attempt};
     }
-    return {std::move(found->crossings), found->changed, found->attempt};
+    throw std::runtime_error(fmt::format(
+        "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
+        "--attempts; on a small grid --enumerate shows whether there is one",
+        grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
+}
+
+MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
+                     const std::vector<GridSymmetry>& symmetries) {
+    if (options.crossings) return make_of_gaps(options, grid);
+    RandomKolam random{.seed = options.seed, .joined = options.joined, .avoids_rings = !options.density};
+    random.density = options.density.value_or(random.density);
+    if (options.single_line) return make_single(options, grid, random, symmetries);
+    random.symmetry = symmetries.front();
+    return {random_states(grid, random), random.symmetry};
 }
 
 /// The second count, where it takes seconds at most.
-std::optional<std::size_t> second_count(const DotGrid& grid, const Crossings& crossings) {
-    const std::size_t longest = *std::max_element(grid.rows().begin(), grid.rows().end());
-    const double width = static_cast<double>(std::min(grid.rows().size(), longest));
-    if (static_cast<double>(grid.dots().size()) * width * width > 1e12) return std::nullopt;
-    return laplacian_nullity(grid, crossings, stop_monitor());
+std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& states) {
+    const std::vector<std::uint32_t> rows = grid.rows();
+    const std::size_t longest = *std::max_element(rows.begin(), rows.end());
+    const bool has_joined = std::find(states.begin(), states.end(), GapState::joined) != states.end();
+    const auto dots = static_cast<double>(grid.dots().size());
+    const double width = has_joined ? dots : static_cast<double>(std::min(rows.size(), longest));
+    if (dots * width * width > 1e12) return std::nullopt;
+    return laplacian_nullity(grid, states, stop_monitor());
 }
 
-void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry, bool quiet) {
+/// `12 crossed, 3 joined` of the gaps.
+std::string gaps_told(const GapStates& states) {
+    const auto crossed = std::count(states.begin(), states.end(), GapState::crossed);
+    const auto joined = std::count(states.begin(), states.end(), GapState::joined);
+    std::string text = fmt::format("{} of {} crossed", crossed, counted(states.size(), "gap"));
+    if (joined > 0) text += fmt::format(" and {} joined", joined);
+    return text;
+}
+
+void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const std::vector<GridSymmetry>& symmetries,
+                  bool quiet) {
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json: standard output is the pattern's; give its file with -o");
     }
@@ -85,38 +121,40 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
                             options.output, interpreter->owner() == KeyOwner::art ? "draw" : "play"));
         }
     }
-    const RandomKolam random{options.seed, options.density.value_or(RandomKolam().density), symmetry};
-    const MadeKolam made = make_kolam(options, grid, random);
+    const MadeKolam made = make_kolam(options, grid, symmetries);
     const std::string name = printable(grid.text(), 80);
-    const auto crossed = std::count(made.crossings.begin(), made.crossings.end(), 1);
-    const std::size_t lines = count_lines(grid, made.crossings, stop_monitor());
-    const auto nullity = second_count(grid, made.crossings);
+    const std::size_t lines = count_lines(grid, made.states, stop_monitor());
+    const auto nullity = second_count(grid, made.states);
     if (nullity && *nullity != lines) {
         throw std::logic_error(fmt::format("{} by following them, but {} by the Laplacian", lines, *nullity));
     }
 
     KolamPatternOptions pattern;
     pattern.title = fmt::format("Kolam on {} dots", name);
-    pattern.description = fmt::format("{}, {} of {} gaps crossed, {}", counted(grid.dots().size(), "dot"), crossed,
-                                      grid.gaps().size(), counted(lines, "line"));
+    pattern.description =
+        fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), gaps_told(made.states), counted(lines, "line"));
     if (!options.crossings) {
-        pattern.description += fmt::format("; seed {}, density {}", random.seed, random.density);
-        if (symmetry != GridSymmetry::none) {
-            pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(symmetry));
+        pattern.description +=
+            fmt::format("; seed {}, density {}", options.seed, options.density.value_or(RandomKolam().density));
+        if (options.joined > 0) pattern.description += fmt::format(", joined {}", options.joined);
+        if (made.symmetry != GridSymmetry::none) {
+            pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(made.symmetry));
         }
     }
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
-    write(options.output, kolam_pattern(grid, made.crossings, pattern).text);
+    write(options.output, kolam_pattern(grid, made.states, pattern).text);
 
     if (options.as_json) {
         fmt::print(
-            "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"lines\": {}, \"laplacian_nullity\": {}, "
-            "\"changed\": {}, \"attempt\": {}, \"crossings\": {}}}\n",
-            json_string(grid.text()), grid.dots().size(), grid.gaps().size(), crossed, lines,
-            nullity ? fmt::format("{}", *nullity) : "null", made.changed, made.attempt,
-            json_string(crossings_text(grid, made.crossings)));
+            "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, "
+            "\"laplacian_nullity\": {}, \"symmetry\": {}, \"changed\": {}, \"attempt\": {}, \"crossings\": {}}}\n",
+            json_string(grid.text()), grid.dots().size(), grid.gaps().size(),
+            std::count(made.states.begin(), made.states.end(), GapState::crossed),
+            std::count(made.states.begin(), made.states.end(), GapState::joined), lines,
+            nullity ? fmt::format("{}", *nullity) : "null", json_string(grid_symmetry_name(made.symmetry)),
+            made.changed, made.attempt, json_string(gap_states_text(grid, made.states)));
     } else {
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
@@ -128,6 +166,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, GridSymm
 void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetry symmetry) {
     EnumerationOptions enumeration;
     enumeration.symmetry = symmetry;
+    enumeration.joined = options.joined > 0;
     enumeration.keep = options.limit;
     enumeration.threads = options.threads;
     enumeration.monitor = stop_monitor();
@@ -145,40 +184,57 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* grid =
         command
-            .add_option("--grid", options.grid,
-                        "make a kolam on this grid of dots: 7x7, or the number of dots in each row: 1-3-5-3-1")
-            ->type_name("ROWS")
+            .add_option(
+                "--grid", options.grid,
+                "make a kolam on this grid of dots: 7x7, the dots of each row: 1-3-5-3-1, the longest row and "
+                "the last: '7 to 1 ner pulli', '15-8 idukku pulli', blocks: 15x9-9x3, or a shape of 'o' and "
+                "'.': oo./ooo/.oo; @FILE reads it from a file")
+            ->type_name("DOTS")
             ->group(grid_heading);
-    auto* symmetry = command
-                         .add_option("--symmetry", options.symmetry,
-                                     "none, C2 (half turn), C4 (quarter turn), mirror-x (left and right), mirror-y "
-                                     "(top and bottom), mirrors (both) or D4 (all); excludes --crossings (none)")
-                         ->type_name("GROUP")
-                         ->group(grid_heading)
-                         ->needs(grid);
+    auto* symmetry =
+        command
+            .add_option("--symmetry", options.symmetry,
+                        "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and bottom), "
+                        "diagonal, mirrors (mirror-x and mirror-y), diagonals, D3, D3-y, D4 or D6 (rotations and "
+                        "mirrors); excludes --crossings (the largest that the grid and --single-line permit; "
+                        "with --enumerate none)")
+            ->type_name("GROUP")
+            ->group(grid_heading)
+            ->needs(grid);
     auto* density =
-        command.add_option("--density", options.density, "share of the gaps in which lines cross, 0 to 1 (0.7)")
+        command
+            .add_option("--density", options.density,
+                        "share of the gaps in which lines cross, 0 to 1 (0.7, and no ring around a dot alone)")
             ->type_name("SHARE")
             ->check(number_between(0, 1))
             ->group(grid_heading)
             ->needs(grid);
+    auto* joined = command
+                       .add_option("--joined", options.joined,
+                                   "share of the other gaps in which lines run past both dots, 0 to 1; with "
+                                   "--enumerate any share above 0 lists them, too (0)")
+                       ->type_name("SHARE")
+                       ->check(number_between(0, 1))
+                       ->group(grid_heading)
+                       ->needs(grid);
     auto* crossings =
         command
-            .add_option(
-                "--crossings", options.crossings,
-                "all, none, or a 0 or 1 for each gap: row by row from the top, first the gaps within the row, "
-                "then the gaps to the next row; @FILE reads them from a file")
+            .add_option("--crossings", options.crossings,
+                        "all, none, or a digit for each gap (0 turned back, 1 crossed, 2 joined): row by row from "
+                        "the top, first "
+                        "the gaps within the row, then the gaps to the next row; @FILE reads them from a file")
             ->type_name("GAPS")
             ->group(grid_heading)
             ->needs(grid)
             ->excludes(symmetry)
-            ->excludes(density);
+            ->excludes(density)
+            ->excludes(joined);
     auto* single =
         command
             .add_flag(
                 "--single-line", options.single_line,
-                "make a single line, changing as few gaps as possible; with C4 the grid needs a dot in its middle, "
-                "with C2 or mirrors a dot or a gap; with D4 one dot at most on each diagonal")
+                "make a single line, changing as few gaps as possible; with C4 and C6 the grid needs a dot in its "
+                "middle, with C2 or mirrors a dot or a gap; with D4 one dot at most on each diagonal")
             ->group(grid_heading)
             ->needs(grid);
     command
@@ -212,17 +268,16 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
 }
 
 void kolam_grid(const KolamGridOptions& options, bool quiet) {
-    const DotGrid grid = of_option("--grid", [&] { return parse_dot_grid(options.grid); });
-    const GridSymmetry symmetry = of_option("--symmetry", [&] {
-        const GridSymmetry wanted = parse_grid_symmetry(options.symmetry);
+    const DotGrid grid = of_option("--grid", [&] { return parse_dot_grid(text_of(options.grid)); });
+    const std::optional<GridSymmetry> symmetry = of_option("--symmetry", [&]() -> std::optional<GridSymmetry> {
+        if (!options.symmetry) return std::nullopt;
+        const GridSymmetry wanted = parse_grid_symmetry(*options.symmetry);
         require_symmetry(grid, wanted);
         return wanted;
     });
-    if (options.enumerate) {
-        enumerate(options, grid, symmetry);
-    } else {
-        make_pattern(options, grid, symmetry, quiet);
-    }
+    if (options.enumerate) return enumerate(options, grid, symmetry.value_or(GridSymmetry::none));
+    make_pattern(options, grid, symmetry ? std::vector{*symmetry} : usual_symmetries(grid, options.single_line),
+                 quiet);
 }
 
 }  // namespace sikku

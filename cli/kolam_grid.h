@@ -1,7 +1,6 @@
 // cli/kolam_grid.h: `sikku kolam --grid`: kolams made on a grid of dots, and all single lines of a small one.
 #pragma once
 
-#include "art/kolam/dot_grid.h"
 #include "cli/command.h"
 
 #include <cstdint>
@@ -17,8 +16,9 @@ inline constexpr const char* grid_heading = "Kolams on a grid of dots";
 struct KolamGridOptions {
     std::string grid;
     std::uint64_t seed = 0;
-    std::string symmetry = "none";
+    std::optional<std::string> symmetry;   ///< absent: the usual one
     std::optional<double> density;         ///< of gaps that are crossings; absent: 0.7
+    double joined = 0.0;                   ///< of the other gaps that are joined
     std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
     bool single_line = false;
     int attempts = 1000;  ///< at a single line with a symmetry

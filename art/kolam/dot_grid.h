@@ -1,7 +1,5 @@
-// art/kolam/dot_grid.h: kolams on a grid of dots: crossings in the gaps between dots, and the lines they form.
+// art/kolam/dot_grid.h: grids of dots, the gaps between them, and the ways people write them down.
 #pragma once
-
-#include "engine/base/monitor.h"
 
 #include <array>
 #include <cstdint>
@@ -12,153 +10,87 @@
 
 namespace sikku {
 
-/// Around a dot, anticlockwise. A dot's arc number s lies between its sides s and s + 1: the quarter of a line that
-/// passes it there.
-enum GridSide : std::uint32_t { right_side, upper_side, left_side, lower_side };
+/// How the rows of dots stand: above each other (*ner pulli*), or each in the gaps of its neighbours (*idukku pulli*,
+/// *sandhu pulli*), so that a dot has up to six neighbours, all one spacing away.
+enum class DotLattice : std::uint8_t { square, triangular };
 
-/// Twice the distance from the middle of the grid, in spacings of dots; x to the right, y up.
+/// A place relative to the middle of the grid's box: x in half spacings to the right, y in half distances of rows
+/// upwards. A distance of rows is one spacing in the square lattice and sqrt(3)/2 of it in the triangular one.
 struct GridDot {
     std::int32_t x = 0;
     std::int32_t y = 0;
     bool operator==(const GridDot&) const = default;
 };
 
-/// The gap between two neighbouring dots.
+/// The gap between two neighbouring dots. The sides of a dot count anticlockwise from the right: 0 right, 1 up, 2
+/// left, 3 down, or in the triangular lattice six sides 60 degrees apart.
 struct GridGap {
     std::uint32_t from = 0;  ///< the left or the upper dot
     std::uint32_t to = 0;
-    GridSide side = right_side;  ///< of `from`: right_side or lower_side
+    std::uint32_t side = 0;  ///< side of `from`
 };
 
-/// Dots in rows, each row centred, one spacing apart in both directions (*ner pulli*).
+/// Dots of a lattice, one spacing apart, in rows from the top.
 class DotGrid {
 public:
     static constexpr std::uint64_t most_dots = 4'000'000;  ///< about 100 bytes each with all that is made of them
 
-    /// @param rows  dots in each row, from the top: all odd or all even
-    /// @throws std::runtime_error for no row, an empty one, odd and even ones together, and over most_dots
+    /// Centred rows without holes. Square if all numbers are odd or all even, triangular if odd and even ones
+    /// alternate.
+    /// @param rows  dots in each row, from the top
+    /// @throws std::runtime_error for no rows, an empty row, other numbers, and over most_dots
     explicit DotGrid(std::vector<std::uint32_t> rows);
 
-    const std::vector<std::uint32_t>& rows() const { return rows_; }
+    /// Any set of dots.
+    /// @param columns  x of the dots of each row from the top, ascending, in half spacings from anywhere. In the
+    /// square
+    ///     lattice all are odd or all even, in the triangular lattice odd and even rows alternate.
+    /// @throws std::runtime_error for no dots, places off the lattice, and over most_dots
+    DotGrid(DotLattice lattice, const std::vector<std::vector<std::int32_t>>& columns);
+
+    DotLattice lattice() const { return lattice_; }
+    /// Neighbours of a dot that has all of them: 4 or 6.
+    std::uint32_t sides() const { return lattice_ == DotLattice::square ? 4 : 6; }
+    /// Number of dots in each row, from the top.
+    std::vector<std::uint32_t> rows() const;
     /// From the top, each row from the left.
     const std::vector<GridDot>& dots() const { return dots_; }
     /// For each row from the top: those within the row, then those to the next row, each from the left.
     const std::vector<GridGap>& gaps() const { return gaps_; }
     /// Index of the gap on that side of a dot, or -1 at the border.
-    std::int32_t gap(std::uint32_t dot, std::uint32_t side) const { return gap_at_[dot][side]; }
+    std::int32_t gap(std::uint32_t dot, std::uint32_t side) const { return gap_at_[sides() * dot + side]; }
     std::optional<std::uint32_t> dot_at(GridDot place) const;
-    /// `7x7`, or `1-3-5-3-1`.
+    /// From a dot to its neighbour on that side.
+    GridDot step(std::uint32_t side) const;
+    /// Number of groups of dots that no gap connects.
+    std::size_t groups() const;
+    /// Canonical notation, which parse_dot_grid() reads: `7x7`, `1-3-5-3-1`, `15-8 idukku`, `.o./ooo/.o.`.
     std::string text() const;
 
 private:
-    std::vector<std::uint32_t> rows_;
-    std::vector<std::uint32_t> row_begin_;  // index of each row's first dot
+    void place(DotLattice lattice, const std::vector<std::vector<std::int32_t>>& columns);
+    void connect();
+
+    DotLattice lattice_ = DotLattice::square;
+    std::vector<std::uint32_t> row_begin_;  // index of each row's first dot, and the number of dots
     std::vector<GridDot> dots_;
     std::vector<GridGap> gaps_;
-    std::vector<std::array<std::int32_t, 4>> gap_at_;
+    std::vector<std::int32_t> gap_at_;  // by dot and side
 };
 
-/// `ROWSxCOLUMNS`, or the rows from the top, `1-3-5-7-5-3-1`.
+/// Reads the notations of practitioners, in any case, with `×` for `x`, any dash, and words such as `pulli` and
+/// `dots`:
+/// - `7x7`: rows x columns;
+/// - `1-3-5-3-1` or `7,1`: dots of each row from the top; numbers that are odd and even in turn make interlaced rows;
+/// - `7 to 1`, `7-1 ner pulli`: the longest row, and each row above and below it two dots shorter, to the last one;
+/// - `15-8`, `15-8 idukku pulli`, `15x8 interlaced`: the same in the interlaced (triangular) lattice, one dot shorter
+///   each. Two numbers without such a word are interlaced if their difference is odd or makes a hexagon (5-3, 9-5);
+/// - `7x7 idukku`: rows of 7 and 6 dots in turn (with no more rows than dots in a row, `15x8` is 15 to 8);
+/// - `7x3 to 3`: three rows of 7, then shorter ones above and below;
+/// - `15x9-9x3`: a block of 15 dots x 9 rows, then 9 dots x 3 rows above and below it;
+/// - a shape drawn in text, rows separated by line feeds or `/`: `o` (or O * # •) is a dot, `.` or `_` none. With
+///   blanks between the dots, each row may be shifted by half a spacing against its neighbours: interlaced.
 /// @throws std::runtime_error for anything else, and as DotGrid does
 DotGrid parse_dot_grid(std::string_view text);
-
-/// For each gap 1 if two lines cross in it, 0 if they turn back on either side of it.
-using Crossings = std::vector<char>;
-
-/// `all`, `none`, or a 0 or 1 for each gap in the order of DotGrid::gaps(); blanks, commas and slashes between them
-/// mean nothing. @throws std::runtime_error
-Crossings parse_crossings(const DotGrid& grid, std::string_view text);
-/// The digits, each row of gaps a word.
-std::string crossings_text(const DotGrid& grid, const Crossings& crossings);
-
-// --- lines --------------------------------------------------------------------------------------------------------
-
-/// The number of closed lines, by following them. Cost: linear.
-std::size_t count_lines(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
-
-/// The same number by another way: the nullity over GF(2) of the Laplacian of the graph whose vertices are the dots
-/// and whose edges are the crossings. Time: O(dots * width^2 / 64), memory O(width^2), width the smaller of the
-/// grid's two. Source: Godsil & Royle, Algebraic Graph Theory, 2001, section 17.5 (straight-ahead walks of the medial
-/// graph).
-std::size_t laplacian_nullity(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
-
-/// A step along a line, from the middle of one side of a dot to the middle of the next: along its arc.
-struct ArcStep {
-    std::uint32_t dot = 0;
-    std::uint32_t arc = 0;      ///< between its sides `arc` and `arc + 1`
-    bool anticlockwise = true;  ///< around the dot
-
-    /// Side of the dot it starts from, and that it leads to.
-    std::uint32_t entry() const { return anticlockwise ? arc : (arc + 1) % 4; }
-    std::uint32_t exit() const { return anticlockwise ? (arc + 1) % 4 : arc; }
-    /// Quarter turns anticlockwise from the direction up right.
-    std::uint32_t heading() const { return (arc + (anticlockwise ? 1 : 3)) % 4; }
-    bool operator==(const ArcStep&) const = default;
-};
-ArcStep next_step(const DotGrid& grid, const Crossings& crossings, const ArcStep& step);
-
-/// The first step of each line, in the order of the arcs they start with: by dot, then by number.
-std::vector<ArcStep> line_starts(const DotGrid& grid, const Crossings& crossings, const Monitor& monitor = {});
-
-// --- symmetry -----------------------------------------------------------------------------------------------------
-
-/// What leaves a drawing as it is. mirror_x exchanges left and right, mirror_y top and bottom; `mirrors` is both.
-enum class GridSymmetry { none, c2, c4, mirror_x, mirror_y, mirrors, d4 };
-
-/// `none`, `C2` (a half turn), `C4` (a quarter turn), `mirror-x`, `mirror-y`, `mirrors`, `D4`, in any case.
-/// @throws std::runtime_error
-GridSymmetry parse_grid_symmetry(std::string_view text);
-std::string_view grid_symmetry_name(GridSymmetry symmetry);
-
-bool has_symmetry(const DotGrid& grid, GridSymmetry symmetry);
-/// @throws std::runtime_error if it does not
-void require_symmetry(const DotGrid& grid, GridSymmetry symmetry);
-
-/// Where each gap goes under each of the grid's own symmetries, the identity first: at most 8 permutations.
-std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid);
-
-/// Gaps that the symmetry takes to each other have the same number; numbers from 0 in the order of their first gaps.
-/// @throws std::runtime_error if the grid does not have the symmetry
-std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
-
-bool is_symmetric(const DotGrid& grid, const Crossings& crossings, GridSymmetry symmetry);
-
-/// Why no single line on this grid has that symmetry, or nothing if none of the reasons known speaks against it.
-/// A turn carries the line along itself, so that it winds around the middle an odd number of times: there has to be a
-/// dot (or, for a half turn, a crossing). Under D4 each diagonal may cross the line only twice, and every dot on it
-/// makes it do so.
-std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry);
-
-// --- making them --------------------------------------------------------------------------------------------------
-
-struct RandomKolam {
-    std::uint64_t seed = 0;
-    double density = 0.7;  ///< of the gaps that are crossings, 0 to 1
-    GridSymmetry symmetry = GridSymmetry::none;
-};
-
-/// Each gap, or each orbit of gaps, on its own. The same on every machine.
-/// @throws std::runtime_error if the grid does not have the symmetry, or the density is not between 0 and 1
-Crossings random_crossings(const DotGrid& grid, const RandomKolam& kolam);
-
-/// Turns c lines into one by changing c - 1 gaps, the fewest that can do it; returns how many. Any two lines that
-/// meet in a gap become one when it changes. Which gaps is a matter of the seed. Cost: linear, but for union-find.
-std::size_t make_single_line(const DotGrid& grid, Crossings& crossings, std::uint64_t seed,
-                             const Monitor& monitor = {});
-
-/// A single line as it was found.
-struct SingleLine {
-    Crossings crossings;
-    std::size_t changed = 0;  ///< gaps that differ from random_crossings of the seed that led to it
-    int attempt = 1;
-};
-
-/// Without a symmetry random_crossings(), then make_single_line(). With one, whole orbits are changed as long as that
-/// leaves fewer lines; where that ends with several, the next attempt starts from another seed, made from the first.
-/// Nothing if `attempts` attempts, or 3 * 10^9 steps along lines, did not lead to one (that none exists is for
-/// single_line_obstacle() to say, or for an enumeration). The monitor is asked throughout.
-/// @throws as random_crossings(); Stopped
-std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,
-                                           const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -1,7 +1,7 @@
 // art/kolam/dot_grid_pattern.h: writes a kolam on a grid of dots as a pattern file.
 #pragma once
 
-#include "art/kolam/dot_grid.h"
+#include "art/kolam/dot_grid_lines.h"
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -23,14 +23,15 @@ struct KolamPattern {
     std::size_t lines = 0;
 };
 
-/// The turtle steps `F` diagonally from the middle of one side of a dot to the next, turning where the line does; the
-/// middles are the control points of a spline, which therefore runs straight through each crossing, at right angles,
-/// and rounds a dot where it turns back. Dots are sqrt(2) steps apart; the first line starts at 0 0. Each line is one
-/// closed stroke. A single line is a word without brackets; several are branches, and between them the turtle moves
-/// with a transparent pen, for a spline takes `f` as a control point as well.
-/// Up to 1000 gaps are listed in a comment, as parse_crossings() reads them. Steps are whole (or halves, to dots), so
-/// that every position is exact.
+/// The turtle steps `F` from the middle of one side of a dot to the middle of the next, turning where the line does;
+/// the middles are the control points of a spline, which therefore runs straight through each crossing and rounds a
+/// dot where it turns back. In the square lattice steps are diagonal, lines cross at right angles, and dots are
+/// sqrt(2) steps apart; in the triangular one steps have six directions, lines cross at 60 degrees, and dots are 2
+/// steps apart. The first line starts at 0 0. Each line is one closed stroke. A single line is a word without
+/// brackets; several are branches, and between them the turtle moves with a transparent pen, for a spline takes `f`
+/// as a control point as well. The grid and up to 1000 gaps are listed in comments, as parse_dot_grid() and
+/// parse_gap_states() read them. Steps are whole (or halves, to dots), so that every position is exact.
 /// @throws std::runtime_error if the text were too long for a pattern file
-KolamPattern kolam_pattern(const DotGrid& grid, const Crossings& crossings, const KolamPatternOptions& options = {});
+KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 
 }  // namespace sikku

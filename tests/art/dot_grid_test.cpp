@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid.h"
 
 #include "art/kolam/dot_grid_enumeration.h"
+#include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "art/style/style.h"
 #include "engine/geometry/spline.h"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -20,9 +22,9 @@
 namespace sikku {
 namespace {
 
-Crossings state_of(const DotGrid& grid, std::uint64_t bits) {
-    Crossings crossings(grid.gaps().size());
-    for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = (bits >> i & 1U) != 0;
+GapStates state_of(const DotGrid& grid, std::uint64_t bits) {
+    GapStates crossings(grid.gaps().size());
+    for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = static_cast<GapState>(bits >> i & 1U);
     return crossings;
 }
 
@@ -61,31 +63,91 @@ TEST(DotGrid, ReadsRectanglesAndRows) {
     }
 }
 
+TEST(DotGrid, ReadsTheNotationsOfPractitioners) {
+    struct Case {
+        const char* text;
+        const char* canonical;
+        std::size_t dots, gaps;
+    };
+    for (const Case& known : {Case{"7 to 1 ner pulli", "1-3-5-7-5-3-1", 25, 36},
+                              {"7-1", "1-3-5-7-5-3-1", 25, 36},
+                              {"1 to 7 to 1", "1-3-5-7-5-3-1", 25, 36},
+                              {"1-7-1 ner", "1-3-5-7-5-3-1", 25, 36},
+                              {"1-7-1", "1-7-1", 9, 8},
+                              {"7,1", "7,1", 8, 7},
+                              {"7 X 7 dots", "7x7", 49, 84},
+                              {"7×7", "7x7", 49, 84},
+                              {"15-8 idukku pulli", "15-8 idukku", 169, 462},
+                              {"15 to 8", "15-8 idukku", 169, 462},
+                              {"15x8 Sandhu Pulli", "15-8 idukku", 169, 462},
+                              {"15–8", "15-8 idukku", 169, 462},
+                              {"5-3", "5-3 idukku", 19, 42},
+                              {"3-4-5-4-3", "5-3 idukku", 19, 42},
+                              {"5-3 ner", "3-5-3", 11, 14},
+                              {"5-1 idukku", "5-1 idukku", 25, 56},
+                              {"7x7 idukku", "7-6-7-6-7-6-7", 46, 111},
+                              {"15x9-9x3", "9-9-9-15-15-15-15-15-15-15-15-15-9-9-9", 189, 348},
+                              {"7x3 to 3", "3-5-7-7-7-5-3", 37, 60},
+                              {".o./ooo/.o.", "1-3-1", 5, 4},
+                              {"ooo\no.o\r\nooo\n", "ooo/o.o/ooo", 8, 8},
+                              {"•••/•_•", "ooo/o.o", 5, 4},
+                              {"o o/ o /o o", "2-1-2", 5, 6},
+                              {"oo//oo", "oo//oo", 4, 2},
+                              {" o o o/o o o/ o   o", " o o o/o o o/ o   o", 8, 12}}) {
+        const DotGrid grid = parse_dot_grid(known.text);
+        EXPECT_EQ(grid.text(), known.canonical) << known.text;
+        EXPECT_EQ(grid.dots().size(), known.dots) << known.text;
+        EXPECT_EQ(grid.gaps().size(), known.gaps) << known.text;
+        EXPECT_EQ(parse_dot_grid(grid.text()).dots(), grid.dots()) << known.text;
+        for (std::uint32_t i = 0; i < grid.dots().size(); ++i) EXPECT_EQ(grid.dot_at(grid.dots()[i]), i);
+        for (const GridGap& gap : grid.gaps()) {
+            const GridDot way = grid.step(gap.side);
+            const GridDot from = grid.dots()[gap.from];
+            EXPECT_EQ(grid.dots()[gap.to], (GridDot{from.x + way.x, from.y + way.y})) << known.text;
+            // In the plane neighbours are one spacing apart.
+            const double height = grid.lattice() == DotLattice::square ? 1.0 : std::sqrt(0.75);
+            EXPECT_NEAR(std::hypot(way.x / 2.0, height * way.y / 2.0), 1.0, 1e-15);
+        }
+    }
+    EXPECT_EQ(parse_dot_grid("oo//oo").groups(), 2u);
+    EXPECT_EQ(parse_dot_grid("15-8").groups(), 1u);
+    EXPECT_THROW(DotGrid(DotLattice::square, {{0, 1}}), std::runtime_error);
+    EXPECT_THROW(DotGrid(DotLattice::square, {{}}), std::runtime_error);
+}
+
 TEST(DotGrid, RefusesWhatIsNoGrid) {
-    for (const char* text :
-         {"0x5", "7x", "x7", "1--3", "-1-3", "7x7x7", "", " 7x7", "7 x 7", "3-", "three", "7x-7"}) {
+    for (const char* text : {"0x5", "7x", "x7", "1--3", "-1-3", "7x7x7", "", "7 7", "3-", "7x-7", "to 7", "7 to",
+                             "1 to 3 to 5", "7x3-5", "7x3,5x1", "./.", "7\n7"}) {
         EXPECT_NE(error_of([&] { parse_dot_grid(text); }).find("expected ROWSxCOLUMNS"), std::string::npos) << text;
     }
     for (const char* text : {"99999999x99999999", "4294967295x4294967295", "99999999999999999999x1", "2001x2000",
                              "4000001", "3999999-3"}) {
         EXPECT_NE(error_of([&] { parse_dot_grid(text); }).find("more than 4000000 dots"), std::string::npos) << text;
     }
-    EXPECT_NE(error_of([] { parse_dot_grid("1-2-3"); }).find("row 2 of the grid has 2 dots"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("1-2-4"); }).find("row 3 of the grid has 4 dots"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("three"); }).find("unknown word 'three'"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("7-4 ner pulli"); }).find("from 7 they do not come to 4"),
+              std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("7x3 to 4"); }).find("interlaced rows of one length"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("1-3-5-3-1 idukku"); }).find("odd and even numbers"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("ner 7-6-7 idukku"); }).find("either straight or interlaced"),
+              std::string::npos);
+    EXPECT_NE(error_of([] { parse_dot_grid("o o o/o  o"); }).find("column 4 of row 2"), std::string::npos);
     EXPECT_NE(error_of([] { DotGrid({}); }), "");
     EXPECT_NE(error_of([] { DotGrid({3, 0}); }), "");
 }
 
 TEST(DotGrid, CrossingsAreReadBack) {
     const DotGrid grid = parse_dot_grid("1-3-5-3-1");
-    const Crossings crossings = random_crossings(grid, {.seed = 3});
-    const std::string text = crossings_text(grid, crossings);
+    const GapStates crossings = random_states(grid, {.seed = 3});
+    const std::string text = gap_states_text(grid, crossings);
     EXPECT_EQ(std::count(text.begin(), text.end(), ' '), 6);  // no gap within the rows of one dot
-    EXPECT_EQ(parse_crossings(grid, text), crossings);
-    EXPECT_EQ(parse_crossings(grid, "all"), Crossings(16, 1));
-    EXPECT_EQ(parse_crossings(grid, "None"), Crossings(16, 0));
-    EXPECT_EQ(parse_crossings(grid, "11111111/0,0000\n000"), parse_crossings(grid, "1111111100000000"));
-    EXPECT_NE(error_of([&] { parse_crossings(grid, "0101"); }).find("4 digits"), std::string::npos);
-    EXPECT_NE(error_of([&] { parse_crossings(grid, "0102"); }), "");
+    EXPECT_EQ(parse_gap_states(grid, text), crossings);
+    EXPECT_EQ(parse_gap_states(grid, "all"), GapStates(16, GapState::crossed));
+    EXPECT_EQ(parse_gap_states(grid, "None"), GapStates(16, GapState::turned));
+    EXPECT_EQ(parse_gap_states(grid, "11111111/0,0000\n000"), parse_gap_states(grid, "1111111100000000"));
+    EXPECT_NE(error_of([&] { parse_gap_states(grid, "0101"); }).find("4 digits"), std::string::npos);
+    EXPECT_NE(error_of([&] { parse_gap_states(grid, "0102"); }), "");
 }
 
 // --- lines --------------------------------------------------------------------------------------------------------
@@ -94,10 +156,10 @@ TEST(DotGrid, AllCrossingsMakeAsManyLinesAsTheGreatestCommonDivisor) {
     for (std::uint32_t a = 1; a <= 12; ++a) {
         for (std::uint32_t b = 1; b <= 12; ++b) {
             const DotGrid grid(std::vector<std::uint32_t>(a, b));
-            const Crossings all(grid.gaps().size(), 1);
+            const GapStates all(grid.gaps().size(), GapState::crossed);
             EXPECT_EQ(count_lines(grid, all), std::gcd(a, b)) << a << 'x' << b;
             EXPECT_EQ(laplacian_nullity(grid, all), std::gcd(a, b)) << a << 'x' << b;
-            EXPECT_EQ(count_lines(grid, Crossings(all.size(), 0)), a * b);
+            EXPECT_EQ(count_lines(grid, GapStates(all.size(), GapState::turned)), a * b);
         }
     }
 }
@@ -106,7 +168,7 @@ TEST(DotGrid, FollowedLinesAreTheNullity) {
     for (const char* text : {"2x3", "3x3"}) {
         const DotGrid grid = parse_dot_grid(text);
         for (std::uint64_t bits = 0; bits < std::uint64_t{1} << grid.gaps().size(); ++bits) {
-            const Crossings crossings = state_of(grid, bits);
+            const GapStates crossings = state_of(grid, bits);
             ASSERT_EQ(count_lines(grid, crossings), laplacian_nullity(grid, crossings)) << text << ' ' << bits;
         }
     }
@@ -114,20 +176,70 @@ TEST(DotGrid, FollowedLinesAreTheNullity) {
          {"10x10", "7x130", "130x7", "1-3-5-7-9-7-5-3-1", "2-4-6-8-8-2-2", "1-9-1-5-1", "1x200", "50x50"}) {
         const DotGrid grid = parse_dot_grid(text);
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
-            const Crossings crossings =
-                random_crossings(grid, {.seed = seed, .density = static_cast<double>(seed) / 19});
+            const GapStates crossings =
+                random_states(grid, {.seed = seed, .density = static_cast<double>(seed) / 19});
             ASSERT_EQ(count_lines(grid, crossings), laplacian_nullity(grid, crossings)) << text << ' ' << seed;
         }
     }
 }
 
+/// Interlaced dots whose gaps are all crossed: straight lines in three directions that turn back at the border.
+TEST(DotGrid, FollowedLinesAreTheNullityOnInterlacedAndJoinedGaps) {
+    for (const char* text : {"2,1", "3-2 idukku", "2-3-4", "ooo/o.o/ooo", "3x3"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        const std::size_t gaps = grid.gaps().size();
+        std::uint64_t count = 1;
+        for (std::size_t i = 0; i < gaps; ++i) count *= 3;
+        for (std::uint64_t number = 0; number<count; number += count> 100000 ? 61 : 1) {
+            GapStates states(gaps);
+            std::uint64_t rest = number;
+            for (GapState& state : states) {
+                state = static_cast<GapState>(rest % 3);
+                rest /= 3;
+            }
+            ASSERT_EQ(count_lines(grid, states), laplacian_nullity(grid, states))
+                << text << ' ' << gap_states_text(grid, states);
+        }
+    }
+    for (const char* text :
+         {"15-8", "7-4", "20-1 idukku", "9x9 idukku", "ooooo/oo.oo/o...o/oo.oo/ooooo", "12x12", "oo//oo"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            const GapStates states = random_states(grid, {.seed = seed,
+                                                          .density = static_cast<double>(seed) / 19,
+                                                          .joined = static_cast<double>(seed % 3) / 2});
+            ASSERT_EQ(count_lines(grid, states), laplacian_nullity(grid, states)) << text << ' ' << seed;
+        }
+    }
+}
+
+TEST(DotGrid, RandomKolamsHaveNoRingsOfTheirOwn) {
+    for (const char* text : {"9x9", "7-4", "ooo/o.o/ooo"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            for (const GridSymmetry symmetry : usual_symmetries(grid, false)) {
+                const GapStates states =
+                    random_states(grid, {.seed = seed, .density = 0.1, .symmetry = symmetry, .avoids_rings = true});
+                EXPECT_TRUE(is_symmetric(grid, states, symmetry));
+                for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+                    bool is_ring = true;
+                    for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+                        const std::int32_t gap = grid.gap(dot, side);
+                        is_ring = is_ring && (gap < 0 || states[static_cast<std::size_t>(gap)] == GapState::turned);
+                    }
+                    EXPECT_FALSE(is_ring) << text << ' ' << seed;
+                }
+            }
+        }
+    }
+}
+
 TEST(DotGrid, MendingChangesOneGapLessThanThereAreLines) {
-    for (const char* text : {"1x1", "2x2", "7x7", "10x3", "1-3-5-7-5-3-1", "50x50"}) {
+    for (const char* text : {"1x1", "2x2", "7x7", "10x3", "1-3-5-7-5-3-1", "50x50", "9-5", "ooo/o.o/ooo"}) {
         const DotGrid grid = parse_dot_grid(text);
         for (std::uint64_t seed = 0; seed < 10; ++seed) {
-            const Crossings before =
-                random_crossings(grid, {.seed = seed, .density = 0.1 * static_cast<double>(seed)});
-            Crossings after = before;
+            const GapStates before = random_states(grid, {.seed = seed, .density = 0.1 * static_cast<double>(seed)});
+            GapStates after = before;
             const std::size_t lines = count_lines(grid, before);
             EXPECT_EQ(make_single_line(grid, after, seed), lines - 1);
             std::size_t different = 0;
@@ -142,12 +254,16 @@ TEST(DotGrid, MendingChangesOneGapLessThanThereAreLines) {
 // --- symmetry -----------------------------------------------------------------------------------------------------
 
 TEST(DotGrid, SymmetriesHaveNames) {
-    for (const char* name : {"none", "C2", "C4", "mirror-x", "mirror-y", "mirrors", "D4"}) {
+    for (const char* name : {"none", "C2", "C3", "C4", "C6", "mirror-x", "mirror-y", "diagonal", "mirrors",
+                             "diagonals", "D3", "D3-y", "D4", "D6"}) {
         EXPECT_EQ(grid_symmetry_name(parse_grid_symmetry(name)), name);
     }
+    EXPECT_EQ(grid_symmetry_list().size(), 14u);
+    EXPECT_EQ(parse_grid_symmetry("d1"), GridSymmetry::mirror_x);
+    EXPECT_EQ(parse_grid_symmetry("D2"), GridSymmetry::mirrors);
     EXPECT_EQ(parse_grid_symmetry("c4"), GridSymmetry::c4);
     EXPECT_EQ(parse_grid_symmetry("Mirror X"), GridSymmetry::mirror_x);
-    EXPECT_NE(error_of([] { parse_grid_symmetry("C3"); }).find("expected none, C2"), std::string::npos);
+    EXPECT_NE(error_of([] { parse_grid_symmetry("C5"); }).find("expected none, C2"), std::string::npos);
 }
 
 /// A crossing seen through a map of the plane, by the places of its dots.
@@ -160,9 +276,9 @@ TEST(DotGrid, SymmetricSetsAreSymmetric) {
         const DotGrid grid = parse_dot_grid(text);
         for (const GridSymmetry symmetry : {GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x,
                                             GridSymmetry::mirror_y, GridSymmetry::mirrors, GridSymmetry::d4}) {
-            const Crossings crossings = random_crossings(grid, {.seed = 5, .density = 0.5, .symmetry = symmetry});
+            const GapStates crossings = random_states(grid, {.seed = 5, .density = 0.5, .symmetry = symmetry});
             const auto holds = [&](const auto& map) {
-                std::map<std::pair<std::uint32_t, std::uint32_t>, char> set;
+                std::map<std::pair<std::uint32_t, std::uint32_t>, GapState> set;
                 for (std::size_t i = 0; i < crossings.size(); ++i) {
                     set[std::minmax(grid.gaps()[i].from, grid.gaps()[i].to)] = crossings[i];
                 }
@@ -188,19 +304,20 @@ TEST(DotGrid, SymmetricSetsAreSymmetric) {
     EXPECT_EQ(grid_symmetries(parse_dot_grid("5x4")).size(), 4u);
     EXPECT_EQ(grid_symmetries(parse_dot_grid("1-3-5")).size(), 2u);
     EXPECT_NE(error_of([] {
-                  random_crossings(parse_dot_grid("3x4"), {.symmetry = GridSymmetry::c4});
+                  random_states(parse_dot_grid("3x4"), {.symmetry = GridSymmetry::c4});
               }).find("3x4 itself does not have the symmetry C4"),
               std::string::npos);
-    EXPECT_NE(error_of([] { random_crossings(parse_dot_grid("3x4"), {.density = std::nan("")}); }), "");
+    EXPECT_NE(error_of([] { random_states(parse_dot_grid("3x4"), {.density = std::nan("")}); }), "");
 }
 
 TEST(DotGrid, ChanceIsTheSameEverywhere) {
     // SplitMix64 of 0 begins E220A839…, 6E789E6A…, 06C45D18…, F88BB8A8…: of 1 about 0.88, 0.43, 0.03, 0.97.
-    EXPECT_EQ(crossings_text(parse_dot_grid("2x2"), random_crossings(parse_dot_grid("2x2"), {})), "0 11 0");
+    EXPECT_EQ(gap_states_text(parse_dot_grid("2x2"), random_states(parse_dot_grid("2x2"), {})), "0 11 0");
     const DotGrid grid = parse_dot_grid("100x100");
-    const Crossings crossings = random_crossings(grid, {.seed = 1, .density = 0.3});
-    EXPECT_NEAR(static_cast<double>(std::count(crossings.begin(), crossings.end(), 1)) / 19800, 0.3, 0.015);
-    EXPECT_NE(crossings, random_crossings(grid, {.seed = 2, .density = 0.3}));
+    const GapStates crossings = random_states(grid, {.seed = 1, .density = 0.3});
+    EXPECT_NEAR(static_cast<double>(std::count(crossings.begin(), crossings.end(), GapState::crossed)) / 19800, 0.3,
+                0.015);
+    EXPECT_NE(crossings, random_states(grid, {.seed = 2, .density = 0.3}));
 }
 
 TEST(DotGrid, SingleLinesWithASymmetryAreFound) {
@@ -208,17 +325,21 @@ TEST(DotGrid, SingleLinesWithASymmetryAreFound) {
          {std::pair{"7x7", GridSymmetry::c4}, std::pair{"21x21", GridSymmetry::c4},
           std::pair{"1-3-5-7-9-7-5-3-1", GridSymmetry::c4}, std::pair{"20x21", GridSymmetry::mirrors},
           std::pair{"20x20", GridSymmetry::mirror_x}, std::pair{"9x9", GridSymmetry::c2},
-          std::pair{"1-3-1", GridSymmetry::d4}, std::pair{"12x5", GridSymmetry::none}}) {
+          std::pair{"1-3-1", GridSymmetry::d4}, std::pair{"12x5", GridSymmetry::none},
+          std::pair{"15-8", GridSymmetry::c6}, std::pair{"9-5", GridSymmetry::c3}, std::pair{"7-4", GridSymmetry::c2},
+          std::pair{"3-2", GridSymmetry::d6}, std::pair{"7-4", GridSymmetry::mirror_y},
+          std::pair{"1-2-3-4-5", GridSymmetry::c3}, std::pair{"2,1", GridSymmetry::d3}}) {
         const DotGrid grid = parse_dot_grid(text);
         const RandomKolam random{.seed = 11, .symmetry = symmetry};
         ASSERT_EQ(single_line_obstacle(grid, symmetry), std::nullopt) << text;
         const auto found = find_single_line(grid, random);
         ASSERT_TRUE(found) << text;
-        EXPECT_EQ(count_lines(grid, found->crossings), 1u) << text;
-        EXPECT_TRUE(is_symmetric(grid, found->crossings, symmetry)) << text;
-        EXPECT_EQ(find_single_line(grid, random)->crossings, found->crossings) << text;
+        EXPECT_EQ(count_lines(grid, found->states), 1u) << text;
+        EXPECT_TRUE(is_symmetric(grid, found->states, symmetry)) << text;
+        EXPECT_EQ(find_single_line(grid, random)->states, found->states) << text;
     }
-    EXPECT_EQ(find_single_line(parse_dot_grid("4x4"), {.symmetry = GridSymmetry::c4}, 50), std::nullopt);
+    EXPECT_FALSE(find_single_line(parse_dot_grid("4x4"), {.symmetry = GridSymmetry::c4}, 50));
+    EXPECT_FALSE(find_single_line(parse_dot_grid("oo//oo"), {}));
 }
 
 // --- enumeration --------------------------------------------------------------------------------------------------
@@ -286,26 +407,38 @@ TEST(DotGridEnumeration, CountsLargerOnesInTheFullCheck) {
                  {"5x4", none, std::uint64_t{1} << 31U, 10747904, 2689280}});
 }
 
+/// Three states of a gap.
+TEST(DotGridEnumeration, CountsJoinedGaps) {
+    for (const auto& [text, count] : {std::pair{"2x2", 40u}, std::pair{"2x3", 768u}, std::pair{"3x3", 132160u}}) {
+        const Enumeration found = enumerate_single_lines(parse_dot_grid(text), {.joined = true});
+        EXPECT_EQ(found.single_line, count) << text;
+        EXPECT_EQ(found.states, static_cast<std::uint64_t>(std::pow(3, found.choices))) << text;
+    }
+    EXPECT_NE(error_of([] {
+                  enumerate_single_lines(parse_dot_grid("4x4"), {.joined = true});
+              }).find("24 free gaps make 3^24"),
+              std::string::npos);
+}
+
 /// The same numbers by looking at every state: lines by the Laplacian, classes by the orbits of their members.
 TEST(DotGridEnumeration, AgreesWithLookingAtEveryState) {
-    for (const char* text : {"2x2", "2x4", "3x3", "1-3-5", "1-3-1-3", "2-4-2"}) {
+    for (const char* text :
+         {"2x2", "2x4", "3x3", "1-3-5", "1-3-1-3", "2-4-2", "3-2", "2,1", "3-2-1", "ooo/o.o/ooo"}) {
         const DotGrid grid = parse_dot_grid(text);
         const auto symmetries = grid_symmetries(grid);
-        for (const GridSymmetry symmetry :
-             {GridSymmetry::none, GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x, GridSymmetry::mirror_y,
-              GridSymmetry::mirrors, GridSymmetry::d4}) {
+        for (const GridSymmetry symmetry : grid_symmetry_list()) {
             if (!has_symmetry(grid, symmetry)) continue;
-            std::vector<Crossings> single;
-            std::vector<Crossings> distinct;
+            std::vector<GapStates> single;
+            std::vector<GapStates> distinct;
             for (std::uint64_t bits = 0; bits < std::uint64_t{1} << grid.gaps().size(); ++bits) {
-                const Crossings crossings = state_of(grid, bits);
+                const GapStates crossings = state_of(grid, bits);
                 if (!is_symmetric(grid, crossings, symmetry) || laplacian_nullity(grid, crossings) != 1) continue;
                 single.push_back(crossings);
             }
-            for (const Crossings& crossings : single) {
-                Crossings least = crossings;
+            for (const GapStates& crossings : single) {
+                GapStates least = crossings;
                 for (const auto& images : symmetries) {
-                    Crossings image(crossings.size());
+                    GapStates image(crossings.size());
                     for (std::size_t i = 0; i < images.size(); ++i) image[images[i]] = crossings[i];
                     if (is_symmetric(grid, image, symmetry)) least = std::min(least, image);
                 }
@@ -325,14 +458,18 @@ TEST(DotGridEnumeration, AgreesWithLookingAtEveryState) {
 }
 
 TEST(DotGridEnumeration, ObstaclesAreReal) {
-    for (const char* text : {"1x1", "1x4", "1x5", "2x2", "2x3", "3x3", "2x4", "4x4", "3x4", "5x5", "6x6", "4x6",
-                             "1-3-1", "1-3-5-3-1", "1-1-5-1-1", "2-4-4-2", "1-3-5", "3-1-3", "1-5-5-5-1"}) {
+    for (const char* text :
+         {"1x1", "1x4", "1x5", "2x2", "2x3", "3x3", "2x4", "4x4", "3x4", "5x5", "6x6", "4x6", "1-3-1", "1-3-5-3-1",
+          "1-1-5-1-1", "2-4-4-2", "1-3-5", "3-1-3", "1-5-5-5-1",
+          // interlaced
+          "2,1", "1-2-3", "1-2-3-4", "1-2-3-4-5", "3-2", "5-3", "4-2", "4-5-4", "5-4-5", "2-3-2-3", "7-4",
+          // with holes
+          "ooo/o.o/ooo", "ooooo/o.o.o/ooooo", " o o / o   o/ o o ", "oo/o.o/.oo"}) {
         const DotGrid grid = parse_dot_grid(text);
-        for (const GridSymmetry symmetry : {GridSymmetry::c2, GridSymmetry::c4, GridSymmetry::mirror_x,
-                                            GridSymmetry::mirror_y, GridSymmetry::mirrors, GridSymmetry::d4}) {
+        for (const GridSymmetry symmetry : grid_symmetry_list()) {
             if (!has_symmetry(grid, symmetry)) continue;
             const auto orbits = gap_orbits(grid, symmetry);
-            if (!orbits.empty() && *std::max_element(orbits.begin(), orbits.end()) >= 24) continue;
+            if (!orbits.empty() && *std::max_element(orbits.begin(), orbits.end()) >= 22) continue;
             EXPECT_EQ(single_line_obstacle(grid, symmetry).has_value(),
                       enumerate_single_lines(grid, {.symmetry = symmetry}).single_line == 0)
                 << text << ' ' << grid_symmetry_name(symmetry);
@@ -401,10 +538,11 @@ struct Middles {
 };
 Middles middles(const DotGrid& grid, const std::vector<glm::dvec2>& dots) {
     Middles found;
-    const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), {0, 1}, {-1, 0}, {0, -1}};
+    const double distance = grid.lattice() == DotLattice::square ? std::sqrt(0.5) : 1.0;  // from a dot, in steps
     for (std::uint32_t dot = 0; dot < dots.size(); ++dot) {
-        for (std::uint32_t side = 0; side < 4; ++side) {
-            const auto middle = rounded(dots[dot] + std::sqrt(0.5) * ways[side]);
+        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+            const double angle = 2 * std::numbers::pi * side / grid.sides();
+            const auto middle = rounded(dots[dot] + distance * glm::dvec2(std::cos(angle), std::sin(angle)));
             const std::int32_t gap = grid.gap(dot, side);
             if (gap < 0) {
                 found.border[middle] = dot;
@@ -419,10 +557,11 @@ Middles middles(const DotGrid& grid, const std::vector<glm::dvec2>& dots) {
 TEST(DotGridPattern, StrokesAreTheLines) {
     for (const auto& [text, density] :
          {std::pair{"1x1", 0.7}, std::pair{"3x3", 0.0}, std::pair{"3x3", 1.0}, std::pair{"7x7", 0.7},
-          std::pair{"5x8", 0.4}, std::pair{"1-3-5-7-5-3-1", 0.7}, std::pair{"2-8-4", 0.9}, std::pair{"30x30", 0.6}}) {
+          std::pair{"5x8", 0.4}, std::pair{"1-3-5-7-5-3-1", 0.7}, std::pair{"2-8-4", 0.9}, std::pair{"30x30", 0.6},
+          std::pair{"7-4", 0.7}, std::pair{"5-6-7", 1.0}, std::pair{"ooo/o.o/ooo", 0.8}}) {
         const DotGrid grid = parse_dot_grid(text);
         for (const bool single : {false, true}) {
-            Crossings crossings = random_crossings(grid, {.seed = 9, .density = density});
+            GapStates crossings = random_states(grid, {.seed = 9, .density = density, .joined = 0.3});
             if (single) make_single_line(grid, crossings, 1);
             const KolamPattern pattern = kolam_pattern(grid, crossings, {.title = "A kolam", .description = "one"});
             EXPECT_EQ(pattern.lines, count_lines(grid, crossings));
@@ -449,14 +588,17 @@ TEST(DotGridPattern, StrokesAreTheLines) {
                         continue;
                     }
                     ++visits[gap->second];
-                    if (!crossings[gap->second]) continue;
-                    // The curve runs through the crossing, straight, and at right angles to itself.
+                    if (crossings[gap->second] != GapState::crossed) continue;
+                    // The curve runs through the crossing, straight, at right angles to itself or at 60 degrees.
                     const glm::dvec2 ahead = curve[3 * i + 1] - curve[3 * i];
                     EXPECT_NEAR(curve[3 * i].x, control.x, 1e-12);
                     EXPECT_NEAR(curve[3 * i].y, control.y, 1e-12);
-                    EXPECT_NEAR(std::fabs(ahead.x), std::fabs(ahead.y), 1e-12);
                     glm::dvec2& before = last_tangent[gap->second];
-                    EXPECT_NEAR(ahead.x * before.x + ahead.y * before.y, 0, 1e-12);
+                    const double cosine = grid.lattice() == DotLattice::square ? 0 : 0.5;
+                    if (before != glm::dvec2(0)) {
+                        EXPECT_NEAR(std::fabs(ahead.x * before.x + ahead.y * before.y),
+                                    cosine * std::hypot(ahead.x, ahead.y) * std::hypot(before.x, before.y), 1e-12);
+                    }
                     before = ahead;
                 }
             }
@@ -469,7 +611,7 @@ TEST(DotGridPattern, StrokesAreTheLines) {
 
 TEST(DotGridPattern, CurvesKeepTheirDistanceFromDots) {
     const DotGrid grid = parse_dot_grid("7x7");
-    const KolamPattern pattern = kolam_pattern(grid, random_crossings(grid, {.seed = 2}));
+    const KolamPattern pattern = kolam_pattern(grid, random_states(grid, {.seed = 2}));
     double least = 1e9;
     for (const reference::Line& stroke : drawn(pattern.text).strokes) {
         for (std::size_t i = 0; i + 3 < stroke.points.size(); i += 3) {
@@ -489,7 +631,7 @@ TEST(DotGridPattern, CurvesKeepTheirDistanceFromDots) {
 TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
     const DotGrid grid = parse_dot_grid("1-3-5-3-1");
     for (const bool single : {false, true}) {
-        Crossings crossings(grid.gaps().size());
+        GapStates crossings(grid.gaps().size());
         if (single) make_single_line(grid, crossings, 7);
         for (const bool coloured : {false, true}) {
             const KolamPattern pattern = kolam_pattern(grid, crossings, {.coloured = coloured, .dot_symbols = true});
@@ -513,10 +655,11 @@ TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
 
 TEST(DotGridPattern, TellsItsCrossings) {
     const DotGrid grid = parse_dot_grid("4x4");
-    const Crossings crossings = random_crossings(grid, {.seed = 12});
+    const GapStates crossings = random_states(grid, {.seed = 12});
     const std::string text = kolam_pattern(grid, crossings).text;
-    const std::size_t begin = text.find("// crossings: ") + 14;
-    EXPECT_EQ(parse_crossings(grid, std::string_view(text).substr(begin, text.find('\n', begin) - begin)), crossings);
+    const std::size_t begin = text.find("// gaps: ") + 9;
+    EXPECT_EQ(parse_gap_states(grid, std::string_view(text).substr(begin, text.find('\n', begin) - begin)),
+              crossings);
 }
 
 }  // namespace

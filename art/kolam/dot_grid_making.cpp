@@ -1,0 +1,260 @@
+#include "art/kolam/dot_grid_making.h"
+
+#include "art/kolam/union_find.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+/// Steele, Lea & Flood 2014 (SplitMix64).
+class SplitMix {
+public:
+    explicit SplitMix(std::uint64_t seed) : state_(seed) {}
+    std::uint64_t next() {
+        state_ += 0x9E3779B97F4A7C15U;
+        std::uint64_t z = state_;
+        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+        return z ^ (z >> 31U);
+    }
+    /// In [0, 1).
+    double fraction() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
+    /// 0 … bound - 1; the bias is below bound / 2^64.
+    std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
+
+private:
+    std::uint64_t state_;
+};
+
+std::vector<std::uint32_t> shuffled(std::size_t count, SplitMix& chance) {
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[chance.below(i)]);
+    return order;
+}
+
+/// What a gap changes to when lines are to be joined.
+GapState changed(GapState state) {
+    return state == GapState::crossed ? GapState::turned : GapState::crossed;
+}
+
+/// One arc of each of the two strands in a gap.
+std::pair<std::uint32_t, std::uint32_t> strands(const DotGrid& grid, std::uint32_t gap, const GapStates& states) {
+    const auto [first, second] = joints(grid, grid.gaps()[gap], states[gap]);
+    return {first.first.arc, second.first.arc};
+}
+
+constexpr std::size_t most_images = 12;  // of a gap, in the largest group
+
+/// The number of lines gained if all those gaps, at most 12, change together. Only the ends of arcs that meet in them
+/// are looked at: on each line they follow each other as entries and exits, and between an entry and the next exit
+/// the line stays as it is.
+int lines_gained(const DotGrid& grid, const GapStates& states, const LineLabels& labels,
+                 const std::vector<std::uint32_t>& gaps) {
+    struct End {
+        std::uint32_t line;
+        std::uint32_t place;  // on its line: exits are odd
+        std::uint32_t joint;  // ends with the same number will meet
+    };
+    std::array<End, 4 * most_images> ends;
+    std::uint32_t count = 0;
+    std::uint32_t joint_count = 0;
+    const auto add = [&](const ArcEnd& end) {
+        const std::uint32_t entry = labels.entry[end.arc];
+        ends[count++] = {labels.line[end.arc], (entry & ~1U) + ((entry & 1U) ^ end.end), joint_count};
+    };
+    for (const std::uint32_t i : gaps) {
+        for (const ArcJoint& joint : joints(grid, grid.gaps()[i], changed(states[i]))) {
+            add(joint.first);
+            add(joint.second);
+            ++joint_count;
+        }
+    }
+    std::sort(ends.begin(), ends.begin() + count,
+              [](const End& a, const End& b) { return std::pair(a.line, a.place) < std::pair(b.line, b.place); });
+    std::array<std::uint32_t, 2 * most_images> met{};  // the sum of the two ends of each joint
+    for (std::uint32_t i = 0; i < count; ++i) met[ends[i].joint] += i;
+    std::array<std::uint32_t, 4 * most_images> other;  // the end where the stretch of line from this one ends
+    int lines = 0;
+    for (std::uint32_t begin = 0; begin < count;) {
+        std::uint32_t end = begin;
+        while (end < count && ends[end].line == ends[begin].line) ++end;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const std::uint32_t size = end - begin;
+            other[i] = begin + (i - begin + (ends[i].place % 2 == 0 ? 1 : size - 1)) % size;
+        }
+        --lines;
+        begin = end;
+    }
+    std::array<bool, 4 * most_images> seen{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (seen[i]) continue;
+        ++lines;
+        for (std::uint32_t at = i; !seen[at];) {
+            seen[at] = true;
+            at = other[at];
+            seen[at] = true;
+            at = met[ends[at].joint] - at;
+        }
+    }
+    return lines;
+}
+
+std::vector<std::vector<std::uint32_t>> members_of(const std::vector<std::uint32_t>& orbits) {
+    std::vector<std::vector<std::uint32_t>> members;
+    for (std::uint32_t i = 0; i < orbits.size(); ++i) {
+        if (orbits[i] == members.size()) members.emplace_back();
+        members[orbits[i]].push_back(i);
+    }
+    return members;
+}
+
+/// Changes each orbit of gaps whose gaps, one after the other, all join different lines: that leaves as many lines
+/// fewer as the orbit has gaps, and needs no line to be followed again.
+void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
+                 GapStates& states, LineLabels& labels, const Monitor& monitor) {
+    label_lines(grid, states, labels, monitor);
+    UnionFind lines(labels.starts.size());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
+    Pulse pulse(monitor);
+    for (const std::uint32_t orbit : shuffled(orbits.size(), chance)) {
+        pulse();
+        joined.clear();
+        const auto line = [&](std::uint32_t arc) {
+            std::uint32_t found = lines.find(labels.line[arc]);
+            for (const auto& [from, to] : joined) found = found == from ? to : found;
+            return found;
+        };
+        const bool all_join = std::all_of(orbits[orbit].begin(), orbits[orbit].end(), [&](std::uint32_t i) {
+            const auto [first, second] = strands(grid, i, states);
+            joined.emplace_back(line(first), line(second));
+            return joined.back().first != joined.back().second;
+        });
+        if (!all_join) continue;
+        for (const auto& [from, to] : joined) lines.join(from, to);
+        for (const std::uint32_t i : orbits[orbit]) states[i] = changed(states[i]);
+    }
+}
+
+/// Crosses a gap of each dot that has none crossed or joined, with the images of the gap.
+void avoid_rings(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, SplitMix& chance, GapStates& states) {
+    const std::vector<std::vector<std::uint32_t>> members = members_of(orbits);
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+        std::array<std::uint32_t, 6> gaps{};
+        std::size_t count = 0;
+        bool is_ring = true;
+        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+            const std::int32_t gap = grid.gap(dot, side);
+            if (gap < 0) continue;
+            gaps[count++] = static_cast<std::uint32_t>(gap);
+            is_ring = is_ring && states[static_cast<std::size_t>(gap)] == GapState::turned;
+        }
+        if (!is_ring || count == 0) continue;
+        for (const std::uint32_t i : members[orbits[gaps[chance.below(count)]]]) states[i] = GapState::crossed;
+    }
+}
+
+}  // namespace
+
+GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
+    for (const double share : {kolam.density, kolam.joined}) {
+        if (!(share >= 0 && share <= 1)) {
+            throw std::runtime_error("the shares of crossed and of joined gaps are between 0 and 1");
+        }
+    }
+    const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
+    SplitMix chance(kolam.seed);
+    std::vector<GapState> drawn;
+    GapStates states(orbits.size());
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+        if (orbits[i] == drawn.size()) {
+            const bool is_crossed = chance.fraction() < kolam.density;
+            const bool is_joined = !is_crossed && kolam.joined > 0 && chance.fraction() < kolam.joined;
+            drawn.push_back(is_crossed ? GapState::crossed : is_joined ? GapState::joined : GapState::turned);
+        }
+        states[i] = drawn[orbits[i]];
+    }
+    if (kolam.avoids_rings) avoid_rings(grid, orbits, chance, states);
+    return states;
+}
+
+std::vector<GridSymmetry> usual_symmetries(const DotGrid& grid, bool single_line) {
+    std::vector<GridSymmetry> found;
+    for (const GridSymmetry symmetry :
+         {GridSymmetry::d6, GridSymmetry::d4, GridSymmetry::c6, GridSymmetry::d3, GridSymmetry::d3_y,
+          GridSymmetry::c4, GridSymmetry::mirrors, GridSymmetry::diagonals, GridSymmetry::c3, GridSymmetry::c2,
+          GridSymmetry::mirror_x, GridSymmetry::mirror_y, GridSymmetry::diagonal}) {
+        if (!has_symmetry(grid, symmetry)) continue;
+        if (!single_line || !single_line_obstacle(grid, symmetry)) found.push_back(symmetry);
+    }
+    found.push_back(GridSymmetry::none);
+    return found;
+}
+
+std::size_t make_single_line(const DotGrid& grid, GapStates& states, std::uint64_t seed, const Monitor& monitor) {
+    LineLabels labels;
+    label_lines(grid, states, labels, monitor);
+    UnionFind lines(labels.starts.size());
+    SplitMix chance(seed);
+    std::size_t count = 0;
+    // Once around is enough: afterwards the two lines of every gap are one, and the gaps connect all dots.
+    Pulse pulse(monitor);
+    for (const std::uint32_t i : shuffled(states.size(), chance)) {
+        pulse();
+        const auto [first, second] = strands(grid, i, states);
+        if (lines.find(labels.line[first]) == lines.find(labels.line[second])) continue;
+        lines.join(labels.line[first], labels.line[second]);
+        states[i] = changed(states[i]);
+        ++count;
+    }
+    return count;
+}
+
+std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts,
+                                           const Monitor& monitor) {
+    if (grid.groups() > 1) return std::nullopt;
+    if (kolam.symmetry == GridSymmetry::none) {
+        SingleLine found{random_states(grid, kolam), 0, 1};
+        found.changed = make_single_line(grid, found.states, kolam.seed, monitor);
+        return found;
+    }
+    const std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, kolam.symmetry));
+    std::uint64_t steps_left = 3'000'000'000;
+    LineLabels labels;
+    RandomKolam attempted = kolam;
+    SplitMix seeds(kolam.seed);
+    Pulse pulse(monitor);
+    for (int attempt = 1; attempt <= attempts; ++attempt, attempted.seed = seeds.next()) {
+        monitor.check();
+        const GapStates begun = random_states(grid, attempted);
+        SingleLine found{begun, 0, attempt};
+        SplitMix chance(attempted.seed);
+        join_orbits(grid, members, chance, found.states, labels, monitor);
+        label_lines(grid, found.states, labels, monitor);
+        for (bool improved = true; improved && labels.starts.size() > 1;) {
+            improved = false;
+            for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
+                pulse();
+                if (lines_gained(grid, found.states, labels, members[orbit]) >= 0) continue;
+                for (const std::uint32_t i : members[orbit]) found.states[i] = changed(found.states[i]);
+                label_lines(grid, found.states, labels, monitor);
+                steps_left -= std::min<std::uint64_t>(steps_left, labels.line.size());
+                improved = true;
+            }
+        }
+        if (labels.starts.size() == 1) {
+            for (std::size_t i = 0; i < begun.size(); ++i) found.changed += begun[i] != found.states[i];
+            return found;
+        }
+        steps_left -= std::min<std::uint64_t>(steps_left, 4 * labels.line.size());
+        if (steps_left == 0) break;
+    }
+    return std::nullopt;
+}
+
+}  // namespace sikku

@@ -1,0 +1,305 @@
+// Reads grids of dots as people write them down.
+#include "art/kolam/dot_grid.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text) {
+    throw std::runtime_error(
+        fmt::format("'{}': expected ROWSxCOLUMNS such as 7x7, the dots of each row such as 1-3-5-3-1, the longest "
+                    "row and the last "
+                    "such as '7 to 1' or '15-8 idukku', or a shape of 'o' and '.'; every number 1 or more",
+                    printable(text, 80)));
+}
+
+[[noreturn]] void refuse(std::string_view text, std::string_view reason) {
+    throw std::runtime_error(fmt::format("'{}': {}", printable(text, 80), reason));
+}
+
+std::string replaced(std::string_view text, std::string_view from, char to) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const bool is_found = text.substr(at).starts_with(from);
+        result += is_found ? to : text[at];
+        at += is_found ? from.size() : 1;
+    }
+    return result;
+}
+
+// --- shapes -------------------------------------------------------------------------------------------------------
+
+bool is_drawn_dot(char byte) {
+    return std::string_view("oO*#").find(byte) != std::string_view::npos;
+}
+bool is_hole(char byte) {
+    return byte == '.' || byte == '_';
+}
+
+/// Text of dots, holes, blanks and ends of rows only, with a dot among them.
+bool is_shape(std::string_view text) {
+    return std::any_of(text.begin(), text.end(), is_drawn_dot) &&
+           std::all_of(text.begin(), text.end(), [](char byte) {
+               return is_drawn_dot(byte) || is_hole(byte) || std::string_view(" \r\n/").find(byte) < 4;
+           });
+}
+
+DotGrid parse_shape(std::string_view text) {
+    std::vector<std::string_view> lines;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find_first_of("/\n", at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        lines.push_back(line);
+        at = end + 1;
+    }
+    // Places that stand side by side fill a square lattice; otherwise every second column does.
+    const bool is_dense = std::any_of(lines.begin(), lines.end(), [](std::string_view line) {
+        const auto is_place = [](char byte) { return byte != ' '; };
+        return std::adjacent_find(line.begin(), line.end(),
+                                  [&](char a, char b) { return is_place(a) && is_place(b); }) != line.end();
+    });
+    std::vector<std::vector<std::int32_t>> columns(lines.size());
+    std::optional<std::uint32_t> parity[2];  // of the columns of places in even and odd rows
+    std::uint64_t count = 0;
+    for (std::size_t r = 0; r < lines.size(); ++r) {
+        for (std::size_t i = 0; i < lines[r].size(); ++i) {
+            if (lines[r][i] == ' ') continue;
+            if (!is_dense) {
+                const auto found = static_cast<std::uint32_t>(i % 2);
+                if (parity[r % 2].value_or(found) != found) {
+                    refuse(text, fmt::format("column {} of row {} lies between the places of the lattice: in rows "
+                                             "with blanks all dots stand in odd columns, or all in even ones, and "
+                                             "rows either agree or alternate",
+                                             i + 1, r + 1));
+                }
+                parity[r % 2] = found;
+            }
+            if (!is_drawn_dot(lines[r][i])) continue;
+            if (++count > DotGrid::most_dots) break;
+            columns[r].push_back(static_cast<std::int32_t>(is_dense ? 2 * i : i));
+        }
+    }
+    const bool is_triangular = parity[0] && parity[1] && *parity[0] != *parity[1];
+    return DotGrid(is_triangular ? DotLattice::triangular : DotLattice::square, columns);
+}
+
+// --- numbers ------------------------------------------------------------------------------------------------------
+
+enum class Sort : std::uint8_t { unknown, straight, interlaced };
+
+/// A number of dots, and a number of rows after an `x`, 0 without one.
+struct Item {
+    std::uint32_t dots = 0;
+    std::uint32_t rows = 0;
+    char separator = 0;  ///< before the item: '-', ',', 't' for `to`, 0 for the first
+};
+
+/// Splits `7 to 1 ner pulli` into items and a sort.
+class NotationReader {
+public:
+    explicit NotationReader(std::string_view given) : given_(given), text_(lower_case(given)) {
+        for (const char* dash : {"–", "—", "−"}) text_ = replaced(text_, dash, '-');
+        text_ = replaced(text_, "×", 'x');
+    }
+
+    std::pair<std::vector<Item>, Sort> read() {
+        for (skip(); at_ < text_.size(); skip()) read_part();
+        if (items_.empty() || separator_ != 0 || is_times_) refuse(given_);
+        return {items_, sort_};
+    }
+
+private:
+    void skip() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    }
+    void read_part() {
+        const char byte = text_[at_];
+        if (byte >= '0' && byte <= '9') return read_number();
+        if (byte == '-' || byte == ',') {
+            ++at_;
+            return separate(byte);
+        }
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && text_[at_] >= 'a' && text_[at_] <= 'z') ++at_;
+        if (begin == at_) refuse(given_);
+        read_word(std::string_view(text_).substr(begin, at_ - begin));
+    }
+    void read_word(std::string_view word) {
+        const auto is_one_of = [&](std::initializer_list<std::string_view> words) {
+            return std::find(words.begin(), words.end(), word) != words.end();
+        };
+        if (is_one_of({"x", "by"})) {
+            if (items_.empty() || separator_ != 0 || is_times_ || items_.back().rows != 0) refuse(given_);
+            is_times_ = true;
+        } else if (word == "to") {
+            separate('t');
+        } else if (is_one_of({"ner", "neer", "straight", "square", "parallel"})) {
+            set_sort(Sort::straight);
+        } else if (is_one_of({"idukku", "sandhu", "sandu", "udu", "oodu", "idai", "interlaced", "interlocked",
+                              "staggered", "triangular", "hexagonal"})) {
+            set_sort(Sort::interlaced);
+        } else if (!is_one_of(
+                       {"pulli", "pullis", "pulligal", "dot", "dots", "grid", "kolam", "rows", "row", "lines"})) {
+            refuse(given_, fmt::format("unknown word '{}'; the words for grids are ner (straight) and idukku "
+                                       "(interlaced)",
+                                       printable(word, 40)));
+        }
+    }
+    void set_sort(Sort sort) {
+        if (sort_ != Sort::unknown && sort_ != sort) refuse(given_, "a grid is either straight or interlaced");
+        sort_ = sort;
+    }
+    void separate(char separator) {
+        if (items_.empty() || separator_ != 0 || is_times_) refuse(given_);
+        separator_ = separator;
+    }
+    void read_number() {
+        std::uint32_t number = 0;
+        const char* begin = text_.data() + at_;
+        const auto [rest, error] = std::from_chars(begin, text_.data() + text_.size(), number);
+        if (error == std::errc::result_out_of_range) number = std::numeric_limits<std::uint32_t>::max();
+        at_ += static_cast<std::size_t>(rest - begin);
+        if (number == 0) refuse(given_);
+        if (is_times_) {
+            items_.back().rows = number;
+            is_times_ = false;
+        } else {
+            if (!items_.empty() && separator_ == 0) refuse(given_);
+            items_.push_back({number, 0, separator_});
+            separator_ = 0;
+        }
+    }
+
+    std::string_view given_;
+    std::string text_;
+    std::size_t at_ = 0;
+    std::vector<Item> items_;
+    Sort sort_ = Sort::unknown;
+    char separator_ = 0;
+    bool is_times_ = false;
+};
+
+class Notation {
+public:
+    Notation(std::string_view text, std::vector<Item> items, Sort sort)
+        : text_(text), items_(std::move(items)), sort_(sort) {}
+
+    DotGrid grid() {
+        const bool all_blocks = std::all_of(items_.begin(), items_.end(), [](const Item& i) { return i.rows > 0; });
+        const bool no_blocks = std::all_of(items_.begin(), items_.end(), [](const Item& i) { return i.rows == 0; });
+        if (items_.size() == 1) return all_blocks ? rectangle() : made({items_[0].dots});
+        if (items_.size() == 2 && items_[1].separator == 't' && items_[1].rows == 0) {
+            return spindle(items_[0].dots, std::max(items_[0].rows, 1U), items_[1].dots);
+        }
+        if (all_blocks && all_separated_by('-')) return blocks();
+        if (!no_blocks) refuse(text_);
+        return numbers();
+    }
+
+private:
+    bool all_separated_by(char separator) const {
+        return std::all_of(items_.begin() + 1, items_.end(),
+                           [separator](const Item& item) { return item.separator == separator; });
+    }
+    /// Limits a product before it is made; the grid itself counts its dots.
+    void check_size(std::uint64_t dots, std::uint64_t rows) const {
+        if (dots > DotGrid::most_dots || rows > DotGrid::most_dots || dots * rows > 2 * DotGrid::most_dots) {
+            made({static_cast<std::uint32_t>(DotGrid::most_dots), 1});
+        }
+    }
+    DotGrid made(std::vector<std::uint32_t> rows) const {
+        DotGrid grid(std::move(rows));
+        if (sort_ != Sort::unknown && grid.rows().size() > 1 &&
+            (sort_ == Sort::interlaced) != (grid.lattice() == DotLattice::triangular)) {
+            refuse(text_, sort_ == Sort::interlaced
+                              ? "the rows of an interlaced grid have odd and even numbers of dots in turn"
+                              : "the rows of a straight grid have odd numbers of dots, or all even ones");
+        }
+        return grid;
+    }
+    DotGrid rectangle() const {
+        const std::uint32_t first = items_[0].dots;
+        const std::uint32_t second = items_[0].rows;
+        if (sort_ == Sort::interlaced && first > second) return spindle(first, 1, second);
+        check_size(first, second);
+        if (sort_ != Sort::interlaced) return DotGrid(std::vector<std::uint32_t>(first, second));
+        std::vector<std::uint32_t> rows;
+        for (std::uint32_t r = 0; r < first; ++r) rows.push_back(second - r % 2);
+        return made(std::move(rows));
+    }
+    /// `count` rows of the longest, then shorter ones above and below to the last.
+    DotGrid spindle(std::uint32_t longest, std::uint32_t count, std::uint32_t last) const {
+        if (last > longest) std::swap(longest, last);
+        const std::uint32_t difference = longest - last;
+        // Without a word: the hexagons 3-2, 5-3, 7-4, … are interlaced, and so is what cannot be straight.
+        const bool is_interlaced =
+            sort_ == Sort::interlaced || (sort_ == Sort::unknown && (difference % 2 != 0 || longest + 1 == 2 * last));
+        if (!is_interlaced && difference % 2 != 0) {
+            refuse(text_, fmt::format("straight rows become two dots shorter each, so from {} they do not come to {}",
+                                      longest, last));
+        }
+        if (is_interlaced && count > 1) {
+            refuse(text_, "interlaced rows of one length cannot stand next to each other");
+        }
+        const std::uint32_t less = is_interlaced ? 1 : 2;
+        check_size(longest, std::uint64_t{2} * (difference / less) + count);
+        std::vector<std::uint32_t> rows;
+        for (std::uint32_t row = last; row < longest; row += less) rows.push_back(row);
+        const std::size_t above = rows.size();
+        rows.insert(rows.end(), count, longest);
+        for (std::size_t i = above; i-- > 0;) rows.push_back(rows[i]);
+        return DotGrid(std::move(rows));
+    }
+    /// The block in the middle, then those above and below it.
+    DotGrid blocks() const {
+        std::vector<std::uint32_t> rows;
+        std::uint64_t count = 0;
+        for (const Item& item : items_) check_size(item.dots, count += 2 * std::uint64_t{item.rows});
+        for (std::size_t i = items_.size(); i-- > 0;) rows.insert(rows.end(), items_[i].rows, items_[i].dots);
+        for (std::size_t i = 1; i < items_.size(); ++i) rows.insert(rows.end(), items_[i].rows, items_[i].dots);
+        return made(std::move(rows));
+    }
+    DotGrid numbers() const {
+        const auto dots = [this](std::size_t i) { return items_[i].dots; };
+        const bool is_to = all_separated_by('t');
+        if (!is_to && std::any_of(items_.begin(), items_.end(), [](const Item& i) { return i.separator == 't'; })) {
+            refuse(text_);
+        }
+        if (items_.size() == 2 && (is_to || (items_[1].separator == '-' && dots(0) >= dots(1)))) {
+            return spindle(dots(0), 1, dots(1));
+        }
+        const bool is_there_and_back = items_.size() == 3 && dots(0) == dots(2) && dots(0) < dots(1);
+        if (is_there_and_back && (is_to || (sort_ != Sort::unknown && all_separated_by('-')))) {
+            return spindle(dots(1), 1, dots(0));
+        }
+        if (is_to) refuse(text_);
+        std::vector<std::uint32_t> rows;
+        for (const Item& item : items_) rows.push_back(item.dots);
+        return made(std::move(rows));
+    }
+
+    std::string_view text_;
+    std::vector<Item> items_;
+    Sort sort_;
+};
+
+}  // namespace
+
+DotGrid parse_dot_grid(std::string_view given) {
+    const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
+    if (is_shape(text)) return parse_shape(text);
+    auto [items, sort] = NotationReader(given).read();
+    return Notation(given, std::move(items), sort).grid();
+}
+
+}  // namespace sikku

@@ -1,0 +1,67 @@
+// art/kolam/dot_grid_symmetry.h: symmetries of grids of dots, and of kolams on them.
+#pragma once
+
+#include "art/kolam/dot_grid_lines.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// Groups of rotations and mirrors about the centroid of the dots. mirror_x exchanges left and right (D1), mirror_y
+/// top and bottom (D1), diagonal the two sides of the rising diagonal; mirrors are mirror_x and mirror_y (D2),
+/// diagonals both diagonals (D2); d3 contains mirror_x, d3_y mirror_y.
+enum class GridSymmetry : std::uint8_t {
+    none,
+    c2,
+    c3,
+    c4,
+    c6,
+    mirror_x,
+    mirror_y,
+    diagonal,
+    mirrors,
+    diagonals,
+    d3,
+    d3_y,
+    d4,
+    d6
+};
+
+/// `none`, `C2`, `C3`, `C4`, `C6`, `mirror-x` (D1), `mirror-y`, `diagonal`, `mirrors` (D2), `diagonals`, `D3`,
+/// `D3-y`, `D4`, `D6`, in any case. @throws std::runtime_error
+GridSymmetry parse_grid_symmetry(std::string_view text);
+std::string_view grid_symmetry_name(GridSymmetry symmetry);
+/// All of them, `none` first.
+std::span<const GridSymmetry> grid_symmetry_list();
+
+bool has_symmetry(const DotGrid& grid, GridSymmetry symmetry);
+/// @throws std::runtime_error if it does not
+void require_symmetry(const DotGrid& grid, GridSymmetry symmetry);
+
+/// Where each gap goes under each of the grid's own symmetries, the identity first: at most 12 permutations.
+std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid);
+
+/// Gaps that the symmetry takes to each other have the same number; numbers from 0 in the order of their first gaps.
+/// @throws std::runtime_error if the grid does not have the symmetry
+std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
+
+bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry symmetry);
+
+/// The first of the images of a kolam under the grid's own symmetries, written as digits: the same for kolams that
+/// are images of each other.
+GapStates canonical_states(const DotGrid& grid, const GapStates& states);
+
+/// Why no single line on this grid has that symmetry, or nothing if none of the known reasons applies.
+/// The dots have to be connected. A rotation of even order carries the line along itself, so that it winds around the
+/// centre an odd number of times: a dot has to be there (or, for a half turn, a gap). A mirror that reverses the line
+/// meets it twice, and one that carries it along itself never: each dot on the axis meets it in every arc that the
+/// axis cuts and at every end of its row of dots.
+/// @param joined  gaps may be joined, too: then a mirror may meet the line there
+std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined = false);
+
+}  // namespace sikku
