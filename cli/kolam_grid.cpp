@@ -81,7 +81,7 @@ MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, Rand
 MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
                      const std::vector<GridSymmetry>& symmetries) {
     if (options.crossings) return make_of_gaps(options, grid);
-    RandomKolam random{.seed = options.seed, .joined = options.joined, .avoids_rings = !options.density};
+    RandomKolam random{.seed = options.seed, .joined = options.joined, .connects = !options.density};
     random.density = options.density.value_or(random.density);
     if (options.single_line) return make_single(options, grid, random, symmetries);
     random.symmetry = symmetries.front();
@@ -201,14 +201,13 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
             ->type_name("GROUP")
             ->group(grid_heading)
             ->needs(grid);
-    auto* density =
-        command
-            .add_option("--density", options.density,
-                        "share of the gaps in which lines cross, 0 to 1 (0.7, and no ring around a dot alone)")
-            ->type_name("SHARE")
-            ->check(number_between(0, 1))
-            ->group(grid_heading)
-            ->needs(grid);
+    auto* density = command
+                        .add_option("--density", options.density,
+                                    "share of the gaps in which lines cross, 0 to 1 (0.7, and all dots connected)")
+                        ->type_name("SHARE")
+                        ->check(number_between(0, 1))
+                        ->group(grid_heading)
+                        ->needs(grid);
     auto* joined = command
                        .add_option("--joined", options.joined,
                                    "share of the other gaps in which lines run past both dots, 0 to 1; with "

@@ -40,7 +40,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     require_symmetry(grid, random.symmetry);
     random.density = number_of(request, "density", random.density);
     random.joined = number_of(request, "joined", random.joined);
-    random.avoids_rings = flag_of(request, "avoids_rings");
+    random.connects = flag_of(request, "connects");
     if (request.contains("seed")) random.seed = whole_of(request["seed"], "seed");
 
     const std::string given = text_of(request, "crossings", "");

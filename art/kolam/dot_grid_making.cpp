@@ -141,21 +141,23 @@ void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_
     }
 }
 
-/// Crosses a gap of each dot that has none crossed or joined, with the images of the gap.
-void avoid_rings(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, SplitMix& chance, GapStates& states) {
+/// Crosses the orbits of gaps that connect pieces of the drawing, in random order.
+void connect(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, SplitMix& chance, GapStates& states) {
+    UnionFind pieces(grid.dots().size());
+    const auto connects = [&](std::uint32_t i) {
+        return pieces.find(grid.gaps()[i].from) != pieces.find(grid.gaps()[i].to);
+    };
+    const auto join = [&](std::uint32_t i) { pieces.join(grid.gaps()[i].from, grid.gaps()[i].to); };
+    for (std::uint32_t i = 0; i < states.size(); ++i) {
+        if (states[i] != GapState::turned) join(i);
+    }
     const std::vector<std::vector<std::uint32_t>> members = members_of(orbits);
-    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
-        std::array<std::uint32_t, 6> gaps{};
-        std::size_t count = 0;
-        bool is_ring = true;
-        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
-            const std::int32_t gap = grid.gap(dot, side);
-            if (gap < 0) continue;
-            gaps[count++] = static_cast<std::uint32_t>(gap);
-            is_ring = is_ring && states[static_cast<std::size_t>(gap)] == GapState::turned;
+    for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
+        if (!connects(members[orbit].front())) continue;  // then none of its images does
+        for (const std::uint32_t i : members[orbit]) {
+            states[i] = GapState::crossed;
+            join(i);
         }
-        if (!is_ring || count == 0) continue;
-        for (const std::uint32_t i : members[orbits[gaps[chance.below(count)]]]) states[i] = GapState::crossed;
     }
 }
 
@@ -179,7 +181,7 @@ GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
         }
         states[i] = drawn[orbits[i]];
     }
-    if (kolam.avoids_rings) avoid_rings(grid, orbits, chance, states);
+    if (kolam.connects) connect(grid, orbits, chance, states);
     return states;
 }
 

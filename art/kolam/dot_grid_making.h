@@ -15,8 +15,9 @@ struct RandomKolam {
     double density = 0.7;  ///< of the gaps that are crossings, 0 to 1
     double joined = 0.0;   ///< of the other gaps that are joined, 0 to 1
     GridSymmetry symmetry = GridSymmetry::none;
-    /// Crosses one gap of each dot that would have a ring of its own, as people do, with its images.
-    bool avoids_rings = false;
+    /// Crosses further gaps, with their images, until lines around neighbouring dots connect all dots of a group: no
+    /// ring around a dot alone, and no piece apart.
+    bool connects = false;
 };
 
 /// Each gap, or each orbit of gaps, on its own. The same on every machine.

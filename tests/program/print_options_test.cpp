@@ -117,7 +117,8 @@ TEST(Colours, OfABorderStandOutFromTheGround) {
 }
 
 TEST_F(PrintOptions, StrandsAreToldApart) {
-    const Outcome made = run({"kolam", "--grid", "5x5", "--seed", "4", "-o", (folder_ / "five.lsys").string()});
+    const Outcome made = run({"kolam", "--grid", "5x5", "--symmetry", "none", "--density", "0.7", "--seed", "4", "-o",
+                              (folder_ / "five.lsys").string()});
     ASSERT_EQ(made.status, 0) << made.errors;
     EXPECT_TRUE(has(made.errors, "5 lines"));
     const auto document = svg({(folder_ / "five.lsys").string(), "--colour-by", "strand"});
