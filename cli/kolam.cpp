@@ -20,7 +20,6 @@ void add_kolam(CLI::App& app, bool& quiet) {
     command->get_option("PATTERN")->required(false);
     add_kolam_grid_options(*command, *grid);
     command->add_option("-o,--output", grid->output, "pattern file (standard output)")
-        ->needs("--grid")
         ->type_name("FILE")
         ->group(grid_heading);
     command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one for each core (0)")
@@ -34,7 +33,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "rules and unusual features are reported. Dots are placed as tradition does: one in each loop, none in the "
         "gaps between loops. Positions are in turtle steps; the turtle starts at 0 0; the examination is exact where "
         "the angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
-        "With --grid, the command makes a kolam instead, as a pattern file.\n\n"
+        "With --grid or --radial, the command makes a kolam instead, as a pattern file.\n\n"
         "The exit status is 0 whether or not the drawing is a kolam. Keys of --json: title, n, kolam, faults, "
         "remarks, "
         "exact, "
@@ -42,24 +41,33 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "meeting), "
         "vertices, edges, components, faces (bounded), reused_edges, meetings (points visited more than once: "
         "crossings, touchings, multiple, or ends of reused edges), crossings, skew (crossings not at right angles), "
+        "sixty_degrees (of these, those "
+        "at 60 degrees), "
         "mid_crossings (crossings inside of segments), touchings, multiple, symmetry, rotations, mirrors, centre, "
         "loose_dots, dots.\n\n"
         "Examples:\n"
         "  sikku kolam snake-kolam\n"
         "  sikku kolam --grid 7x7 --symmetry C4 --single-line --seed 3 -o mine.lsys\n"
+        "  sikku kolam --grid '15-8 idukku pulli' -o interlaced.lsys\n"
+        "  sikku kolam --radial 8x5 --dots -o hridaya.lsys\n"
         "  sikku kolam --grid 3x3 --enumerate\n"
         "  sikku kolam anklets-of-krishna -n 4 --json");
     command->callback([options, grid, as_json, budget, &quiet] {
-        if (!grid->grid.empty()) {
+        const bool makes = !grid->grid.empty() || !grid->radial.empty();
+        if (makes) {
             if (!options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
                 !options->variant.empty()) {
-                throw UsageError("--grid makes a kolam; it excludes PATTERN, -n, --set and --variant");
+                throw UsageError(fmt::format("{} makes a kolam; it excludes PATTERN, -n, --set and --variant",
+                                             grid->radial.empty() ? "--grid" : "--radial"));
             }
             grid->as_json = *as_json;
             grid->seed = seed_of(*options);
-            return kolam_grid(*grid, quiet);
+            return grid->radial.empty() ? kolam_grid(*grid, quiet) : kolam_radial(*grid, quiet);
         }
-        if (options->pattern.empty()) throw UsageError("expected PATTERN, or --grid");
+        if (!grid->output.empty() || grid->colours || grid->dots) {
+            throw UsageError("-o, --colours and --dots need --grid or --radial");
+        }
+        if (options->pattern.empty()) throw UsageError("expected PATTERN, --grid or --radial");
         const Document loaded = load(*options, quiet);
         Progress progress(quiet);
         const KolamExamination examined = examine_kolam(loaded, *budget, progress.monitor());

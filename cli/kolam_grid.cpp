@@ -4,6 +4,7 @@
 #include "art/kolam/dot_grid_enumeration.h"
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
+#include "art/kolam/radial_kolam.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
 #include "engine/base/text.h"
@@ -108,8 +109,8 @@ std::string gaps_told(const GapStates& states) {
     return text;
 }
 
-void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const std::vector<GridSymmetry>& symmetries,
-                  bool quiet) {
+/// Refuses outputs that are not patterns, and JSON where the pattern goes.
+void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json: standard output is the pattern's; give its file with -o");
     }
@@ -121,6 +122,11 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
                             options.output, interpreter->owner() == KeyOwner::art ? "draw" : "play"));
         }
     }
+}
+
+void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const std::vector<GridSymmetry>& symmetries,
+                  bool quiet) {
+    check_output(options);
     const MadeKolam made = make_kolam(options, grid, symmetries);
     const std::string name = printable(grid.text(), 80);
     const std::size_t lines = count_lines(grid, made.states, stop_monitor());
@@ -243,11 +249,23 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->group(grid_heading)
         ->needs(single)
         ->check(whole_number(1, 1'000'000));
-    auto* colours = command.add_flag("--colours", options.colours, "give each line its own colour")
-                        ->needs(grid)
-                        ->group(grid_heading);
-    auto* dots =
-        command.add_flag("--dots", options.dots, "draw the dots in the pattern")->needs(grid)->group(grid_heading);
+    auto* radial =
+        command
+            .add_option("--radial", options.radial,
+                        "make a radial kolam (Hridaya kamalam) instead: arms and dots on each, such as 8x5; "
+                        "its lines go through the dots, from arm to arm")
+            ->type_name("ARMSxDOTS")
+            ->group(grid_heading)
+            ->excludes(grid);
+    command
+        .add_option("--order", options.order,
+                    "order in which a line visits the dots of an arm, 1 next to the centre (1-3-5-…-2-4-…)")
+        ->type_name("DOTS")
+        ->group(grid_heading)
+        ->needs(radial);
+    auto* colours =
+        command.add_flag("--colours", options.colours, "give each line its own colour")->group(grid_heading);
+    auto* dots = command.add_flag("--dots", options.dots, "draw the dots in the pattern")->group(grid_heading);
     auto* enumerate = command
                           .add_flag("--enumerate", options.enumerate,
                                     "count and list all single-line kolams, with --symmetry only symmetric ones")
@@ -264,6 +282,27 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->group(grid_heading)
         ->needs(enumerate)
         ->check(whole_number(0, 10'000'000));
+}
+
+void kolam_radial(const KolamGridOptions& options, bool quiet) {
+    check_output(options);
+    const RadialKolam kolam =
+        of_option("--radial", [&] { return parse_radial_kolam(options.radial, options.order); });
+    KolamPatternOptions pattern;
+    pattern.title = fmt::format("Radial kolam of {} arms with {}", kolam.arms, counted(kolam.dots(), "dot"));
+    pattern.description = fmt::format("{}, the greatest common divisor of {} and {}; dots in the order {}",
+                                      counted(kolam.lines(), "line"), kolam.arms, kolam.dots(),
+                                      printable(fmt::format("{}", fmt::join(kolam.order, "-")), 80));
+    pattern.coloured = options.colours;
+    pattern.dot_symbols = options.dots;
+    pattern.monitor = stop_monitor();
+    write(options.output, radial_pattern(kolam, pattern).text);
+    if (options.as_json) {
+        fmt::print("{{\"arms\": {}, \"dots\": {}, \"lines\": {}, \"order\": [{}]}}\n", kolam.arms, kolam.dots(),
+                   kolam.lines(), fmt::join(kolam.order, ", "));
+    } else {
+        tell_unless(quiet, "sikku: {}: {}\n", pattern.title, pattern.description);
+    }
 }
 
 void kolam_grid(const KolamGridOptions& options, bool quiet) {

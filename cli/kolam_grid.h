@@ -15,6 +15,8 @@ inline constexpr const char* grid_heading = "Kolams on a grid of dots";
 /// Every option, as it was given.
 struct KolamGridOptions {
     std::string grid;
+    std::string radial;  ///< arms and dots of a radial kolam, instead of a grid
+    std::string order;   ///< in which its lines visit the dots of an arm
     std::uint64_t seed = 0;
     std::optional<std::string> symmetry;   ///< absent: the usual one
     std::optional<double> density;         ///< of gaps that are crossings; absent: 0.7
@@ -33,6 +35,9 @@ struct KolamGridOptions {
 
 /// `--grid` and all that belongs to it alone; `-o`, `--json` and `-j` are for the command to add.
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options);
+
+/// Writes the pattern of a radial kolam. @throws as kolam_grid()
+void kolam_radial(const KolamGridOptions& options, bool quiet);
 
 /// Writes the pattern of a kolam, or lists the kolams of an enumeration.
 /// @throws UsageError, and std::runtime_error if no single line was found or the file cannot be written

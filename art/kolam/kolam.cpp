@@ -47,6 +47,7 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
     result.meetings = meetings.all;
     result.crossings = meetings.crossings;
     result.skew = meetings.skew;
+    result.sixty = meetings.sixty;
     result.mid_crossings = meetings.mid_crossings;
     result.touchings = meetings.touchings;
     result.multiple = meetings.multiple;
@@ -120,8 +121,10 @@ std::vector<std::string> KolamExamination::faults() const {
 std::vector<std::string> KolamExamination::remarks() const {
     std::vector<std::string> remarks;
     if (lines > 1) remarks.push_back(fmt::format("there are {} lines", lines));
-    if (skew > 0) {
+    if (sixty == 0 && skew > 0) {
         remarks.push_back(counted(skew, "crossing is not at right angles", "crossings are not at right angles"));
+    } else if (sixty > 0 && sixty < crossings) {
+        remarks.push_back(fmt::format("{} of {} crossings are not at 60 degrees", crossings - sixty, crossings));
     }
     if (multiple > 0) {
         remarks.push_back(

@@ -56,9 +56,10 @@ struct KolamExamination {
     std::uint64_t faces = 0;         ///< number of bounded faces
     std::uint64_t reused_edges = 0;  ///< edges drawn more than once
 
-    std::uint64_t meetings = 0;       ///< vertices that are visited more than once
-    std::uint64_t crossings = 0;      ///< visited by two strands that cross
-    std::uint64_t skew = 0;           ///< crossings other than of two straight strands at right angles
+    std::uint64_t meetings = 0;   ///< vertices that are visited more than once
+    std::uint64_t crossings = 0;  ///< visited by two strands that cross
+    std::uint64_t skew = 0;       ///< crossings other than of two straight strands at right angles
+    std::uint64_t sixty = 0;  ///< of these, crossings of two straight strands at 60 degrees, as on interlaced dots
     std::uint64_t mid_crossings = 0;  ///< crossings inside of segments, where the turtle does not pause
     std::uint64_t touchings = 0;      ///< visited by two strands that do not cross
     std::uint64_t multiple = 0;       ///< visited by more than two
@@ -74,7 +75,8 @@ struct KolamExamination {
     /// for a kolam.
     /// Source: Gopalan & VanLeeuwen, Forma 30 (2015), section 2.
     std::vector<std::string> faults() const;
-    /// Unusual features that are allowed: several lines, crossings of more than two strands or not at right angles.
+    /// Unusual features that are allowed: several lines, crossings of more than two strands or not at right angles
+    /// (at 60 degrees on interlaced dots).
     std::vector<std::string> remarks() const;
     bool is_kolam() const { return faults().empty(); }
 };

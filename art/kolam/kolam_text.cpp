@@ -42,8 +42,9 @@ std::string kolam_json(const std::string& title, std::int64_t n, const KolamExam
                         k.straight_lines);
     text += fmt::format("\"vertices\": {}, \"edges\": {}, \"components\": {}, \"faces\": {}, \"reused_edges\": {}, ",
                         k.vertices, k.edges, k.components, k.faces, k.reused_edges);
-    text += fmt::format("\"meetings\": {}, \"crossings\": {}, \"skew\": {}, \"mid_crossings\": {}, ", k.meetings,
-                        k.crossings, k.skew, k.mid_crossings);
+    text += fmt::format(
+        "\"meetings\": {}, \"crossings\": {}, \"skew\": {}, \"sixty_degrees\": {}, \"mid_crossings\": {}, ",
+        k.meetings, k.crossings, k.skew, k.sixty, k.mid_crossings);
     text += fmt::format("\"touchings\": {}, \"multiple\": {}, ", k.touchings, k.multiple);
     text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
                         k.symmetry.name(), k.symmetry.rotations, k.symmetry.mirrors, json(k.centre));
@@ -79,8 +80,9 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
     line("strokes", fmt::format("{} of {}", k.strokes, plural(k.segments, "segment", "segments")));
     std::string crossings = fmt::format("{}", k.crossings);
     if (k.crossings > 0) {
-        crossings +=
-            k.skew == 0 ? ", all at right angles" : fmt::format(", {} at right angles", k.crossings - k.skew);
+        crossings += k.skew == 0              ? ", all at right angles"
+                     : k.sixty == k.crossings ? ", all at 60 degrees"
+                                              : fmt::format(", {} at right angles", k.crossings - k.skew);
         if (k.mid_crossings > 0) crossings += fmt::format(", {} inside of segments", k.mid_crossings);
     }
     line("crossings", crossings);

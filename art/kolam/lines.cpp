@@ -172,8 +172,10 @@ void count_pair(const PlanarGraph& graph, const Lines& lines, const Pass& p, con
     }
     ++found.crossings;
     if (graph.node[p.vertex] == none) ++found.mid_crossings;
-    if (!graph.are_opposite(p.a, p.b) || !graph.are_opposite(q.a, q.b) || !graph.are_perpendicular(p.a, q.a))
-        ++found.skew;
+    const bool is_straight = graph.are_opposite(p.a, p.b) && graph.are_opposite(q.a, q.b);
+    if (is_straight && graph.are_at(p.a, q.a, graph.turn / 4)) return;
+    ++found.skew;
+    if (is_straight && graph.are_at(p.a, q.a, graph.turn / 6)) ++found.sixty;
 }
 
 }  // namespace

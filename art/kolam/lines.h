@@ -34,6 +34,7 @@ struct Meetings {
     std::uint64_t all = 0;
     std::uint64_t crossings = 0;
     std::uint64_t skew = 0;
+    std::uint64_t sixty = 0;
     std::uint64_t mid_crossings = 0;
     std::uint64_t touchings = 0;
     std::uint64_t multiple = 0;

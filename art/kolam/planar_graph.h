@@ -6,6 +6,7 @@
 #include "art/kolam/strokes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -67,9 +68,12 @@ struct PlanarGraph {
     bool are_opposite(std::uint32_t a, std::uint32_t b) const {
         return same_direction(direction(a), reversed(direction(b)));
     }
-    bool are_perpendicular(std::uint32_t a, std::uint32_t b) const {
-        const double first = std::fmod(direction(a) + turn / 4, turn);
-        return same_direction(first, direction(b)) || same_direction(reversed(first), direction(b));
+    /// True if the lines of two half-edges meet at that angle, a part of a full turn.
+    bool are_at(std::uint32_t a, std::uint32_t b, double angle) const {
+        return std::ranges::any_of(std::array{angle, turn - angle}, [&](double way) {
+            const double turned = std::fmod(direction(a) + way, turn);
+            return same_direction(turned, direction(b)) || same_direction(reversed(turned), direction(b));
+        });
     }
     std::span<const std::uint32_t> around(std::uint32_t vertex) const {
         return {around_half.data() + around_begins[vertex], around_begins[vertex + 1] - around_begins[vertex]};

@@ -3,6 +3,7 @@
 #include "art/kolam/dot_grid_enumeration.h"
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
+#include "art/kolam/kolam.h"
 #include "art/style/style.h"
 #include "engine/geometry/spline.h"
 #include "tests/reference.h"
@@ -610,6 +611,39 @@ TEST(DotGridPattern, StrokesAreTheLines) {
             EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](int count) { return count == 2; }));
             EXPECT_EQ(border.size(), known.border.size());
             for (const auto& [place, count] : border) EXPECT_EQ(count, 1);
+        }
+    }
+}
+
+/// What was made is what the examination of the drawing finds, by another way.
+TEST(DotGridPattern, ExaminationsFindWhatWasMade) {
+    for (const char* text : {"7x7", "1-3-5-3-1", "7-4", "9-5", "4-5-6", "ooo/o.o/ooo", " o o / o   o/ o o "}) {
+        const DotGrid grid = parse_dot_grid(text);
+        const bool is_square = grid.lattice() == DotLattice::square;
+        for (const GridSymmetry symmetry : usual_symmetries(grid, false)) {
+            const GapStates states =
+                random_states(grid, {.seed = 5, .density = 0.6, .symmetry = symmetry, .connects = true});
+            const std::string pattern = kolam_pattern(grid, states).text;
+            const Style style = drawn(pattern).style;
+            const KolamExamination found =
+                examine_kolam(reference::grammar_of(pattern),
+                              {.spline = true, .draws = [&](const Pen& pen) { return style.draws(pen); }});
+            const std::string what = text + (" " + std::string(grid_symmetry_name(symmetry)));
+            EXPECT_TRUE(found.is_exact) << what;
+            EXPECT_TRUE(found.is_kolam()) << what;
+            EXPECT_EQ(found.lines, count_lines(grid, states)) << what;
+            EXPECT_EQ(found.dots.size(), grid.dots().size()) << what;
+            EXPECT_EQ(found.crossings, std::count(states.begin(), states.end(), GapState::crossed)) << what;
+            EXPECT_EQ(found.skew, is_square ? 0 : found.crossings) << what;
+            EXPECT_EQ(found.sixty, found.skew) << what;
+            EXPECT_EQ(found.touchings, std::count(states.begin(), states.end(), GapState::turned)) << what;
+            std::size_t kept = 0;  // the kolam's own symmetries
+            for (const auto& images : grid_symmetries(grid)) {
+                bool is_kept = true;
+                for (std::size_t i = 0; i < images.size(); ++i) is_kept = is_kept && states[i] == states[images[i]];
+                kept += is_kept;
+            }
+            EXPECT_EQ(found.symmetry.rotations + found.symmetry.mirrors, kept) << what;
         }
     }
 }

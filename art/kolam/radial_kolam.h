@@ -1,0 +1,36 @@
+// art/kolam/radial_kolam.h: radial kolams (*Hridaya kamalam*): lines through dots on arms around a centre.
+#pragma once
+
+#include "art/kolam/dot_grid_pattern.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// Arms of dots around a centre. A line goes from arm to arm, and on each arm to the dot that follows in the order.
+struct RadialKolam {
+    static constexpr std::uint32_t most_dots = 100'000;
+
+    std::uint32_t arms = 0;
+    std::vector<std::uint32_t> order;  ///< of the dots of an arm, which count from 1 next to the centre
+
+    std::uint32_t dots() const { return static_cast<std::uint32_t>(order.size()); }
+    /// The greatest common divisor of arms and dots: the line visits every dot only if it is 1, for it returns to its
+    /// beginning after as many steps as their least common multiple.
+    /// Source: arXiv 2510.18907 (dots of arm r in the order (k arms + r) mod dots).
+    std::uint32_t lines() const;
+};
+
+/// `ARMSxDOTS`, such as 8x5, and the order of the dots, such as 1-3-5-2-4; empty: the odd ones, then the even ones.
+/// @throws std::runtime_error for fewer than 2 arms, over RadialKolam::most_dots dots, and orders that do not contain
+/// each dot once
+RadialKolam parse_radial_kolam(std::string_view size, std::string_view order = {});
+
+/// The first arm points up, and lines go round clockwise; dots are one step apart. A line is the spline through its
+/// dots: its control points, between which the turtle steps, are found from them (to 1e-9 steps). `dot_symbols` adds
+/// the dots and the centre.
+KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions& options = {});
+
+}  // namespace sikku
