@@ -301,10 +301,11 @@ std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetr
     const Group& group = group_of(symmetry);
     const DotMap map(grid);
     if (group.rotations > 2 && group.rotations % 2 == 0 && !map.has_dot_at_centre()) {
-        return because(fmt::format(
-            "a line that {} of a turn leaves as it is has a dot in its middle, so the grid has to have one "
-            "there, as {} does",
-            group.rotations == 4 ? "a quarter" : "a sixth", group.rotations == 4 ? "7x7" : "7-4 idukku"));
+        return because(
+            fmt::format("a line that {} leaves as it is has a dot in its middle, so the grid has to have one "
+                        "there, as {} does",
+                        group.rotations == 4 ? "a quarter turn" : "a sixth of a turn",
+                        group.rotations == 4 ? "7x7" : "7-4 idukku"));
     }
     if (group.rotations == 2 && !map.has_dot_at_centre() && !map.has_gap_at_centre()) {
         return because(

@@ -1,0 +1,93 @@
+// tests/program/kolam_grid_test.cpp: runs the program to make kolams on grids and radial ones.
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+class KolamGrid : public ::testing::Test {
+protected:
+    Outcome kolam(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "kolam");
+        Surroundings here;
+        here.folder = folder_.path();
+        return run(arguments, here);
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(KolamGrid, MakesEveryKindOfGrid) {
+    for (const char* grid :
+         {"7 to 1 ner pulli", "7-4 idukku pulli", "9x5-5x2", "oo./ooo/.oo", " o o / o   o/ o o "}) {
+        const Outcome made = kolam({"--grid", grid, "--dots", "--colours", "-o", "made.lsys"});
+        ASSERT_EQ(made.status, 0) << grid << made.errors;
+        const Outcome examined = kolam({"made.lsys", "--json"});
+        EXPECT_TRUE(has(examined.output, "\"kolam\": true")) << grid << examined.output;
+        EXPECT_TRUE(has(examined.output, "\"exact\": true")) << grid << examined.output;
+    }
+    folder_.write("shape.txt", ".ooo.\nooooo\noo.oo\nooooo\n.ooo.\n");
+    EXPECT_EQ(kolam({"--grid", "@shape.txt", "--single-line", "-o", "shape.lsys"}).status, 0);
+    EXPECT_TRUE(has(kolam({"shape.lsys"}).output, "a single line (anthathi), 20 dots"));
+}
+
+TEST_F(KolamGrid, TheUsualSymmetryIsTheLargestThatIsPossible) {
+    EXPECT_TRUE(has(kolam({"--grid", "7x7", "-o", "a.lsys"}).errors, "symmetry D4"));
+    EXPECT_TRUE(has(kolam({"--grid", "7x7", "--single-line", "-o", "a.lsys"}).errors, "symmetry C4"));
+    EXPECT_TRUE(has(kolam({"--grid", "7-4", "--single-line", "-o", "a.lsys"}).errors, "symmetry C6"));
+    EXPECT_TRUE(has(kolam({"--grid", "3-2", "--single-line", "-o", "a.lsys"}).errors, "symmetry D6"));
+    EXPECT_TRUE(has(kolam({"--grid", "6x6", "--single-line", "-o", "a.lsys"}).errors, "symmetry mirror-x"));
+    EXPECT_FALSE(has(kolam({"--grid", "6x6", "--symmetry", "none", "-o", "a.lsys"}).errors, "symmetry"));
+}
+
+TEST_F(KolamGrid, JoinedGapsAreMadeReadAndListed) {
+    const Outcome made = kolam({"--grid", "5x5", "--density", "0.5", "--joined", "0.6", "-o", "a.lsys"});
+    ASSERT_EQ(made.status, 0);
+    EXPECT_TRUE(has(made.errors, " joined, ")) << made.errors;
+    const Outcome given = kolam({"--grid", "1x3", "--crossings", "12", "--json", "-o", "a.lsys"});
+    EXPECT_TRUE(has(given.output, "\"crossed\": 1, \"joined\": 1, \"lines\": 1")) << given.output;
+    EXPECT_TRUE(
+        has(kolam({"--grid", "2x2", "--enumerate", "--joined", "1"}).output, "81 states, 40 of a single line"));
+}
+
+TEST_F(KolamGrid, RadialKolamsHaveAsManyLinesAsTheGreatestCommonDivisor) {
+    for (const auto& [size, lines] : {std::pair{"8x5", "\"lines\": 1,"}, std::pair{"8x6", "\"lines\": 2,"}}) {
+        const Outcome made = kolam({"--radial", size, "--dots", "--json", "-o", "a.lsys"});
+        EXPECT_TRUE(has(made.output, lines)) << made.output;
+        EXPECT_TRUE(has(kolam({"a.lsys", "--json"}).output, lines));
+    }
+}
+
+TEST_F(KolamGrid, RefusesWithTheReason) {
+    struct Case {
+        std::vector<std::string> arguments;
+        int status;
+        const char* message;
+    };
+    for (const Case& bad : {Case{{"--grid", "15-8", "--symmetry", "D4"}, 2, "interlaced grids have C2, C3, C6"},
+                            {{"--grid", "7x7", "--symmetry", "C6"}, 2, "square grids have C2, C4, mirrors and D4"},
+                            {{"--grid", "7-4", "--symmetry", "D6", "--single-line"}, 1, "at its 3 dots"},
+                            {{"--grid", "oo//oo", "--single-line"}, 1, "2 groups that no gap connects"},
+                            {{"--grid", "1000x1000000"}, 2, "more than 4000000 dots"},
+                            {{"--grid", "4000000000 to 1"}, 2, "more than 4000000 dots"},
+                            {{"--grid", "7 foo"}, 2, "unknown word 'foo'"},
+                            {{"--grid", "@missing.txt"}, 2, "missing.txt"},
+                            {{"--grid", "3x3", "--crossings", "0123"}, 2, "0 turned back, 1 crossed, 2 joined"},
+                            {{"--radial", "8"}, 2, "expected ARMSxDOTS"},
+                            {{"--radial", "8x5", "--order", "1-2"}, 2, "each dot of an arm once"},
+                            {{"--radial", "8x5", "--grid", "3x3"}, 2, "cannot be combined with"},
+                            {{"--radial", "8x5", "--single-line"}, 2, "--single-line needs --grid"},
+                            {{"snake-kolam", "--dots"}, 2, "need --grid or --radial"}}) {
+        const Outcome refused = kolam(bad.arguments);
+        EXPECT_EQ(refused.status, bad.status) << bad.message << refused.errors;
+        EXPECT_TRUE(has(refused.errors, bad.message)) << refused.errors;
+    }
+    EXPECT_TRUE(folder_.names().empty());
+}
+
+}  // namespace
+}  // namespace sikku
