@@ -155,12 +155,14 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     if (options.as_json) {
         fmt::print(
             "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, "
-            "\"laplacian_nullity\": {}, \"symmetry\": {}, \"changed\": {}, \"attempt\": {}, \"crossings\": {}}}\n",
+            "\"laplacian_nullity\": {}, \"symmetry\": {}, \"code\": {}, \"changed\": {}, \"attempt\": {}, "
+            "\"crossings\": {}}}\n",
             json_string(grid.text()), grid.dots().size(), grid.gaps().size(),
             std::count(made.states.begin(), made.states.end(), GapState::crossed),
             std::count(made.states.begin(), made.states.end(), GapState::joined), lines,
             nullity ? fmt::format("{}", *nullity) : "null", json_string(grid_symmetry_name(made.symmetry)),
-            made.changed, made.attempt, json_string(gap_states_text(grid, made.states)));
+            json_string(kolam_code(grid, made.states)), made.changed, made.attempt,
+            json_string(gap_states_text(grid, made.states)));
     } else {
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));

@@ -107,86 +107,169 @@ private:
 constexpr std::size_t colour_count = 8;
 constexpr std::size_t most_listed_gaps = 1000;
 
-}  // namespace
+/// The turns behind each step of a line, the last one back into the direction of the first.
+std::vector<std::uint8_t> turns_of(const DotGrid& grid, const GapStates& states, const ArcStep& start, Pulse& pulse) {
+    std::vector<std::uint8_t> turns;
+    ArcStep step = start;
+    do {
+        pulse();
+        const ArcStep next = next_step(grid, states, step);
+        turns.push_back(
+            static_cast<std::uint8_t>((heading(grid, next) + grid.sides() - heading(grid, step)) % grid.sides()));
+        step = next;
+    } while (step != start);
+    return turns;
+}
 
-KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
-    const std::vector<ArcStep> starts = line_starts(grid, states, options.monitor);
-    KolamPattern pattern;
-    pattern.lines = starts.size();
-    std::string& text = pattern.text;
-    if (!options.title.empty()) text += fmt::format("title: {}\n", options.title);
-    if (!options.description.empty()) text += fmt::format("description: {}\n", options.description);
-    if (states.size() <= most_listed_gaps) {
-        text += fmt::format("// grid: {}\n// gaps: {}\n", grid.text(), gap_states_text(grid, states));
+/// The least number of steps after which the turns repeat, a divisor of their number: by the borders of prefixes
+/// (Knuth, Morris & Pratt 1977).
+std::size_t period_of(const std::vector<std::uint8_t>& turns) {
+    std::vector<std::uint32_t> border(turns.size() + 1, 0);
+    std::size_t length = 0;
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+        while (length > 0 && turns[i] != turns[length]) length = border[length];
+        if (turns[i] == turns[length]) ++length;
+        border[i + 1] = static_cast<std::uint32_t>(length);
     }
-    const Walk walk = walk_of(grid.lattice());
-    text +=
-        fmt::format("\nderivation length: 0\nangle factor: {}\nheading: {}\naxiom: ", walk.headings, walk.heading);
+    const std::size_t period = turns.size() - border[turns.size()];
+    return turns.size() % period == 0 ? period : turns.size();
+}
 
-    const std::size_t line_colours = options.coloured ? colour_count : 1;
-    const std::string pen_up = fmt::format(";({})", line_colours);
-    const HalfSteps origin = side_middle(grid, starts[0].dot, entry(grid, starts[0]));
-    const bool single = starts.size() == 1;
-    WordWriter word(text, walk.headings);
-    HalfSteps at = origin;
-    if (!single) word.put(pen_up);
-    Pulse pulse(options.monitor);
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        const ArcStep& start = starts[i];
-        const HalfSteps place = side_middle(grid, start.dot, entry(grid, start));
-        word.move(place - at);
-        at = place;
-        if (!single) {
-            word.put("[");
-            word.put(fmt::format(";({})", i % line_colours));
-        }
-        word.turn(heading(grid, start));
-        ArcStep step = start;
-        std::uint32_t last_heading = 0;
-        do {
-            pulse();
-            last_heading = heading(grid, step);
-            const ArcStep next = next_step(grid, states, step);
-            word.put("F");
-            if (next != start) word.turn(heading(grid, next) + walk.headings - last_heading);
-            step = next;
-            if (text.size() > most_pattern_bytes) {
-                throw std::runtime_error(fmt::format("the pattern of a kolam on {} would be over {} MB long",
-                                                     grid.text(), most_pattern_bytes >> 20U));
+class PatternWriter {
+public:
+    PatternWriter(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options)
+        : grid_(grid),
+          options_(options),
+          walk_(walk_of(grid.lattice())),
+          pulse_(options.monitor),
+          line_colours_(options.coloured ? colour_count : 1),
+          pen_up_(fmt::format(";({})", line_colours_)) {
+        const std::vector<ArcStep> starts = line_starts(grid, states, options.monitor);
+        pattern_.lines = starts.size();
+        is_single_ = starts.size() == 1;
+        origin_ = at_ = side_middle(grid, starts[0].dot, entry(grid, starts[0]));
+        write_head(states);
+        if (is_single_) {
+            write_single(starts[0], turns_of(grid, states, starts[0], pulse_));
+        } else {
+            write_keys(0);
+            WordWriter word(text_, walk_.headings);
+            word.put(pen_up_);
+            for (std::size_t i = 0; i < starts.size(); ++i) {
+                write_branch(word, i, starts[i], turns_of(grid, states, starts[i], pulse_));
             }
-        } while (step != start);
-        if (single && options.dot_symbols) word.turn(walk.headings - last_heading);
-        if (!single) word.put("]");
+            if (options.dot_symbols) write_dots(word);
+            text_ += '\n';
+        }
+        write_style();
     }
-    if (options.dot_symbols) {
-        if (single) {
+
+    KolamPattern pattern() {
+        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+            pulse_();
+            const HalfSteps way = place_of_dot(grid_, dot) - origin_;
+            pattern_.dots.push_back(static_cast<double>(way.first) * walk_.first +
+                                    static_cast<double>(way.second) * walk_.second);
+        }
+        return std::move(pattern_);
+    }
+
+private:
+    void write_head(const GapStates& states) {
+        if (!options_.title.empty()) text_ += fmt::format("title: {}\n", options_.title);
+        if (!options_.description.empty()) text_ += fmt::format("description: {}\n", options_.description);
+        if (states.size() > most_listed_gaps) return;
+        text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states));
+    }
+    void write_keys(int steps) {
+        text_ += fmt::format("\nderivation length: {}\nangle factor: {}\nheading: {}\naxiom: ", steps, walk_.headings,
+                             walk_.heading);
+    }
+    /// A line that a rotation leaves as it is repeats its first part, which becomes a production.
+    void write_single(const ArcStep& start, const std::vector<std::uint8_t>& turns) {
+        const std::size_t period = period_of(turns);
+        const bool repeats = period < turns.size();
+        write_keys(repeats ? 1 : 0);
+        WordWriter word(text_, walk_.headings);
+        word.turn(heading(grid_, start));
+        if (repeats) {
+            for (std::size_t i = 0; i < turns.size(); i += period) word.put("A");
+        } else {
+            write_steps(word, turns, turns.size());
+        }
+        if (options_.dot_symbols) {
+            if (!repeats) word.turn(turns.back());
+            word.turn(walk_.headings - heading(grid_, start));
             // The stroke has to end before the turtle leaves it.
             word.put("[]");
-            word.put(pen_up);
+            word.put(pen_up_);
+            write_dots(word);
         }
-        for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
-            pulse();
-            const HalfSteps place = place_of_dot(grid, dot);
-            word.move(place - at);
-            at = place;
+        text_ += '\n';
+        if (!repeats) return;
+        text_ += "A --> ";
+        WordWriter part(text_, walk_.headings);
+        write_steps(part, turns, period);
+        part.turn(turns[period - 1]);
+        text_ += '\n';
+    }
+    void write_branch(WordWriter& word, std::size_t number, const ArcStep& start,
+                      const std::vector<std::uint8_t>& turns) {
+        const HalfSteps place = side_middle(grid_, start.dot, entry(grid_, start));
+        word.move(place - at_);
+        at_ = place;
+        word.put("[");
+        word.put(fmt::format(";({})", number % line_colours_));
+        word.turn(heading(grid_, start));
+        write_steps(word, turns, turns.size());
+        word.put("]");
+    }
+    /// Steps with the turns between them.
+    void write_steps(WordWriter& word, const std::vector<std::uint8_t>& turns, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            pulse_();
+            word.put("F");
+            if (i + 1 < count) word.turn(turns[i]);
+            if (text_.size() > most_pattern_bytes) {
+                throw std::runtime_error(fmt::format("the pattern of a kolam on {} would be over {} MB long",
+                                                     grid_.text(), most_pattern_bytes >> 20U));
+            }
+        }
+    }
+    void write_dots(WordWriter& word) {
+        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+            pulse_();
+            const HalfSteps place = place_of_dot(grid_, dot);
+            word.move(place - at_);
+            at_ = place;
             word.put("[;(0)@.]");
         }
     }
-    text += '\n';
-
-    text += "\nground: #7d3324\nline: spline\n";
-    text += fmt::format("stroke: 0.16 step {}\n", rice);
-    if (!single || options.dot_symbols) {
-        text += fmt::format("palette: {} transparent\n", options.coloured ? kolam_colours : rice);
+    void write_style() {
+        text_ += "\nground: #7d3324\nline: spline\n";
+        text_ += fmt::format("stroke: 0.16 step {}\n", rice);
+        if (!is_single_ || options_.dot_symbols) {
+            text_ += fmt::format("palette: {} transparent\n", options_.coloured ? kolam_colours : rice);
+        }
     }
 
-    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
-        pulse();
-        const HalfSteps way = place_of_dot(grid, dot) - origin;
-        pattern.dots.push_back(static_cast<double>(way.first) * walk.first +
-                               static_cast<double>(way.second) * walk.second);
-    }
-    return pattern;
+    const DotGrid& grid_;
+    const KolamPatternOptions& options_;
+    Walk walk_;
+    Pulse pulse_;
+    std::size_t line_colours_;
+    std::string pen_up_;
+    KolamPattern pattern_;
+    std::string& text_ = pattern_.text;
+    bool is_single_ = false;
+    HalfSteps origin_;
+    HalfSteps at_;
+};
+
+}  // namespace
+
+KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
+    return PatternWriter(grid, states, options).pattern();
 }
 
 }  // namespace sikku

@@ -28,9 +28,10 @@ struct KolamPattern {
 /// dot where it turns back. In the square lattice steps are diagonal, lines cross at right angles, and dots are
 /// sqrt(2) steps apart; in the triangular one steps have six directions, lines cross at 60 degrees, and dots are 2
 /// steps apart. The first line starts at 0 0. Each line is one closed stroke. A single line is a word without
-/// brackets; several are branches, and between them the turtle moves with a transparent pen, for a spline takes `f`
-/// as a control point as well. The grid and up to 1000 gaps are listed in comments, as parse_dot_grid() and
-/// parse_gap_states() read them. Steps are whole (or halves, to dots), so that every position is exact.
+/// brackets; if a rotation leaves it as it is, its repeated part is a production. Several lines are branches, and
+/// between them the turtle moves with a transparent pen, for a spline takes `f` as a control point as well. The grid
+/// and up to 1000 gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read them. Steps are whole
+/// (or halves, to dots), so that every position is exact.
 /// @throws std::runtime_error if the text were too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 

@@ -287,6 +287,17 @@ GapStates canonical_states(const DotGrid& grid, const GapStates& states) {
     return least;
 }
 
+std::string kolam_code(const DotGrid& grid, const GapStates& states) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    const auto add = [&hash](char byte) { hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U; };
+    for (const char byte : grid.text()) add(byte);
+    for (const GapState state : canonical_states(grid, states)) add(static_cast<char>(state));
+    constexpr std::string_view letters = "0123456789abcdefghjkmnpqrstvwxyz";  // Crockford's
+    std::string code;
+    for (int i = 0; i < 8; ++i, hash >>= 5U) code += letters[hash & 31U];
+    return code;
+}
+
 std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined) {
     const auto because = [&](std::string_view reason) {
         const std::string whose = symmetry == GridSymmetry::none

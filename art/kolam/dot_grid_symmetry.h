@@ -56,6 +56,10 @@ bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry sym
 /// are images of each other.
 GapStates canonical_states(const DotGrid& grid, const GapStates& states);
 
+/// A name for a kolam and all its images: 8 letters and digits (base 32) of a hash (FNV-1a, 64 bits) of the grid and
+/// its canonical states.
+std::string kolam_code(const DotGrid& grid, const GapStates& states);
+
 /// Why no single line on this grid has that symmetry, or nothing if none of the known reasons applies.
 /// The dots have to be connected. A rotation of even order carries the line along itself, so that it winds around the
 /// centre an odd number of times: a dot has to be there (or, for a half turn, a gap). A mirror that reverses the line

