@@ -265,8 +265,10 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->type_name("DOTS")
         ->group(grid_heading)
         ->needs(radial);
-    auto* colours =
-        command.add_flag("--colours", options.colours, "give each line its own colour")->group(grid_heading);
+    auto* colours = command
+                        .add_flag("--colours", options.colours,
+                                  "give lines colours; lines that are images of each other share one")
+                        ->group(grid_heading);
     auto* dots = command.add_flag("--dots", options.dots, "draw the dots in the pattern")->group(grid_heading);
     auto* enumerate = command
                           .add_flag("--enumerate", options.enumerate,

@@ -153,10 +153,12 @@ public:
             write_single(starts[0], turns_of(grid, states, starts[0], pulse_));
         } else {
             write_keys(0);
+            const std::vector<std::uint32_t> orbits = options.coloured ? line_orbits(grid, states, options.monitor)
+                                                                       : std::vector<std::uint32_t>(starts.size());
             WordWriter word(text_, walk_.headings);
             word.put(pen_up_);
             for (std::size_t i = 0; i < starts.size(); ++i) {
-                write_branch(word, i, starts[i], turns_of(grid, states, starts[i], pulse_));
+                write_branch(word, orbits[i], starts[i], turns_of(grid, states, starts[i], pulse_));
             }
             if (options.dot_symbols) write_dots(word);
             text_ += '\n';
@@ -213,13 +215,13 @@ private:
         part.turn(turns[period - 1]);
         text_ += '\n';
     }
-    void write_branch(WordWriter& word, std::size_t number, const ArcStep& start,
+    void write_branch(WordWriter& word, std::uint32_t orbit, const ArcStep& start,
                       const std::vector<std::uint8_t>& turns) {
         const HalfSteps place = side_middle(grid_, start.dot, entry(grid_, start));
         word.move(place - at_);
         at_ = place;
         word.put("[");
-        word.put(fmt::format(";({})", number % line_colours_));
+        word.put(fmt::format(";({})", orbit % line_colours_));
         word.turn(heading(grid_, start));
         write_steps(word, turns, turns.size());
         word.put("]");

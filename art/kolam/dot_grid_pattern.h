@@ -1,7 +1,7 @@
 // art/kolam/dot_grid_pattern.h: writes a kolam on a grid of dots as a pattern file.
 #pragma once
 
-#include "art/kolam/dot_grid_lines.h"
+#include "art/kolam/dot_grid_symmetry.h"
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -12,7 +12,7 @@ namespace sikku {
 struct KolamPatternOptions {
     std::string title = {};
     std::string description = {};
-    bool coloured = false;     ///< each line in a colour of its own, eight of them in turn
+    bool coloured = false;     ///< each class of lines that are images of each other in a colour, eight in turn
     bool dot_symbols = false;  ///< draws the dots, too, as `@.`
     Monitor monitor = {};
 };

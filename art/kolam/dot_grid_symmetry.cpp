@@ -109,6 +109,12 @@ public:
         }
         return images;
     }
+    /// Where an arc goes, numbered over all dots.
+    std::uint32_t arc(std::uint32_t dot, std::uint32_t arc, const Isometry& isometry) const {
+        const std::uint32_t sides = grid_.sides();
+        const std::uint32_t first = isometry.is_mirror ? (arc + 1) % sides : arc;
+        return sides * *image(grid_.dots()[dot], isometry) + side(first, isometry);
+    }
     std::uint32_t side(std::uint32_t side, const Isometry& isometry) const {
         const GridDot way = grid_.step(side);
         const GridDot to{static_cast<std::int32_t>((isometry.xx * way.x + isometry.xy * way.y) / 4),
@@ -285,6 +291,31 @@ GapStates canonical_states(const DotGrid& grid, const GapStates& states) {
         least = std::min(least, image);
     }
     return least;
+}
+
+std::vector<std::uint32_t> line_orbits(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
+    LineLabels labels;
+    label_lines(grid, states, labels, monitor);
+    const DotMap map(grid);
+    UnionFind classes(labels.starts.size());
+    for (const Isometry& isometry : isometries(grid.lattice())) {
+        if (!map.is_kept(isometry)) continue;
+        const std::vector<std::uint32_t> images = map.gaps(isometry);
+        bool is_kept = true;
+        for (std::size_t i = 0; i < images.size() && is_kept; ++i) is_kept = states[i] == states[images[i]];
+        if (!is_kept) continue;
+        for (std::uint32_t line = 0; line < labels.starts.size(); ++line) {
+            const ArcStep& start = labels.starts[line];
+            classes.join(line, labels.line[map.arc(start.dot, start.arc, isometry)]);
+        }
+    }
+    std::vector<std::uint32_t> orbits(labels.starts.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t line = 0; line < orbits.size(); ++line) {
+        const std::uint32_t first = classes.find(line);
+        orbits[line] = first == line ? count++ : orbits[first];
+    }
+    return orbits;
 }
 
 std::string kolam_code(const DotGrid& grid, const GapStates& states) {

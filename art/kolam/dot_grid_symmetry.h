@@ -56,6 +56,10 @@ bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry sym
 /// are images of each other.
 GapStates canonical_states(const DotGrid& grid, const GapStates& states);
 
+/// For each line, in the order of line_starts(), the number of its class: lines that the kolam's own symmetries take
+/// to each other share one. Numbers from 0 in the order of their first lines.
+std::vector<std::uint32_t> line_orbits(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
+
 /// A name for a kolam and all its images: 8 letters and digits (base 32) of a hash (FNV-1a, 64 bits) of the grid and
 /// its canonical states.
 std::string kolam_code(const DotGrid& grid, const GapStates& states);

@@ -686,6 +686,23 @@ TEST(DotGridPattern, CurvesKeepTheirDistanceFromDots) {
     EXPECT_GT(least, 0.44);  // a third of the spacing of dots
 }
 
+/// As the examination of the drawing does, by its edges.
+TEST(DotGridPattern, LinesThatAreImagesOfEachOtherShareAClass) {
+    for (const char* text : {"7x7", "1-3-5-3-1", "7-4", "4-5-6", "ooo/o.o/ooo"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        for (const GridSymmetry symmetry : usual_symmetries(grid, false)) {
+            const GapStates states =
+                random_states(grid, {.seed = 3, .density = 0.5, .joined = 0.2, .symmetry = symmetry});
+            const std::string pattern = kolam_pattern(grid, states).text;
+            const Style style = drawn(pattern).style;
+            const KolamExamination found =
+                examine_kolam(reference::grammar_of(pattern),
+                              {.spline = true, .draws = [&](const Pen& pen) { return style.draws(pen); }});
+            EXPECT_EQ(line_orbits(grid, states), found.orbit_of_line) << text << ' ' << grid_symmetry_name(symmetry);
+        }
+    }
+}
+
 TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
     const DotGrid grid = parse_dot_grid("1-3-5-3-1");
     for (const bool single : {false, true}) {
@@ -696,7 +713,8 @@ TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
             const Drawn found = drawn(pattern.text);
             ASSERT_EQ(found.controls.size(), single ? 1u : 13u);
             for (std::size_t i = 0; i < found.controls.size(); ++i) {
-                EXPECT_EQ(found.controls[i].pens.at(0).colour, coloured ? static_cast<int>(i % 8) : 0);
+                EXPECT_EQ(found.controls[i].pens.at(0).colour,
+                          coloured ? static_cast<int>(line_orbits(grid, crossings)[i] % 8) : 0);
             }
             const Grammar grammar = reference::grammar_of(pattern.text);
             reference::Recorder recorder;
