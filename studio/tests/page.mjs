@@ -275,7 +275,7 @@ test("the gallery finds and opens patterns", async ({ page }) => {
     await page.locator(".card .picture.drawn").nth(5).waitFor();
     await screenshot(page, "gallery");
     await search.fill("hilbert todi");
-    await page.locator(".gallery-count", { hasText: "1 of 107" }).waitFor();
+    await page.locator(".gallery-count", { hasText: "1 of 207" }).waitFor();
     await search.fill("snake");
     await page.getByRole("button", { name: "kolams", exact: true }).click();
     await page.locator(".card:visible").first().click();
@@ -602,7 +602,7 @@ async function measure() {
         const from = performance.now();
         const panel = document.querySelector("#panel-gallery");
         const drawn = () => document.querySelectorAll(".gallery .picture:is(.drawn, .words)").length;
-        for (let at = 0; drawn() < 107 && performance.now() - from < 20000; at += 600) {
+        for (let at = 0; drawn() < 207 && performance.now() - from < 20000; at += 600) {
             panel.scrollTop = at % panel.scrollHeight;
             await new Promise(requestAnimationFrame);
         }

@@ -1,10 +1,12 @@
 // tests/program/kolam_grid_test.cpp: runs the program to make kolams on grids and radial ones.
+#include "tests/files.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -59,6 +61,34 @@ TEST_F(KolamGrid, RadialKolamsHaveAsManyLinesAsTheGreatestCommonDivisor) {
         const Outcome made = kolam({"--radial", size, "--dots", "--json", "-o", "a.lsys"});
         EXPECT_TRUE(has(made.output, lines)) << made.output;
         EXPECT_TRUE(has(kolam({"a.lsys", "--json"}).output, lines));
+    }
+}
+
+/// The commands in the files of the library make them again.
+TEST_F(KolamGrid, MakesTheLibraryAgain) {
+    std::size_t count = 0;
+    for (const auto& file : pattern_files("patterns/kolam-library")) {
+        if (count++ % 10 != 0) continue;
+        const std::string text = contents(file);
+        const std::string mark = "source: sikku kolam ";
+        const std::size_t at = text.find(mark) + mark.size();
+        std::vector<std::string> arguments;
+        bool is_quoted = false;
+        std::string word;
+        for (const char byte : text.substr(at, text.find('\n', at) - at) + ' ') {
+            if (byte == '\'') {
+                is_quoted = !is_quoted;
+            } else if (byte == ' ' && !is_quoted) {
+                arguments.push_back(std::exchange(word, {}));
+            } else {
+                word += byte;
+            }
+        }
+        const Outcome made = kolam(arguments);
+        ASSERT_EQ(made.status, 0) << file << made.errors;
+        const std::size_t word_at = text.find("axiom: ");
+        const std::string axiom = text.substr(word_at, text.find("\n\n", word_at) - word_at);
+        EXPECT_TRUE(has(made.output, axiom)) << file;
     }
 }
 
