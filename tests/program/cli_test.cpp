@@ -221,7 +221,7 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"patterns", "plant"}), 2, "unknown kind of patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
     expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2,
-                   "there are: curves, kolams, melodies, plants, tilings, words");
+                   "there are: curves, kolam-library, kolams, melodies, plants, tilings, words");
 }
 
 TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
