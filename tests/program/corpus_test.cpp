@@ -1,6 +1,7 @@
 // tests/program/corpus_test.cpp: runs the checks of the fuzzers on every file of the corpus and every pattern.
 #include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
+#include "tests/fuzz/grid_targets.h"
 #include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
@@ -61,6 +62,18 @@ void mutate(const std::string& bytes, const std::function<void(const std::string
             changed[at] = byte;
             attempt(changed);
         }
+    }
+}
+
+TEST(Corpus, GridsAreReadOrRefused) {
+    const auto list = files_of("tests/corpus/grids");
+    EXPECT_FALSE(list.empty());
+    for (const auto& file : list) {
+        SCOPED_TRACE(file.string());
+        mutate(contents(file), [](const std::string& changed) {
+            ASSERT_NO_THROW(try_grid(changed));
+            ASSERT_NO_THROW(try_radial(changed));
+        });
     }
 }
 
