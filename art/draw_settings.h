@@ -60,9 +60,9 @@ struct DrawSettings {
     PlotSpeeds speeds;
     GcodeOptions gcode;
     Press press;
-    int compression = 6;    ///< PNG compression, 1 to 9
-    double budget = 200e6;  ///< maximum number of derivation nodes visited in one pass
-    int threads = 0;        ///< for pictures; 0: one for each core
+    std::optional<int> compression;  ///< of PNG, 1 to 9; absent: 6, or 4 with grain, which takes long
+    double budget = 200e6;           ///< maximum number of derivation nodes visited in one pass
+    int threads = 0;                 ///< for pictures; 0: one for each core
 };
 
 /// Every option of a print, in the order of help.

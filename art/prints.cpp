@@ -102,7 +102,7 @@ private:
         drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
         drawing_.dot_spacing = settings_.dot_spacing;
         drawing_.threads = settings_.threads;
-        drawing_.compression = settings_.compression;
+        drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
         if (!settings_.plotter && !is_for_plotters(format_)) return;
         PlotOptions& plot = drawing_.plot.emplace();
@@ -118,11 +118,13 @@ private:
     /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
     void check_drawing() const {
         const bool is_spatial = document_.grammar().is_spatial();
+        if (is_model()) require_plain("models have no hand-drawn lines; set hand to 0");
         if (is_model()) require_straight("models have straight lines, not splines; set line to straight");
         if (settings_.generations && document_.has_override("derivation length")) {
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (!is_spatial) return;
+        require_plain("drawings that pitch, roll or bend have no hand-drawn lines; set hand to 0");
         require_straight("drawings that pitch, roll or bend have straight lines, not splines; set line to straight");
         constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
@@ -139,8 +141,13 @@ private:
     }
 
     void require_straight(const std::string& message) const {
-        const Key* key = document_.pattern().find("line");
-        if (print_.style.line != Line::spline || !key) return;
+        refuse_key("line", print_.style.line == Line::spline, message);
+    }
+    void require_plain(const std::string& message) const { refuse_key("hand", print_.style.hand > 0, message); }
+
+    void refuse_key(const char* name, bool is_refused, const std::string& message) const {
+        const Key* key = document_.pattern().find(name);
+        if (!is_refused || !key) return;
         Diagnostics diagnostics;
         diagnostics.error(key->value, message);
         diagnostics.throw_if_errors();

@@ -1,6 +1,7 @@
 #include "art/drawing/drawing.h"
 
 #include "art/drawing/composition.h"
+#include "art/drawing/hand_drawing.h"
 #include "art/drawing/seen_drawing.h"
 #include "art/drawing/word_drawing.h"
 #include "art/print/clip.h"
@@ -84,9 +85,16 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
         return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);
     }
     if (options.window) require_window(*shared, options, why);
-    auto drawing = std::make_unique<WordDrawing>(*shared, style, options);
-    if (!has_ornaments(style, options)) return drawing;
-    return std::make_unique<Composition>(*shared, std::move(drawing), options);
+    auto lines = std::make_unique<WordDrawing>(*shared, style, options);
+    std::unique_ptr<Drawing> drawing;
+    if (has_ornaments(style, options)) {
+        drawing = std::make_unique<Composition>(*shared, std::move(lines), options);
+    } else {
+        drawing = std::move(lines);
+    }
+    if (!(style.hand > 0)) return drawing;
+    if (shared->is_spatial()) throw std::runtime_error("lines drawn by hand apply only to drawings in the plane");
+    return std::make_unique<HandDrawing>(std::move(drawing), shared->seed(), options);
 }
 
 }  // namespace sikku

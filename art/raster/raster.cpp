@@ -3,6 +3,7 @@
 #include "art/raster/bands.h"
 #include "art/raster/blend.h"
 #include "art/raster/fill.h"
+#include "art/raster/powder.h"
 #include "art/raster/stream.h"
 #include "art/raster/stroke.h"
 #include "engine/geometry/bezier.h"
@@ -40,6 +41,8 @@ constexpr int longest_line = 2048 * subpixels;
 
 /// The streams of one colour (or of all polygons), a band each; made when the colour is first used.
 using Layer = std::vector<Stream>;
+/// What one band gets of powder.
+using Powder = std::vector<PowderSegment>;
 
 /// Everything a thread needs for a band, used again and again.
 struct Workplace {
@@ -185,6 +188,8 @@ public:
     void blot(std::size_t prepared, glm::dvec2 centre) override;
 
     void expect(const Pen& pen) override { line_nib(pen); }
+    void powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) override;
+    void set_grain(double steps) override { grain_.emplace(matrix_, steps); }
     void watch(std::function<void()> watch) override { watch_ = std::move(watch); }
     int channels() const override;
     void render(int threads, const RowSink& rows) override;
@@ -229,6 +234,7 @@ private:
     void polygon_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
     void add_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour);
     void add_blots(Mask& mask, int top, const std::vector<float>& blots) const;
+    void add_powder(std::vector<Powder>& into, PowderSegment segment);
     void render_band(Workplace& workplace, int band) const;
 
     const Print& print_;
@@ -252,6 +258,8 @@ private:
     };
     std::vector<Stamp> stamps_;
     std::vector<std::vector<float>> blots_;  ///< by slot of the line's colour: pixels of ink for each pixel
+    std::vector<std::vector<Powder>> powders_, heaps_;  ///< by slot and band
+    std::optional<PowderGrain> grain_;
     Layer polygons_;
     std::vector<bool> polygon_colours_;  ///< which were used
     Arena arena_;
@@ -296,6 +304,8 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
     strokes_.resize(line_colours_.size());
     discs_.resize(fill_colours_.size());
     blots_.resize(line_colours_.size());
+    powders_.resize(line_colours_.size());
+    heaps_.resize(fill_colours_.size());
     polygon_colours_.resize(fill_colours_.size());
 }
 
@@ -593,12 +603,71 @@ void BandRaster::blot(std::size_t prepared, glm::dvec2 centre) {
     }
 }
 
+void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) {
+    const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
+    const std::size_t slot = static_cast<std::size_t>((fills ? fill_slots_ : line_slots_)[index]);
+    if ((fills ? fill_colours_ : line_colours_)[index].alpha == 0 || line.empty() || !grain_) return;
+    std::vector<Powder>& bands = (fills ? heaps_ : powders_)[slot];
+    if (bands.empty()) bands.resize(static_cast<std::size_t>(bands_));
+    const double step = print_.placement.step * millimetre_;
+    PowderSegment segment;
+    segment.height = static_cast<float>(height);
+    const auto start = [&](const PowderPoint& point) {
+        const glm::dvec2 at = to_pixels(point.at);
+        return std::array<float, 3>{static_cast<float>(at.x), static_cast<float>(at.y),
+                                    static_cast<float>(std::clamp(point.half * step, 0.25, most_radius))};
+    };
+    const auto set = [&](const PowderPoint& a, const PowderPoint& b) {
+        const auto from = start(a), to = start(b);
+        segment.ax = from[0], segment.ay = from[1], segment.a_radius = from[2];
+        segment.bx = to[0], segment.by = to[1], segment.b_radius = to[2];
+    };
+    const auto whole = [](const PowderSegment& s) {
+        return static_cast<float>(powder_reach) * std::max(s.a_radius, s.b_radius);
+    };
+    if (line.size() == 1) {
+        set(line[0], line[0]);
+        segment.before = segment.after = whole(segment);
+        return add_powder(bands, segment);
+    }
+    // Where two pieces meet each covers the wedge outside of the bend; at the ends half a disc.
+    float before = 1e9f;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        set(line[i], line[i + 1]);
+        segment.before = before;
+        segment.after = whole(segment);
+        if (i + 2 < line.size()) {
+            const glm::dvec2 in = line[i + 1].at - line[i].at, out = line[i + 2].at - line[i + 1].at;
+            const double lengths = std::sqrt((in.x * in.x + in.y * in.y) * (out.x * out.x + out.y * out.y));
+            const double cosine = lengths > 0 ? (in.x * out.x + in.y * out.y) / lengths : -1;
+            const double sine = lengths > 0 ? std::fabs(in.x * out.y - in.y * out.x) / lengths : 1;
+            if (cosine > 0) segment.after = static_cast<float>(sine) * whole(segment) + 1;
+        }
+        before = segment.after;
+        add_powder(bands, segment);
+    }
+}
+
+/// In all bands that the segment reaches.
+void BandRaster::add_powder(std::vector<Powder>& into, PowderSegment segment) {
+    const double reach = powder_reach * static_cast<double>(std::max(segment.a_radius, segment.b_radius)) + 2;
+    const double left = std::min(segment.ax, segment.bx) - reach, right = std::max(segment.ax, segment.bx) + reach;
+    const double top = std::min(segment.ay, segment.by) - reach, bottom = std::max(segment.ay, segment.by) + reach;
+    // Also false for numbers that are none.
+    if (!(right >= 0 && bottom >= 0 && left < size_.width && top < size_.height)) return;
+    const int first = std::max(static_cast<int>(std::floor(top / band_rows_)), 0);
+    const int last = std::min(static_cast<int>(bottom / band_rows_), bands_ - 1);
+    for (int band = first; band <= last; ++band) into[static_cast<std::size_t>(band)].push_back(segment);
+}
+
 int BandRaster::channels() const {
     if (transparent_) return 4;
     bool all_grey = grey(ground_);
     for (std::size_t index = 0; index < line_colours_.size(); ++index) {
-        if (!strokes_[index].empty()) all_grey = all_grey && grey(line_colours_[index]);
-        if (!discs_[index].empty() || polygon_colours_[index]) all_grey = all_grey && grey(fill_colours_[index]);
+        if (!strokes_[index].empty() || !powders_[index].empty()) all_grey = all_grey && grey(line_colours_[index]);
+        if (!discs_[index].empty() || !heaps_[index].empty() || polygon_colours_[index]) {
+            all_grey = all_grey && grey(fill_colours_[index]);
+        }
     }
     return all_grey ? 1 : 3;
 }
@@ -633,8 +702,17 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
             workplace.canvas.blend(workplace.mask, colours[slot]);
         }
     };
+    const auto heap_up = [&](const std::vector<std::vector<Powder>>& powders, const std::vector<Colour>& colours) {
+        for (std::size_t slot = 0; slot < powders.size(); ++slot) {
+            if (powders[slot].empty() || powders[slot][at].empty()) continue;
+            lay_powder(powders[slot][at], *grain_, workplace.mask, top, watch_);
+            workplace.canvas.blend(workplace.mask, colours[slot]);
+        }
+    };
     paint(strokes_, line_colours_);
+    heap_up(powders_, line_colours_);
     paint(discs_, fill_colours_);
+    heap_up(heaps_, fill_colours_);
 }
 
 void BandRaster::render(int threads, const RowSink& rows) {

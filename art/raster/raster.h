@@ -22,6 +22,12 @@ PixelSize pixel_size(const Page& page, double dpi);
 /// Receives finished rows, 8 bits a channel, top to bottom; called from one thread at a time, in order.
 using RowSink = std::function<void(int first_row, int rows, std::span<const std::uint8_t> pixels)>;
 
+/// A point of a line of powder: its place and half its width, in turtle steps.
+struct PowderPoint {
+    glm::dvec2 at{0.0};
+    double half = 0;
+};
+
 /// A picture that is complete but for its pixels, which it renders in bands.
 class Rendering {
 public:
@@ -54,6 +60,13 @@ class Raster : public BlotSink, public Rendering {
 public:
     /// The pen counts among the colours used from here on.
     virtual void expect(const Pen& pen) = 0;
+
+    /// Adds a line of powder in the colour of the pen, or a heap if it is one point. Powder lies over the strokes of
+    /// its colour, or, with `fills`, over all discs, in the pen's colour of fills. Set the grain first.
+    /// @param height  1 for a line; up to 1.5 where powder lies on powder
+    virtual void powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) = 0;
+    /// Sets the size of a grain of powder, in turtle steps.
+    virtual void set_grain(double steps) = 0;
 };
 
 /// `print` is kept by reference and must outlive the raster. @throws std::runtime_error if a side is over 500,000

@@ -111,6 +111,17 @@ void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
     }
 }
 
+void read_hand(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "a number from 0 to 1";
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    if (!read_number(std::string(word->view()), style.hand) || !(style.hand >= 0 && style.hand <= 1)) {
+        style.hand = 0;
+        diagnostics.error(*word, fmt::format("{} is not a strength of the hand: expected {}", quoted(word->view()),
+                                             expected));
+    }
+}
+
 bool begins_number(std::string_view text) {
     if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
     if (text.starts_with('.')) text.remove_prefix(1);
@@ -350,6 +361,7 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     style.ground = white;
     style.palette = default_palette();
     if (const Key* key = pattern.find("line")) read_line(*key, style, diagnostics);
+    if (const Key* key = pattern.find("hand")) read_hand(*key, style, diagnostics);
     if (const Key* key = pattern.find("stroke")) read_stroke(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);

@@ -1,4 +1,4 @@
-// art/style/style.h: the style of a drawing, from the keys line, stroke, ground, fill, palette, dots, view.
+// art/style/style.h: the style of a drawing, from the keys line, hand, stroke, ground, fill, palette, dots, view.
 #pragma once
 
 #include "art/style/camera.h"
@@ -30,6 +30,7 @@ struct DotStyle {
 struct Style {
     Line line = Line::straight;
     bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
+    double hand = 0.0;  ///< how much lines waver and swell, as drawn by a hand with powder: 0, not at all, to 1
     StrokeWidth stroke;
     std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`

@@ -115,6 +115,12 @@ struct Layer : VectorLayer {
     std::uint64_t position() const { return flushed + text.size(); }
 };
 
+/// Makes the pieces of lines drawn by hand appear.
+constexpr std::string_view falling =
+    ".f { animation: fall 1ms linear calc(var(--b) * var(--pace)) backwards }\n"
+    "@keyframes fall { from { visibility: hidden } }\n"
+    "@media (prefers-reduced-motion: reduce) { .f { animation: none } }\n";
+
 class Writer final : public VectorWriter<Layer> {
 public:
     Writer(const Print& print, Output& file) : VectorWriter(print, file) {
@@ -210,8 +216,8 @@ private:
                         "@keyframes draw {{ from {{ stroke-dasharray: 1 2; stroke-dashoffset: 1.001 }} "
                         "to {{ stroke-dasharray: 1 2; stroke-dashoffset: 0 }} }}\n"
                         "@media (prefers-reduced-motion: reduce) {{ path[pathLength] {{ animation: none }} }}\n"
-                        "</style>\n",
-                        decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9)));
+                        "{}</style>\n",
+                        decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9), has_falling_ ? falling : ""));
     }
 
     struct LayerText {
@@ -266,6 +272,8 @@ private:
 
     void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
         Layer& layer = polygon_run(colour);
+        // Pieces of lines drawn by hand appear one after the other.
+        const bool appears = print_.animation && part_->style.hand > 0;
         char* out = layer.text.room(outline.size() / 3 * curve_room + line_room + 32);
         const MicrometrePlacement place = place_;
         const Micrometres start = place(outline.front());
@@ -276,9 +284,22 @@ private:
         for (std::size_t i = 1; i + 2 < outline.size(); i += 3) {
             path.curve(out, place(outline[i]), place(outline[i + 1]), place(outline[i + 2]));
         }
-        out = put_text(out, "z\"/>\n");
+        out = put_text(out, appears ? "z\"" : "z\"/>\n");
         layer.text.filled_to(out);
+        if (appears) {
+            layer.text.append(fmt::format(" class=\"f\" style=\"--b:{}\"/>\n", decimal(drawn_length_, 3)));
+            drawn_length_ += outline_length(outline) / 2;
+            has_falling_ = true;
+        }
         flush(layer);
+    }
+
+    double outline_length(std::span<const glm::dvec2> outline) const {
+        double length = 0;
+        for (std::size_t i = 3; i < outline.size(); i += 3) {
+            length += glm::length(millimetres(place_(outline[i])) - millimetres(place_(outline[i - 3])));
+        }
+        return length;
     }
 
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
@@ -421,6 +442,7 @@ private:
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
     int parts_ = 0;
+    bool has_falling_ = false;    ///< pieces of lines drawn by hand
     double piece_length_ = 0.0;  ///< of an animated print, in millimetres
     double drawn_length_ = 0.0;  ///< of all its pieces so far
     Micrometres piece_start_;

@@ -34,6 +34,8 @@ constexpr std::array language = {
 
     KeyInfo{"line", art, "straight, spline, spline with lifts", "straight",
             "Straight segments, or a uniform cubic B-spline over all positions of the turtle"},
+    KeyInfo{"hand", art, "a number from 0 to 1", "0",
+            "Lines as rice flour falls from a hand: how much they waver and swell"},
     KeyInfo{"stroke", art, "a width and a colour such as 0.4mm #fff or 0.2 step white; none", "0.4mm black",
             "Width of the pen in mm (or cm, in, pt, px) or in steps, and its colour"},
     KeyInfo{"ground", art, "a colour, none", "white", "Colour of the page; none is transparent"},

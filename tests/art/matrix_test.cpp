@@ -59,6 +59,7 @@ std::vector<Feature> features() {
             {"colours by strand", kolam, {}, {{"colour-by", "strand"}}, {}},
             {"fills", leaf, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
             {"splines", kolam, {{"line", "spline"}}, {}, {}, {{"line", "straight"}}},
+            {"lines by hand", kolam, {{"hand", "0.5"}}, {}, {}, {{"hand", "0"}}},
             {"window", kolam, {}, {{"window", "-1,-1,2,2"}}, {}},
             {"view", solid, {}, {{"view", "30,60"}}, {}},
             {"rotation", kolam, {}, {{"rotate", "30"}}, {}},

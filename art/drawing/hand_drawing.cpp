@@ -1,0 +1,175 @@
+#include "art/drawing/hand_drawing.h"
+
+#include "art/hand/hand_order.h"
+#include "art/print/ornaments.h"
+#include "art/raster/raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr double nodes_of_curve = 20;      // memory and time of a curve that is kept, in derivation nodes
+constexpr double grain_share = 0.07;       // of a line's width
+constexpr double least_powder_pixels = 3;  // narrower lines show no grain
+constexpr double crossing_height = 1.5, dot_height = 1.3;
+constexpr double flatness = 0.15;  // pixels
+
+/// Widths of lines that are drawn with pens differ by this share before the pen is changed.
+constexpr double width_step = 0.03;
+
+void draw_with_pens(const HandLine& stroke, double step, double stroke_unit, double tolerance, PathSink& sink) {
+    const std::vector<HandNode> points = flattened(stroke, tolerance);
+    const auto pen_of = [&](double half) { return Pen{2 * half * step / stroke_unit, true, stroke.pen.colour}; };
+    double half = points.front().half;
+    sink.begin_stroke(points.front().at, pen_of(half));
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        if (std::fabs(points[i].half - half) > width_step * half) {
+            half = points[i].half;
+            sink.change_pen(pen_of(half));
+        }
+        sink.lines(std::span(&points[i].at, 1));
+    }
+    sink.end_stroke(false);
+}
+
+}  // namespace
+
+HandDrawing::HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options)
+    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
+    options_.placement.step = drawing_->fixed_step();
+    hand_.strength = style_.hand;
+    hand_.seed = seed;
+    hand_.monitor = options.monitor;
+    // Outlines are filled in the colours of lines.
+    if (style_.fill_colour({}) != style_.line_colour({})) style_.palette.push_back(style_.line_colour({}));
+}
+
+const DrawnExtent& HandDrawing::seen() {
+    if (!extent_) {
+        extent_ = drawing_->seen();
+        // Lines swell and waver.
+        const double more = 1 + 0.6 * hand_.strength;
+        extent_->widest *= more;
+        extent_->around *= more;
+    }
+    return *extent_;
+}
+
+HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathSink& fills) const {
+    const double step = print.placement.step;
+    HandGatherer gatherer(fills, print.style, step, options_.budget / nodes_of_curve);
+    OldColours coloured(gatherer, drawn_);
+    drawing_->read(print, window, coloured);
+    HandStrokes strokes{std::move(gatherer.gathered), std::move(gatherer.dots)};
+    order_by_hand(strokes.lines);
+    draw_by_hand(strokes.lines, strokes.dots, hand_);
+    return strokes;
+}
+
+void HandDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    const HandStrokes strokes = this->strokes(print, window, sink);
+    if (options_.plot || is_for_plotters(options_.format)) {
+        read_middles(strokes, sink);
+    } else {
+        read_outlines(print, strokes, sink);
+    }
+}
+
+void HandDrawing::read_middles(const HandStrokes& strokes, PathSink& sink) const {
+    for (const HandLine& line : strokes.lines) {
+        const std::vector<glm::dvec2> controls = hand_middle(line);
+        if (controls.empty()) continue;
+        sink.begin_stroke(line.nodes.front().at, line.pen);
+        sink.curves(controls);
+        sink.end_stroke(line.closed);
+    }
+    for (const HandDot& dot : strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
+}
+
+void HandDrawing::read_outlines(const Print& print, const HandStrokes& strokes, PathSink& sink) const {
+    // One colour after the other, as in every print.
+    const std::vector<int> slots = style_.line_slots();
+    std::vector<const HandLine*> lines;
+    for (const HandLine& line : strokes.lines) lines.push_back(&line);
+    const auto slot_of = [&](const HandLine* line) {
+        return slots[static_cast<std::size_t>(style_.index(line->pen))];
+    };
+    std::stable_sort(lines.begin(), lines.end(),
+                     [&](const HandLine* a, const HandLine* b) { return slot_of(a) < slot_of(b); });
+    const auto write_dots = [&] {
+        for (std::size_t i = 0; i < strokes.dots.size(); ++i) {
+            sink.area(dot_outline(strokes.dots[i], i, hand_), strokes.dots[i].pen);
+        }
+    };
+    // A hand sets the dots first; in a picture they lie on top.
+    if (print.animation) write_dots();
+    for (const HandLine* line : lines) {
+        hand_.monitor.check();
+        const HandLine stroke = drawn_stroke(*line, hand_);
+        Pen pen = line->pen;
+        if (style_.palette.size() > drawn_.palette.size() && style_.index(pen) == 0) {
+            pen.colour = static_cast<int>(drawn_.palette.size());
+        }
+        const std::size_t last = stroke.size() - 1;
+        if (!print.animation) {
+            sink.area(hand_outline(stroke, 0, last), pen);
+            continue;
+        }
+        for (std::size_t from = 0; from < last;) {
+            std::size_t to = from + 1;
+            const double length = 1.6 * stroke.nodes[from].half;
+            while (to < last && stroke.nodes[to].along - stroke.nodes[from].along < length) ++to;
+            sink.area(hand_outline(stroke, from, to), pen);
+            from = to;
+        }
+    }
+    if (!print.animation) write_dots();
+}
+
+std::unique_ptr<Rendering> HandDrawing::rendering(const Print& print, const Window& window) const {
+    auto raster = make_raster(print);
+    const HandStrokes strokes = this->strokes(print, window, *raster);
+    const double pixels = print.placement.step * print.dpi / 25.4;  // of a step
+    double sum = 0, length = 0;
+    for (const HandLine& line : strokes.lines) {
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            sum += 2 * line.nodes[i].half * line.step(i);
+            length += line.step(i);
+        }
+    }
+    const double width = length > 0 ? sum / length : 1;
+    raster->set_grain(grain_share * width);
+    const bool is_powder = width * pixels >= least_powder_pixels;
+    std::vector<PowderPoint> points;
+    for (const HandLine& line : strokes.lines) {
+        const HandLine stroke = drawn_stroke(line, hand_);
+        if (!is_powder) {
+            draw_with_pens(stroke, style_.stroke.in_steps ? 1.0 : print.placement.step, print.style.stroke.unit,
+                           flatness / pixels, *raster);
+            continue;
+        }
+        points.clear();
+        for (const HandNode& node : flattened(stroke, flatness / pixels)) points.push_back({node.at, node.half});
+        raster->powder(points, line.pen, 1.0, false);
+    }
+    if (is_powder) {
+        for (const HandCrossing& crossing : hand_crossings(strokes.lines)) {
+            const PowderPoint point{crossing.at, crossing.half};
+            raster->powder(std::span(&point, 1), strokes.lines[crossing.line].pen, crossing_height, false);
+        }
+    }
+    for (const HandDot& dot : strokes.dots) {
+        if (2 * dot.radius * pixels < least_powder_pixels) {
+            raster->disc(dot.at, dot.radius, dot.pen);
+            continue;
+        }
+        const PowderPoint point{dot.at, dot.radius};
+        raster->powder(std::span(&point, 1), dot.pen, dot_height, true);
+    }
+    return raster;
+}
+
+}  // namespace sikku

@@ -1,0 +1,49 @@
+// art/drawing/hand_drawing.h: a drawing whose lines and dots are drawn by a hand, with powder.
+#pragma once
+
+#include "art/drawing/drawing.h"
+#include "art/hand/hand.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace sikku {
+
+/// The lines of a drawing in the order in which a hand draws them, and its dots.
+struct HandStrokes {
+    std::vector<HandLine> lines;
+    std::vector<HandDot> dots;
+};
+
+/// Lets the lines and dots of another drawing waver and swell (see draw_by_hand()), by the `hand` of its style.
+/// Vector formats get outlines, pictures powder, plotters the middle of the lines. The same whatever part of it is
+/// seen. Memory: all lines.
+class HandDrawing : public Drawing {
+public:
+    /// @param drawing  in the plane  @param seed  decides all chance
+    HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options);
+
+    const DrawnExtent& seen() override;
+    const Style& style() const override { return style_; }
+    double scale() const override { return drawing_->scale(); }
+    double border_space(const Page& page) const override { return drawing_->border_space(page); }
+    using Drawing::read;
+    void read(const Print& print, const Window& window, PathSink& sink) const override;
+    using Drawing::rendering;
+    std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
+    void report(DrawReport& report) const override { drawing_->report(report); }
+
+private:
+    HandStrokes strokes(const Print& print, const Window& window, PathSink& fills) const;
+    void read_middles(const HandStrokes& strokes, PathSink& sink) const;
+    void read_outlines(const Print& print, const HandStrokes& strokes, PathSink& sink) const;
+
+    std::unique_ptr<Drawing> drawing_;
+    Style drawn_;  ///< of the other drawing
+    Style style_;  ///< with the colour of its lines among those of its fills
+    HandOptions hand_;
+    std::optional<DrawnExtent> extent_;
+};
+
+}  // namespace sikku

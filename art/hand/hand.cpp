@@ -1,0 +1,414 @@
+#include "art/hand/hand.h"
+
+#include "art/hand/hand_grid.h"
+#include "art/hand/hand_noise.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+// Lengths in loops, at full strength.
+constexpr double drift = 0.12, drift_knots = 1.25;
+constexpr double sway = 0.075, sway_wave = 1.7;
+constexpr double tremor = 0.012, tremor_wave = 0.4;
+constexpr double bend_window = 0.22;  // over which a hand changes its speed
+// Exponent of the width over curvature: a third for the speed, half of that for the width, and more at full strength
+// than measured.
+constexpr double swell = 0.3;
+constexpr double least_bend = 0.5;  // of a straight run, where the hand has a greatest speed
+constexpr double usual_bend = 0.6;  // where the line is as wide as its pen
+constexpr double pulse = 0.11, pulse_wave = 2.6;
+constexpr double ripple = 0.05, ripple_wave = 0.7;
+
+// What may be used of the gap between two lines: by each of them, and by the drift.
+constexpr double sway_share = 0.17, swell_share = 0.12, miss_share = 0.08, drift_share = 0.16;
+constexpr double nearest_gap = 0.03;  // of the distance: narrower gaps count as touching
+constexpr double side_by_side = 0.7;  // cosine of the angle up to which lines run side by side
+constexpr double wedge = 0.6;         // gap, in widths, up to which lines that meet are in a wedge
+constexpr double own_arc = 1.7;       // a line is its own neighbour where its way is so much longer than the distance
+
+constexpr double overlap_widths = 2.5;
+
+double smooth(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+glm::dvec2 unit(glm::dvec2 way) {
+    const double length = glm::length(way);
+    return length > 0 ? way / length : glm::dvec2(1.0, 0.0);
+}
+
+std::uint64_t seed_of(const HandOptions& options, std::uint64_t line, std::uint64_t channel) {
+    return scrambled(scrambled(options.seed + 0x68616e64) + 16 * line + channel);
+}
+
+/// Diameter of a loop: the median over all turning.
+double usual_loop(const std::vector<HandLine>& lines) {
+    std::vector<std::pair<double, double>> loops;
+    double all = 0;
+    for (const HandLine& line : lines) {
+        const double turn = line.length / line.loop;
+        loops.emplace_back(line.loop, turn);
+        all += turn;
+    }
+    std::sort(loops.begin(), loops.end());
+    double sum = 0;
+    for (const auto& [loop, turn] : loops) {
+        sum += turn;
+        if (2 * sum >= all) return loop;
+    }
+    return 1;
+}
+
+double widest_half(const std::vector<HandLine>& lines) {
+    double widest = 0;
+    for (const HandLine& line : lines) {
+        for (const HandNode& node : line.nodes) widest = std::max(widest, node.half);
+    }
+    return widest;
+}
+
+/// The nodes of all lines as they were drawn.
+struct Places {
+    explicit Places(const std::vector<HandLine>& lines) {
+        for (std::size_t line = 0; line < lines.size(); ++line) {
+            for (std::size_t i = 0; i < lines[line].size(); ++i) {
+                at.push_back(lines[line].nodes[i].at);
+                way.push_back(unit(hand_direction(lines[line], i)));
+                of.push_back({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(i)});
+            }
+        }
+    }
+    struct Owner {
+        std::uint32_t line, node;
+    };
+    std::vector<glm::dvec2> at, way;
+    std::vector<Owner> of;
+};
+
+/// For each node, the nearest places before and after it where its line meets another: numbers from 1; 0 for none.
+class Meetings {
+public:
+    Meetings(const std::vector<HandLine>& lines, const Places& places) {
+        std::vector<std::size_t> begins;
+        std::size_t count = 0;
+        for (const HandLine& line : lines) {
+            begins.push_back(count);
+            count += line.size();
+        }
+        std::vector<std::pair<std::size_t, std::uint32_t>> met;
+        std::uint32_t number = 0;
+        for (const HandCrossing& crossing : hand_crossings(lines)) {
+            ++number;
+            met.emplace_back(begins[crossing.line] + crossing.node, number);
+            met.emplace_back(begins[crossing.other] + crossing.other_node, number);
+        }
+        add_ends(lines, places, begins, met, number);
+        std::sort(met.begin(), met.end());
+        before_.resize(count);
+        after_.resize(count);
+        auto next = met.begin();
+        for (std::size_t number_of_line = 0; number_of_line < lines.size(); ++number_of_line) {
+            const std::size_t begin = begins[number_of_line], end = begin + lines[number_of_line].size();
+            const auto first = next;
+            while (next != met.end() && next->first < end) ++next;
+            if (first == next) continue;
+            const bool closed = lines[number_of_line].closed;
+            auto at = first;
+            for (std::size_t i = begin; i < end; ++i) {
+                while (at != next && at->first <= i) ++at;
+                before_[i] = at != first ? std::prev(at)->second : closed ? std::prev(next)->second : 0;
+                after_[i] = at != next ? at->second : closed ? first->second : 0;
+            }
+        }
+    }
+
+    bool are_next_to_one(std::size_t i, std::size_t j) const {
+        const auto is = [&](std::uint32_t number) {
+            return number > 0 && (number == before_[j] || number == after_[j]);
+        };
+        return is(before_[i]) || is(after_[i]);
+    }
+
+private:
+    /// Ends that lie on another line.
+    static void add_ends(const std::vector<HandLine>& lines, const Places& places,
+                         const std::vector<std::size_t>& begins,
+                         std::vector<std::pair<std::size_t, std::uint32_t>>& met, std::uint32_t& number) {
+        const bool all_closed =
+            std::all_of(lines.begin(), lines.end(), [](const HandLine& line) { return line.closed; });
+        if (all_closed) return;
+        const HandGrid grid(places.at, std::max(2 * widest_half(lines), 1e-9));
+        for (std::size_t of = 0; of < lines.size(); ++of) {
+            const HandLine& line = lines[of];
+            if (line.closed || line.size() < 2) continue;
+            for (const std::size_t end : {std::size_t{0}, line.size() - 1}) {
+                const std::size_t i = begins[of] + end;
+                grid.visit(places.at[i], [&](std::size_t j) {
+                    const HandNode& far = lines[places.of[j].line].nodes[places.of[j].node];
+                    const double reach = line.nodes[end].half + far.half;
+                    if (glm::length(places.at[j] - places.at[i]) > reach) return;
+                    if (places.of[j].line == of && std::fabs(far.along - line.nodes[end].along) < 3 * reach) return;
+                    ++number;
+                    met.emplace_back(i, number);
+                    met.emplace_back(j, number);
+                });
+            }
+        }
+    }
+
+    std::vector<std::uint32_t> before_, after_;
+};
+
+/// Keeps lines apart: measures the room beside each node, and how much of the drift fits.
+/// @return share of the drift, 0 to 1
+double find_room(std::vector<HandLine>& lines, const Places& places, const std::vector<glm::dvec2>& drifts,
+                 double loop, const HandOptions& options) {
+    const double reach = 2 * widest_half(lines) + 0.6 * loop;
+    const HandGrid grid(places.at, reach);
+    const Meetings meetings(lines, places);
+    const auto is_end = [](const HandLine& of, std::size_t k) {
+        return !of.closed && (k == 0 || k + 1 == of.size());
+    };
+    double share = 1;
+    for (std::size_t i = 0; i < places.at.size(); ++i) {
+        if (i % 1024 == 0) options.monitor.check();
+        HandLine& line = lines[places.of[i].line];
+        HandNode& node = line.nodes[places.of[i].node];
+        grid.visit(places.at[i], [&](std::size_t j) {
+            const glm::dvec2 way = places.at[j] - places.at[i];
+            const double distance = glm::length(way);
+            if (distance > reach || i == j) return;
+            const HandLine& other = lines[places.of[j].line];
+            const HandNode& far = other.nodes[places.of[j].node];
+            const double halves = node.half + far.half;
+            if (&other == &line) {
+                double arc = std::fabs(far.along - node.along);
+                if (line.closed) arc = std::min(arc, line.length - arc);
+                if (arc < own_arc * distance || arc < 2 * halves) return;
+            }
+            if (!is_end(line, places.of[i].node) && !is_end(other, places.of[j].node)) {
+                if (std::fabs(glm::dot(places.way[i], places.way[j])) < side_by_side) return;
+                if (std::fabs(glm::dot(way, places.way[i])) > side_by_side * distance) return;
+            }
+            const double gap = distance - halves;
+            // Between lines that meet nearby there is a wedge, which may become longer or shorter.
+            if (gap < wedge * halves && meetings.are_next_to_one(i, j)) return;
+            node.room = std::min(node.room, std::max(gap, 0.0));
+            if (gap < nearest_gap * distance) return;
+            const double moved = glm::length(drifts[i] - drifts[j]);
+            if (moved * share > drift_share * gap) share = drift_share * gap / moved;
+        });
+    }
+    return share;
+}
+
+/// Lets room grow slowly along each line, so that what it limits is smooth.
+void even_room(HandLine& line) {
+    constexpr double slope = 0.35;
+    const std::size_t count = line.size();
+    const auto limit = [&](std::size_t i, std::size_t from, double step) {
+        line.nodes[i].room = std::min(line.nodes[i].room, line.nodes[from].room + slope * step);
+    };
+    for (int round = 0; round < (line.closed ? 2 : 1); ++round) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t from = line.previous(i);
+            if (from != i) limit(i, from, line.step(from));
+        }
+        for (std::size_t i = count; i-- > 0;) {
+            const std::size_t from = line.next(i);
+            if (from != i) limit(i, from, line.step(i));
+        }
+    }
+}
+
+/// The sum of values within a window around each node, by the length of the window.
+std::vector<double> windowed(const HandLine& line, const std::vector<double>& values, double window) {
+    const std::size_t count = line.size();
+    // Places go round a closed line: the one before, the line itself, the one after.
+    const auto place = [&](std::size_t k) {
+        return line.nodes[k % count].along + line.length * static_cast<double>(k / count);
+    };
+    const std::size_t first = line.closed ? count : 0, end = line.closed ? 3 * count : count;
+    std::vector<double> sums(count);
+    double sum = 0;
+    std::size_t low = 0, high = 0;
+    for (std::size_t k = first; k < first + count; ++k) {
+        while (high < end && place(high) <= place(k) + window) sum += values[high++ % count];
+        while (place(low) < place(k) - window) sum -= values[low++ % count];
+        sums[k % count] = std::max(sum, 0.0) / (2 * window);
+    }
+    return sums;
+}
+
+/// How much the line bends around each node, by the bend of its loops.
+std::vector<double> bends_of(const HandLine& line) {
+    const std::size_t count = line.size();
+    std::vector<double> turns(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 at = line.nodes[i].at;
+        const glm::dvec2 in = at - line.nodes[line.previous(i)].at, out = line.nodes[line.next(i)].at - at;
+        turns[i] = std::fabs(std::atan2(in.x * out.y - in.y * out.x, glm::dot(in, out)));
+    }
+    const double window = std::min(bend_window * line.loop, line.length / 4);
+    std::vector<double> bends = windowed(line, turns, window);
+    for (std::size_t i = 0; i < count; ++i) bends[i] *= (line.step(i) + line.step(line.previous(i))) / 2;
+    bends = windowed(line, bends, window);
+    for (double& bend : bends) bend *= line.loop / 2;
+    return bends;
+}
+
+void set_widths(HandLine& line, const HandOptions& options) {
+    const std::vector<double> bends = bends_of(line);
+    const LineNoise pulses(seed_of(options, line.number, 2), line.length, pulse_wave * line.loop, line.closed);
+    const LineNoise ripples(seed_of(options, line.number, 3), line.length, ripple_wave * line.loop, line.closed);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        HandNode& node = line.nodes[i];
+        const double slow =
+            std::pow((std::min(bends[i], 4.0) + least_bend) / (usual_bend + least_bend), swell * options.strength);
+        const double flow = 1 + options.strength * (pulse * pulses(node.along) + ripple * ripples(node.along));
+        node.half = std::min(node.half * std::clamp(slow * flow, 0.5, 1.8), node.half + swell_share * node.room);
+    }
+}
+
+void move_nodes(HandLine& line, const glm::dvec2* drifts, const glm::dvec2* ways, const HandOptions& options) {
+    const LineNoise sways(seed_of(options, line.number, 0), line.length, sway_wave * line.loop, line.closed);
+    const LineNoise tremors(seed_of(options, line.number, 1), line.length, tremor_wave * line.loop, line.closed);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        HandNode& node = line.nodes[i];
+        const double most = sway_share * node.room;
+        const double aside = options.strength * line.loop * (sway * sways(node.along) + tremor * tremors(node.along));
+        const double limited = most > 0 ? aside / (1 + std::fabs(aside) / most) : 0;
+        node.at += drifts[i] + limited * glm::dvec2(-ways[i].y, ways[i].x);
+    }
+}
+
+void measure_again(HandLine& line) {
+    double along = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        line.nodes[i].along = along;
+        const std::size_t next = line.next(i);
+        if (next != i) along += glm::length(line.nodes[next].at - line.nodes[i].at);
+    }
+    line.length = along;
+}
+
+}  // namespace
+
+void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, const HandOptions& options) {
+    if (!(options.strength > 0)) return;
+    const double loop = usual_loop(lines);
+    const Places places(lines);
+    const std::uint64_t ground = seed_of(options, 0, 8);
+    const auto drift_at = [&](glm::dvec2 at) {
+        return options.strength * drift * loop * plane_noise(ground, at, drift_knots * loop);
+    };
+    std::vector<glm::dvec2> drifts;
+    drifts.reserve(places.at.size());
+    for (const glm::dvec2 at : places.at) drifts.push_back(drift_at(at));
+    const double share = find_room(lines, places, drifts, loop, options);
+    for (glm::dvec2& moved : drifts) moved *= share;
+    std::size_t first = 0;
+    for (HandLine& line : lines) {
+        options.monitor.check();
+        even_room(line);
+        set_widths(line, options);
+        const std::size_t count = line.size();
+        move_nodes(line, drifts.data() + first, places.way.data() + first, options);
+        measure_again(line);
+        first += count;
+    }
+    for (HandDot& dot : dots) dot.at += share * drift_at(dot.at);
+}
+
+std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines) {
+    std::vector<glm::dvec2> middles;
+    struct Segment {
+        std::uint32_t line, node;
+    };
+    std::vector<Segment> segments;
+    double longest = 0;
+    for (std::size_t number = 0; number < lines.size(); ++number) {
+        const HandLine& line = lines[number];
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const std::size_t next = line.next(i);
+            if (next == i) continue;
+            middles.push_back((line.nodes[i].at + line.nodes[next].at) / 2.0);
+            segments.push_back({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(i)});
+            longest = std::max(longest, glm::length(line.nodes[next].at - line.nodes[i].at));
+        }
+    }
+    std::vector<HandCrossing> found;
+    if (!(longest > 0)) return found;
+    const HandGrid grid(middles, longest);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const HandLine& line = lines[segments[i].line];
+        const std::size_t a = segments[i].node, a_end = line.next(a);
+        grid.visit(middles[i], [&](std::size_t j) {
+            if (j <= i) return;
+            const HandLine& other = lines[segments[j].line];
+            const std::size_t b = segments[j].node, b_end = other.next(b);
+            if (&line == &other && (a_end == b || b_end == a)) return;
+            const glm::dvec2 p = line.nodes[a].at, u = line.nodes[a_end].at - p;
+            const glm::dvec2 q = other.nodes[b].at, v = other.nodes[b_end].at - q;
+            const double cross = u.x * v.y - u.y * v.x;
+            if (cross == 0) return;
+            const glm::dvec2 way = q - p;
+            const double s = (way.x * v.y - way.y * v.x) / cross, t = (way.x * u.y - way.y * u.x) / cross;
+            if (s < 0 || s >= 1 || t < 0 || t >= 1) return;
+            found.push_back({p + s * u, std::min(line.nodes[a].half, other.nodes[b].half), segments[i].line, a,
+                             segments[j].line, b});
+        });
+    }
+    return found;
+}
+
+HandLine drawn_stroke(const HandLine& line, const HandOptions& options) {
+    HandLine stroke = line;
+    stroke.closed = false;
+    if (line.size() < 2) return stroke;
+    const double width = 2 * line.nodes.front().half;
+    if (line.closed) {
+        const double over = std::min(overlap_widths * width, line.length / 5);
+        const double side = hand_chance(seed_of(options, line.number, 4), 0) < 0 ? -1 : 1;
+        const double miss = side * std::min(1.0, 2 * options.strength) * 0.3 * width / 2;
+        for (std::size_t i = 0; i < line.size() && line.nodes[i].along <= over; ++i) {
+            stroke.nodes.push_back(line.nodes[i]);
+            stroke.nodes.back().along += line.length;
+        }
+        for (std::size_t i = 0; i < stroke.size(); ++i) {
+            HandNode& node = stroke.nodes[i];
+            const double part = (node.along - (line.length - over)) / (2 * over);
+            if (part <= 0) continue;
+            const std::size_t of = i % line.size();
+            const glm::dvec2 way = unit(hand_direction(line, of));
+            const double limit = miss_share * line.nodes[of].room;
+            node.at += std::clamp(miss * smooth(part), -limit, limit) * glm::dvec2(-way.y, way.x);
+            if (part > 0.5) node.half *= 1 - 0.45 * smooth(2 * part - 1);
+        }
+        stroke.length = stroke.nodes.back().along;
+    } else {
+        for (HandNode& node : stroke.nodes) {
+            const double left = stroke.length - node.along;
+            node.half *= 1 - 0.3 * options.strength * (1 - smooth(left / std::max(1.5 * width, 1e-12)));
+        }
+    }
+    // The hand waits a moment before it moves.
+    for (HandNode& node : stroke.nodes) {
+        const double part = node.along / std::max(width, 1e-12);
+        if (part >= 1) break;
+        node.half = std::min(node.half * (1 + 0.2 * options.strength * (1 - smooth(part))),
+                             node.half + miss_share * node.room);
+    }
+    return stroke;
+}
+
+}  // namespace sikku

@@ -1,0 +1,95 @@
+// art/hand/hand_line.h: the lines of a drawing as sampled curves, gathered for a hand to draw.
+#pragma once
+
+#include "art/style/style.h"
+#include "engine/geometry/bezier.h"
+#include "engine/geometry/path.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// A point of a line. Lengths are turtle steps.
+struct HandNode {
+    glm::dvec2 at{0.0};
+    double along = 0;     ///< length of the line up to here
+    double half = 0;      ///< half of its width
+    double room = 1e300;  ///< to the nearest line that runs beside it
+};
+
+/// A line of one colour. The nodes of a closed line do not repeat the first one at the end.
+struct HandLine {
+    std::vector<HandNode> nodes;
+    double length = 0;  ///< of a closed line, back to its first node
+    bool closed = false;
+    Pen pen;                   ///< of its beginning; widths are those of the nodes
+    std::uint64_t number = 0;  ///< in the order of the drawing, which decides its chance
+    double loop = 1;           ///< diameter of a circle that bends as much as the line does on average
+
+    std::size_t size() const { return nodes.size(); }
+    /// Index of a neighbour: closed lines go round, open ones end.
+    std::size_t next(std::size_t i) const { return i + 1 < size() ? i + 1 : closed ? 0 : i; }
+    std::size_t previous(std::size_t i) const { return i > 0 ? i - 1 : closed ? size() - 1 : 0; }
+    /// Length from a node to the next one.
+    double step(std::size_t i) const {
+        return i + 1 < size() ? nodes[i + 1].along - nodes[i].along : closed ? length - nodes[i].along : 0;
+    }
+};
+
+/// A dot: the centre and the radius of a disc, in steps.
+struct HandDot {
+    glm::dvec2 at{0.0};
+    double radius = 0;
+    Pen pen;
+};
+
+/// Direction of the line at a node, of length about 1.
+glm::dvec2 hand_direction(const HandLine& line, std::size_t i);
+
+/// Gathers the visible lines and dots of a drawing. Polygons and areas pass on to another sink, as they lie under all
+/// lines. Corners become short bends; a line ends where its colour changes.
+class HandGatherer : public PathSink {
+public:
+    /// @param step  millimetres of a turtle step  @param most  curves; more throw BudgetError
+    HandGatherer(PathSink& fills, const Style& style, double step, double most)
+        : fills_(fills), style_(style), step_(step), most_(most) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override;
+    void lines(std::span<const glm::dvec2> ends) override;
+    void curves(std::span<const glm::dvec2> controls) override;
+    void change_pen(const Pen& pen) override;
+    void end_stroke(bool closed) override;
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { fills_.polygon(vertices, pen); }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { fills_.area(outline, pen); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+
+    std::vector<HandLine> gathered;
+    std::vector<HandDot> dots;
+
+private:
+    struct Piece {
+        Bezier curve;
+        double length;
+        double half;
+    };
+    static double loop_of(const std::vector<Piece>& pieces, bool closed);
+    void add(const Bezier& curve);
+    void finish(bool closed);
+    double half_width() const { return style_.line_width(pen_, step_) / step_ / 2; }
+
+    PathSink& fills_;
+    const Style& style_;
+    double step_;
+    double most_;
+    double count_ = 0;
+    std::vector<Piece> pieces_;
+    Pen pen_, first_pen_;
+    glm::dvec2 at_{0.0}, start_{0.0};
+    bool is_whole_ = false;  ///< the stroke has had one colour so far
+};
+
+}  // namespace sikku
