@@ -6,7 +6,6 @@
 #include "art/kolam/strokes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -70,10 +69,11 @@ struct PlanarGraph {
     }
     /// True if the lines of two half-edges meet at that angle, a part of a full turn.
     bool are_at(std::uint32_t a, std::uint32_t b, double angle) const {
-        return std::ranges::any_of(std::array{angle, turn - angle}, [&](double way) {
+        const auto is_at = [&](double way) {
             const double turned = std::fmod(direction(a) + way, turn);
             return same_direction(turned, direction(b)) || same_direction(reversed(turned), direction(b));
-        });
+        };
+        return is_at(angle) || is_at(turn - angle);
     }
     std::span<const std::uint32_t> around(std::uint32_t vertex) const {
         return {around_half.data() + around_begins[vertex], around_begins[vertex + 1] - around_begins[vertex]};
