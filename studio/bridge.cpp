@@ -195,6 +195,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "import") return answer_import(request, file);
     if (what == "show") return answer_show(request, file);
     if (what == "scale") return answer_scale(request, file);
+    if (what == "dots") return answer_dots(request);
     if (what == "grid") return answer_grid(request, monitor);
     if (what == "command") return answer_command(request);
     if (what == "link") return answer_link(request);

@@ -51,6 +51,7 @@ Json answer_origins(const Json& request, const Monitor& monitor);
 Json answer_import(const Json& request, const std::string& file);
 Json answer_scale(const Json& request, const std::string& file);
 Json answer_show(const Json& request, const std::string& file);
+Json answer_dots(const Json& request);
 Json answer_grid(const Json& request, const Monitor& monitor);
 Json answer_command(const Json& request);
 Json answer_link(const Json& request);

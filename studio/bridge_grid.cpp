@@ -1,4 +1,4 @@
-// studio/bridge_grid.cpp: kolams on grids of dots, for the kolam bench.
+// studio/bridge_grid.cpp: grids of dots and the kolams on them, for the kolam bench.
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "engine/base/text.h"
@@ -7,11 +7,95 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
 
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_dots = 10'000;  // on the kolam bench
+/// @throws BadRequest if the pattern of a kolam on this grid would not list its gaps, so that the bench could not
+/// read it
+void require_readable(const DotGrid& grid) {
+    if (grid.gaps().size() <= most_listed_gaps) return;
+    throw BadRequest(
+        fmt::format("this grid has {} dots and {} gaps between them; the bench takes up to {} gaps, as "
+                    "22x22 or 21-11 idukku has",
+                    grid.dots().size(), grid.gaps().size(), most_listed_gaps));
+}
+
+/// Places of the lattice: `[[x, y], …]`; none if the member is missing.
+std::vector<GridDot> places_of(const Json& request, const std::string& name) {
+    std::vector<GridDot> places;
+    if (!request.contains(name)) return places;
+    for (const Json& pair : request[name]) {
+        if (!pair.is_array() || pair.size() != 2) throw BadRequest(name + ": expected pairs of numbers");
+        const auto coordinate = [&](const Json& value) {
+            constexpr double farthest = 10'000;
+            const double number = value.is_number() ? value.get<double>() : farthest + 1;
+            if (std::abs(number) > farthest || number != std::floor(number)) {
+                throw BadRequest(name + ": expected whole numbers of half spacings");
+            }
+            return static_cast<std::int32_t>(number);
+        };
+        places.push_back({coordinate(pair[0]), coordinate(pair[1])});
+    }
+    return places;
+}
+
+struct EditedGrid {
+    DotGrid grid;
+    GridDot moved;  ///< from a dot's place before to its place now, relative to the middle of the grid's box
+};
+
+/// Adds and removes dots, with their images under the symmetry.
+EditedGrid edited(const DotGrid& grid, const Json& request) {
+    const GridSymmetry symmetry = parse_grid_symmetry(text_of(request, "symmetry", "none"));
+    std::map<std::int32_t, std::set<std::int32_t>, std::greater<>> rows;  // x by y, from the top
+    for (const GridDot& dot : grid.dots()) rows[dot.y].insert(dot.x);
+    for (const GridDot& place : places_of(request, "add")) {
+        if ((place.y - grid.dots().front().y) % 2 != 0) throw BadRequest("add: a dot between two rows");
+        for (const GridDot& image : place_images(grid, place, symmetry)) rows[image.y].insert(image.x);
+    }
+    for (const GridDot& place : places_of(request, "remove")) {
+        for (const GridDot& image : place_images(grid, place, symmetry)) {
+            const auto row = rows.find(image.y);
+            if (row != rows.end()) row->second.erase(image.x);
+        }
+    }
+    std::erase_if(rows, [](const auto& row) { return row.second.empty(); });
+    if (rows.empty()) throw BadRequest("a grid needs a dot: the last one stays");
+    std::vector<std::vector<std::int32_t>> columns;
+    const GridDot first{*rows.begin()->second.begin(), rows.begin()->first};
+    for (const auto& [y, row] : rows) {
+        columns.resize(static_cast<std::size_t>((first.y - y) / 2));
+        columns.emplace_back(row.begin(), row.end());
+    }
+    DotGrid made(grid.lattice(), columns);
+    const GridDot now = made.dots().front();
+    return {std::move(made), {now.x - first.x, now.y - first.y}};
+}
+
+Json symmetries_of(const DotGrid& grid) {
+    Json all = Json::array();
+    for (const GridSymmetry symmetry : usual_symmetries(grid, false)) {
+        Json one = {{"name", grid_symmetry_name(symmetry)}, {"orbits", gap_orbits(grid, symmetry)}};
+        if (const auto obstacle = single_line_obstacle(grid, symmetry)) one["obstacle"] = *obstacle;
+        if (const auto obstacle = single_line_obstacle(grid, symmetry, true)) one["joined_obstacle"] = *obstacle;
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+/// `60 of 84 gaps crossed and 4 joined`
+std::string gaps_told(const GapStates& states) {
+    const auto joined = std::count(states.begin(), states.end(), GapState::joined);
+    std::string text = fmt::format("{} of {} crossed", std::count(states.begin(), states.end(), GapState::crossed),
+                                   counted(states.size(), "gap"));
+    if (joined > 0) text += fmt::format(" and {} joined", joined);
+    return text;
+}
 
 /// The lines as points: the midpoints of the sides of dots that they pass, in the units of GridDot.
 Json strands(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
@@ -32,9 +116,32 @@ Json strands(const DotGrid& grid, const GapStates& states, const Monitor& monito
 
 }  // namespace
 
+Json answer_dots(const Json& request) {
+    const DotGrid before = parse_dot_grid(text_of(request, "grid"));
+    require_readable(before);
+    const bool is_edited = request.contains("add") || request.contains("remove");
+    const EditedGrid result = is_edited ? edited(before, request) : EditedGrid{before, {}};
+    const DotGrid& grid = result.grid;
+    require_readable(grid);
+    Json dots = Json::array();
+    for (const GridDot& dot : grid.dots()) dots.push_back({dot.x, dot.y});
+    Json gaps = Json::array();
+    for (const GridGap& gap : grid.gaps()) gaps.push_back({gap.from, gap.to, gap.side});
+    return {{"grid", grid.text()},
+            {"lattice", grid.lattice() == DotLattice::square ? "square" : "triangular"},
+            {"rows", grid.rows()},
+            {"is_solid", grid.is_solid()},
+            {"dots", std::move(dots)},
+            {"gaps", std::move(gaps)},
+            {"symmetries", symmetries_of(grid)},
+            {"gap_images", grid_symmetries(grid)},
+            {"arc_images", arc_symmetries(grid)},
+            {"moved", {result.moved.x, result.moved.y}}};
+}
+
 Json answer_grid(const Json& request, const Monitor& monitor) {
     const DotGrid grid = parse_dot_grid(text_of(request, "grid"));
-    if (grid.dots().size() > most_dots) throw BadRequest(fmt::format("a grid has at most {} dots", most_dots));
+    require_readable(grid);
     RandomKolam random;
     random.symmetry = parse_grid_symmetry(text_of(request, "symmetry", "none"));
     require_symmetry(grid, random.symmetry);
@@ -43,12 +150,15 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     random.connects = flag_of(request, "connects");
     if (request.contains("seed")) random.seed = whole_of(request["seed"], "seed");
 
-    const std::string given = text_of(request, "crossings", "");
-    GapStates states = given.empty() ? random_states(grid, random) : parse_gap_states(grid, given);
+    const std::string given = text_of(request, "gaps", "");
+    const bool is_given = request.contains("gaps");
+    GapStates states = is_given ? parse_gap_states(grid, given) : random_states(grid, random);
     Json answer = Json::object();
     std::size_t changed = 0;
     if (flag_of(request, "single_line")) {
-        const auto obstacle = single_line_obstacle(grid, random.symmetry, random.joined > 0);
+        const bool has_joined =
+            random.joined > 0 || std::find(states.begin(), states.end(), GapState::joined) != states.end();
+        const auto obstacle = single_line_obstacle(grid, random.symmetry, has_joined);
         if (obstacle) answer["obstacle"] = *obstacle;
         if (!obstacle && random.symmetry == GridSymmetry::none) {
             changed = make_single_line(grid, states, random.seed, monitor);
@@ -65,33 +175,23 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
         }
     }
     const std::size_t lines = count_lines(grid, states, monitor);
-    const auto crossed = std::count(states.begin(), states.end(), GapState::crossed);
     KolamPatternOptions options;
-    options.title = text_of(request, "title", fmt::format("Kolam on {} dots", grid.text()));
-    options.description = fmt::format("{}, {} of {} gaps crossed, {}", counted(grid.dots().size(), "dot"), crossed,
-                                      grid.gaps().size(), counted(lines, "line"));
+    const std::string name = grid.is_solid() ? grid.text() + " dots" : counted(grid.dots().size(), "dot");
+    options.title = text_of(request, "title", "Kolam on " + name);
+    options.description =
+        fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), gaps_told(states), counted(lines, "line"));
     options.coloured = flag_of(request, "coloured");
     options.monitor = monitor;
 
-    Json dots = Json::array();
-    for (const GridDot& dot : grid.dots()) dots.push_back({dot.x, dot.y});
-    const std::vector<std::uint32_t> orbits = gap_orbits(grid, random.symmetry);
-    Json gaps = Json::array();
-    for (std::size_t i = 0; i < grid.gaps().size(); ++i) {
-        const GridGap& gap = grid.gaps()[i];
-        gaps.push_back(
-            {{"from", gap.from}, {"to", gap.to}, {"state", static_cast<int>(states[i])}, {"orbit", orbits[i]}});
-    }
     answer["text"] = kolam_pattern(grid, states, options).text;
     answer["grid"] = grid.text();
-    answer["lattice"] = grid.lattice() == DotLattice::square ? "square" : "triangular";
-    answer["rows"] = grid.rows();
-    answer["dots"] = std::move(dots);
-    answer["gaps"] = std::move(gaps);
-    answer["crossings"] = gap_states_text(grid, states);
+    answer["gaps"] = gap_states_text(grid, states);
     answer["lines"] = lines;
     answer["changed"] = changed;
-    answer["strands"] = strands(grid, states, monitor);
+    if (flag_of(request, "strands")) {
+        answer["strands"] = strands(grid, states, monitor);
+        answer["line_orbits"] = line_orbits(grid, states, monitor);
+    }
     return answer;
 }
 

@@ -172,19 +172,20 @@ std::size_t DotGrid::groups() const {
     return count;
 }
 
-std::string DotGrid::text() const {
-    const std::vector<std::uint32_t> counts = rows();
-    bool is_solid = true;  // centred rows without holes
-    for (std::size_t r = 0; r < counts.size() && is_solid; ++r) {
-        if (counts[r] == 0) {
-            is_solid = false;
-            break;
-        }
+bool DotGrid::is_solid() const {
+    for (std::size_t r = 0; r + 1 < row_begin_.size(); ++r) {
+        const auto count = static_cast<std::int32_t>(row_begin_[r + 1] - row_begin_[r]);
+        if (count == 0) return false;
         const std::int32_t first = dots_[row_begin_[r]].x;
         const std::int32_t last = dots_[row_begin_[r + 1] - 1].x;
-        is_solid = first == -last && last - first == 2 * (static_cast<std::int32_t>(counts[r]) - 1);
+        if (first != -last || last - first != 2 * (count - 1)) return false;
     }
-    if (is_solid) {
+    return true;
+}
+
+std::string DotGrid::text() const {
+    const std::vector<std::uint32_t> counts = rows();
+    if (is_solid()) {
         if (lattice_ == DotLattice::square &&
             std::all_of(counts.begin(), counts.end(), [&](std::uint32_t row) { return row == counts[0]; })) {
             return fmt::format("{}x{}", counts.size(), counts[0]);

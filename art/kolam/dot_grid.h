@@ -64,6 +64,8 @@ public:
     GridDot step(std::uint32_t side) const;
     /// Number of groups of dots that no gap connects.
     std::size_t groups() const;
+    /// Centred rows without holes: the dots of each row say all.
+    bool is_solid() const;
     /// Canonical notation, which parse_dot_grid() reads: `7x7`, `1-3-5-3-1`, `15-8 idukku`, `.o./ooo/.o.`.
     std::string text() const;
 

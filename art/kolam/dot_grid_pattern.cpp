@@ -105,7 +105,6 @@ private:
 };
 
 constexpr std::size_t colour_count = 8;
-constexpr std::size_t most_listed_gaps = 1000;
 
 /// The turns behind each step of a line, the last one back into the direction of the first.
 std::vector<std::uint8_t> turns_of(const DotGrid& grid, const GapStates& states, const ArcStep& start, Pulse& pulse) {

@@ -9,6 +9,9 @@
 
 namespace sikku {
 
+/// The number of gaps up to which a pattern lists its grid and gaps, so that the kolam can be read from it.
+constexpr std::size_t most_listed_gaps = 1000;
+
 struct KolamPatternOptions {
     std::string title = {};
     std::string description = {};
@@ -30,8 +33,8 @@ struct KolamPattern {
 /// steps apart. The first line starts at 0 0. Each line is one closed stroke. A single line is a word without
 /// brackets; if a rotation leaves it as it is, its repeated part is a production. Several lines are branches, and
 /// between them the turtle moves with a transparent pen, for a spline takes `f` as a control point as well. The grid
-/// and up to 1000 gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read them. Steps are whole
-/// (or halves, to dots), so that every position is exact.
+/// and up to most_listed_gaps gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read them.
+/// Steps are whole (or halves, to dots), so that every position is exact.
 /// @throws std::runtime_error if the text were too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 

@@ -86,14 +86,19 @@ public:
             sum_y_ += dot.y;
         }
     }
-    std::optional<std::uint32_t> image(GridDot dot, const Isometry& isometry) const {
+    /// Where a place of the lattice goes, or nothing if that is between the places.
+    std::optional<GridDot> place(GridDot dot, const Isometry& isometry) const {
         const std::int64_t x = count_ * dot.x - sum_x_;
         const std::int64_t y = count_ * dot.y - sum_y_;
         const std::int64_t to_x = isometry.xx * x + isometry.xy * y + 4 * sum_x_;
         const std::int64_t to_y = isometry.yx * x + isometry.yy * y + 4 * sum_y_;
         if (to_x % (4 * count_) != 0 || to_y % (4 * count_) != 0) return std::nullopt;
-        return grid_.dot_at({static_cast<std::int32_t>(to_x / (4 * count_)),  //
-                             static_cast<std::int32_t>(to_y / (4 * count_))});
+        return GridDot{static_cast<std::int32_t>(to_x / (4 * count_)),
+                       static_cast<std::int32_t>(to_y / (4 * count_))};
+    }
+    std::optional<std::uint32_t> image(GridDot dot, const Isometry& isometry) const {
+        const auto to = place(dot, isometry);
+        return to ? grid_.dot_at(*to) : std::nullopt;
     }
     bool is_kept(const Isometry& isometry) const {
         return std::all_of(grid_.dots().begin(), grid_.dots().end(),
@@ -254,6 +259,20 @@ std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid) {
     return found;
 }
 
+std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid) {
+    const DotMap map(grid);
+    std::vector<std::vector<std::uint32_t>> found;
+    for (const Isometry& isometry : isometries(grid.lattice())) {
+        if (!map.is_kept(isometry)) continue;
+        std::vector<std::uint32_t>& images = found.emplace_back();
+        images.reserve(grid.sides() * grid.dots().size());
+        for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+            for (std::uint32_t arc = 0; arc < grid.sides(); ++arc) images.push_back(map.arc(dot, arc, isometry));
+        }
+    }
+    return found;
+}
+
 std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry) {
     require_symmetry(grid, symmetry);
     const DotMap map(grid);
@@ -269,6 +288,19 @@ std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry
         orbits[i] = first == i ? count++ : orbits[first];
     }
     return orbits;
+}
+
+std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry) {
+    require_symmetry(grid, symmetry);
+    const DotMap map(grid);
+    std::vector<GridDot> images = {place};
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        for (const Isometry& isometry : group_of(symmetry).generators) {
+            const auto to = map.place(images[i], isometry);
+            if (to && std::find(images.begin(), images.end(), *to) == images.end()) images.push_back(*to);
+        }
+    }
+    return images;
 }
 
 bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry symmetry) {

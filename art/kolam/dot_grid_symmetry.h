@@ -46,9 +46,16 @@ void require_symmetry(const DotGrid& grid, GridSymmetry symmetry);
 /// Where each gap goes under each of the grid's own symmetries, the identity first: at most 12 permutations.
 std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid);
 
+/// Where each arc goes under them, in the same order. Arcs have the numbers of ArcEnd.
+std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid);
+
 /// Gaps that the symmetry takes to each other have the same number; numbers from 0 in the order of their first gaps.
 /// @throws std::runtime_error if the grid does not have the symmetry
 std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
+
+/// Where the symmetry takes a place of the lattice, with or without a dot: at most 12 places, the place itself first.
+/// @throws std::runtime_error if the grid does not have the symmetry
+std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry);
 
 bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry symmetry);
 

@@ -1,39 +1,50 @@
-// The kolam bench: a grid of dots with gaps in which lines cross or turn back. Every change is written to the text.
-import { Board, type Scene } from "./bench/board";
+// The kolam bench: a grid of dots with gaps in which lines cross, turn back or run past joined. Every change is written
+// to the text.
+import { Board, placesAround, type Scene } from "./bench/board";
 import { certificateText, type Examined } from "./bench/certificate";
-import type { DotGrid } from "./bench/dot_grid";
-import { crossingsText, gridText, parseCrossings, parseGrid } from "./bench/dot_grid";
-import { changeText, counted, gapText, neighbour } from "./bench/gap_names";
-import { Kolam } from "./bench/kolam";
-import { kolamTitle, readKolam, withDots, withEditsOf } from "./bench/kolam_text";
-import { Side, type Chances, type Look } from "./bench/side";
-import { singleLineNear, type Symmetry } from "./bench/symmetry";
+import { makeGrid, parseStates, statesText, crossed, joined, turned, type DotGrid, type GridSymmetry, type Place } from "./bench/dot_grid";
+import { changeText, counted, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
+import { Kolam, type Change } from "./bench/kolam";
+import { readKolam, withDots, withEditsOf } from "./bench/kolam_text";
+import { capital, first_chances, Side, type Chances, type Look } from "./bench/side";
+import { singleLineNear } from "./bench/symmetry";
+import { Tools, type Tool } from "./bench/tools";
 import type { MakePanel, Panel, Studio } from "./context";
 import { RequestFailed } from "./context";
 import { element } from "./elements";
-import type { Grid, Request } from "./protocol";
+import type { Dots, Grid, Request, SymmetryName } from "./protocol";
 import { makeChance } from "./sound/chance";
 
 type GridRequest = Extract<Request, { do: "grid" }>;
+type DotsRequest = Extract<Request, { do: "dots" }>;
+
+const typing_pause = 250; // milliseconds after which a typed grid is checked
+const letters: Record<string, number> = { t: turned, c: crossed, j: joined };
 
 class BenchPanel implements Panel {
     readonly name = "bench";
     readonly label = "Kolam bench";
     readonly element = element("div", { class: "bench" });
 
-    private readonly kolam = new Kolam("7x7");
+    private readonly kolam = new Kolam();
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
-    private chances: Chances = { density: 0.7, seed: 1 };
+    private chances = first_chances;
+    private tool: Tool = "next";
 
-    private cursor = -1; // the gap selected by pointer or keyboard
+    private cursor = -1; // the gap or the place selected by pointer or keyboard
+    private isReverse = false; // Shift is held
+    private isDone = false; // the selected gap was changed and is not previewed again before the pointer leaves it
     private column: number | null = null; // kept while moving up and down with the keys
     private isKeyboard = false;
     private painting: number | null = null; // the state that a drag sets
     private isShown = false;
     private frame = 0;
+    private typing = 0; // timer
+    private around: { grid: DotGrid | null; places: Place[] } = { grid: null, places: [] };
     private made = ""; // the text of this kolam as written by the libraries
     private text = ""; // the same with the edits of the user
     private asked = 0; // number of the last request; earlier answers are ignored
+    private editing: Promise<void> = Promise.resolve(); // the last change of dots
 
     private readonly canvas = element("canvas", {
         class: "bench-board",
@@ -45,9 +56,11 @@ class BenchPanel implements Panel {
     private readonly board = new Board(this.canvas, () => this.redraw());
     private readonly spoken = element("p", { class: "unseen", role: "status", "aria-live": "assertive" });
     private readonly hover = element("p", { class: "bench-hover", "aria-hidden": "true" });
+    private readonly tools = new Tools((tool) => this.setTool(tool));
     private readonly side = new Side({
         resize: (rows, columns) => this.resize(rows, columns),
-        shape: (text) => this.setGrid(() => parseGrid(text), true),
+        shape: (text) => this.setGrid(text),
+        check: (text) => this.check(text),
         symmetry: (symmetry) => this.setSymmetry(symmetry),
         single: () => void this.makeSingle(),
         setAll: (change) => this.change(this.kolam.states.map(change)),
@@ -57,12 +70,13 @@ class BenchPanel implements Panel {
 
     constructor(private readonly studio: Studio) {
         this.element.append(
-            element("div", { class: "bench-stage" }, this.canvas, this.hover),
+            element("div", { class: "bench-stage" }, this.canvas, this.tools.element, this.hover),
             this.side.element,
             this.spoken,
         );
         this.listen();
-        if (!this.take(studio.store.work.pattern.text)) this.update();
+        this.update();
+        if (!this.take(studio.store.work.pattern.text)) void this.begin();
     }
 
     private listen(): void {
@@ -72,9 +86,13 @@ class BenchPanel implements Panel {
             if (event.button !== 0) return;
             this.point(event);
             if (this.cursor < 0) return;
+            if (this.tool === "dots") {
+                this.toggleDot();
+                return;
+            }
             canvas.setPointerCapture(event.pointerId);
-            this.painting = 1 - this.kolam.states[this.cursor];
-            this.toggle(this.cursor);
+            this.painting = this.kolam.stateAfter(this.cursor, this.gapChange);
+            this.changeGap(this.painting);
         });
         for (const end of ["pointerup", "pointercancel"] as const) {
             canvas.addEventListener(end, () => {
@@ -83,8 +101,16 @@ class BenchPanel implements Panel {
         }
         canvas.addEventListener("pointerleave", () => this.leave());
         canvas.addEventListener("keydown", (event) => this.press(event));
+        for (const type of ["keydown", "keyup"] as const) {
+            addEventListener(type, ({ shiftKey }) => {
+                if (this.isReverse === shiftKey || !this.isShown) return;
+                this.isReverse = shiftKey;
+                this.showHover();
+                this.redraw();
+            });
+        }
         canvas.addEventListener("focus", () => {
-            if (!canvas.matches(":focus-visible") || this.kolam.grid.gaps.length === 0) return;
+            if (!canvas.matches(":focus-visible") || this.targets.length === 0) return;
             this.isKeyboard = true;
             this.cursor = Math.max(0, this.cursor);
             this.announce();
@@ -100,24 +126,61 @@ class BenchPanel implements Panel {
 
     // --- changes --------------------------------------------------------------------------------------------------
 
+    /// Shows the first grid, without changing the text.
+    private async begin(): Promise<void> {
+        const mine = ++this.asked;
+        const grid = await this.gridOf({ do: "dots", grid: "7x7" });
+        if (!grid || mine !== this.asked) return;
+        this.kolam.set(grid, new Uint8Array(grid.gaps.length).fill(crossed));
+        this.update();
+    }
+
     /// Reads the kolam from the text, for example after an undo. False if it is not a kolam of the bench.
     private take(text: string): boolean {
         const found = readKolam(text);
         if (!found) return false;
-        if (gridText(found.grid) !== gridText(this.kolam.grid)) this.cursor = -1;
-        this.kolam.set(found.grid, found.states);
-        const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
-        this.look = { ...this.look, isColoured, hasDots: found.hasDots };
-        this.made = "";
-        this.text = text;
-        ++this.asked;
-        this.update();
-        void this.examine();
+        const mine = ++this.asked;
+        const take = (grid: DotGrid | null): void => {
+            const states = grid && parseStates(grid, found.gaps);
+            if (!grid || !states || mine !== this.asked) return; // the comments were edited
+            if (grid.text !== this.kolam.grid.text) this.cursor = -1;
+            this.kolam.set(grid, states);
+            const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
+            this.look = { ...this.look, isColoured, hasDots: found.hasDots };
+            this.made = "";
+            this.text = text;
+            this.update();
+            void this.examine();
+        };
+        const { grid } = this.kolam;
+        if (grid.text === found.grid) take(grid);
+        else void this.gridOf({ do: "dots", grid: found.grid }).then(take);
         return true;
     }
 
-    private toggle(gap: number): void {
-        this.change(this.kolam.after(gap));
+    /// Asks the libraries for a grid; null, with `refuse` called, if there is none.
+    private async gridOf(
+        request: DotsRequest,
+        refuse?: (message: string) => void,
+        key = "bench grid",
+    ): Promise<DotGrid | null> {
+        try {
+            const { json } = await this.studio.engine.request<Dots>(request, { key });
+            return makeGrid(json);
+        } catch (error) {
+            if (error instanceof RequestFailed) refuse?.(error.message);
+            return null;
+        }
+    }
+
+    private get gapChange(): Change {
+        const { tool, isReverse } = this;
+        return typeof tool === "number" ? tool : isReverse ? "previous" : "next";
+    }
+
+    private changeGap(change: Change): void {
+        this.isDone = true;
+        this.change(this.kolam.after(this.cursor, change));
     }
 
     private change(states: Uint8Array): void {
@@ -125,9 +188,16 @@ class BenchPanel implements Panel {
         this.commit();
     }
 
-    private setSymmetry(symmetry: Symmetry): void {
-        if (this.kolam.setSymmetry(symmetry)) this.commit();
+    private setSymmetry(symmetry: SymmetryName): void {
+        if (this.kolam.setSymmetry(symmetry, true)) this.commit();
         else this.update();
+    }
+
+    private setTool(tool: Tool): void {
+        const wasDots = this.tool === "dots";
+        this.tool = tool;
+        if (wasDots !== (tool === "dots")) this.cursor = -1;
+        this.update();
     }
 
     private setLook(look: Look): void {
@@ -138,77 +208,126 @@ class BenchPanel implements Panel {
     }
 
     private resize(rows: number, columns: number): void {
-        const { kolam } = this;
-        this.setGrid(() => kolam.resized(rows, columns), false);
+        const text = this.kolam.resized(rows, columns);
+        if (text !== null) this.setGrid(text);
     }
 
-    private setGrid(make: () => DotGrid | null, isTyped: boolean): void {
-        try {
-            const grid = make();
-            if (!grid) return;
-            this.kolam.setGrid(grid);
-            this.cursor = -1;
+    /// Describes a grid while it is typed.
+    private check(text: string): void {
+        clearTimeout(this.typing);
+        const mine = (this.typing = window.setTimeout(() => {
+            const refuse = (message: string): void => this.side.refuse(capital(message));
+            void this.gridOf({ do: "dots", grid: text }, refuse, "bench typing").then((grid) => {
+                if (grid && mine === this.typing) this.side.describe(grid);
+            });
+        }, typing_pause));
+    }
+
+    private async setGrid(text: string): Promise<void> {
+        clearTimeout(this.typing);
+        const grid = await this.gridOf({ do: "dots", grid: text }, (message) => this.side.refuse(capital(message)));
+        if (!grid) return;
+        this.kolam.setGrid(grid, false);
+        this.cursor = -1;
+        this.commit();
+    }
+
+    /// Adds or removes the dot at the selected place, and its images under the symmetry.
+    private toggleDot(): void {
+        const place = this.places?.[this.cursor];
+        if (!place) return;
+        // One after the other, because each request starts from the grid before.
+        this.editing = this.editing.then(async () => {
+            const { grid, symmetry } = this.kolam;
+            const isDot = grid.dots.some(({ x, level }) => x === place.x && level === place.level);
+            const change = { [isDot ? "remove" : "add"]: [[place.x, place.level]] };
+            const request: DotsRequest = { do: "dots", grid: grid.text, symmetry: symmetry.name, ...change };
+            const edited = await this.gridOf(request, (message) => this.studio.say(sentence(message), "warning"));
+            if (!edited) return;
+            this.kolam.setGrid(edited, true);
+            const { x, level } = { x: place.x + edited.moved.x, level: place.level + edited.moved.level };
+            this.cursor = placesAround(edited).findIndex((each) => each.x === x && each.level === level);
             this.commit();
-        } catch (error) {
-            const { message } = error as Error;
-            if (isTyped) this.side.refuse(message);
-            else this.studio.say(message, "warning");
-        }
+            if (this.isKeyboard) this.announce();
+        });
     }
 
     private async random(chances: Chances): Promise<void> {
         this.chances = chances;
         this.update();
-        await this.ask({ seed: String(chances.seed), density: chances.density }, "kolam at random");
+        const { kolam } = this;
+        const symmetry = kolam.isChosen ? kolam.symmetry.name : kolam.grid.symmetries[0].name;
+        const { density, joined: share, connects, seed } = chances;
+        await this.ask({ symmetry, seed: String(seed), density, joined: share, connects }, "kolam at random");
     }
 
+    /// Without a chosen symmetry, those that the drawing can keep are tried from the largest.
     private async makeSingle(): Promise<void> {
-        const { kolam, chances } = this;
+        const { kolam } = this;
         if (kolam.count === 1) {
             this.studio.say("The kolam is already a single line.");
             return;
         }
-        if (kolam.symmetry !== "none") {
-            const found = singleLineNear(kolam.grid, kolam.orbits, kolam.states, makeChance(chances.seed));
-            if (found) {
-                this.change(found);
-                return;
-            }
+        const { symmetries } = kolam.grid;
+        const tried =
+            kolam.isChosen || kolam.symmetry.name === "none"
+                ? [kolam.symmetry]
+                : symmetries.slice(symmetries.indexOf(kolam.symmetry));
+        let obstacle = "";
+        for (const symmetry of tried) {
+            const reason = kolam.isJoined ? symmetry.obstacleIfJoined : symmetry.obstacle;
+            const result = reason ?? (await this.makeSingleWith(symmetry));
+            if (result === null) return;
+            obstacle ||= result;
         }
-        const crossings = kolam.symmetry === "none" ? { crossings: crossingsText(kolam.grid, kolam.states) } : {};
-        const wanted = { seed: String(chances.seed), density: chances.density, single_line: true, ...crossings };
-        await this.ask(wanted, "kolam as one line");
+        if (obstacle) this.studio.say(sentence(obstacle), "warning");
+    }
+
+    /// Returns why there is none, or null if it was made.
+    private async makeSingleWith({ name, orbits }: GridSymmetry): Promise<string | null> {
+        const { kolam, chances } = this;
+        const { density, connects, joined: share, seed } = chances;
+        const wanted: Partial<GridRequest> = { symmetry: name, seed: String(seed), single_line: true };
+        if (name === "none") {
+            return this.ask({ ...wanted, gaps: statesText(kolam.states) }, "kolam as one line");
+        }
+        const found = singleLineNear(kolam.grid, orbits, kolam.states, makeChance(seed));
+        if (!found) return this.ask({ ...wanted, density, connects, joined: share }, "kolam as one line");
+        kolam.setStates(found);
+        kolam.setSymmetry(name, kolam.isChosen);
+        this.commit();
+        return null;
     }
 
     private request(more: Partial<GridRequest>): GridRequest {
-        const { grid } = this.kolam;
-        return { do: "grid", grid: gridText(grid), coloured: this.look.isColoured, title: kolamTitle(grid), ...more };
+        return { do: "grid", grid: this.kolam.grid.text, coloured: this.look.isColoured, ...more };
     }
 
-    /// Asks the libraries for the crossings.
-    private async ask(wanted: Partial<GridRequest>, merge: string): Promise<void> {
+    /// Asks the libraries for the gaps, and keeps the symmetry. Returns the obstacle if there is one, otherwise null.
+    private async ask(wanted: Partial<GridRequest>, merge: string): Promise<string | null> {
         const mine = ++this.asked;
         const { engine } = this.studio;
+        const { kolam } = this;
         try {
-            const request = this.request({ symmetry: this.kolam.symmetry, ...wanted });
-            const { json } = await engine.request<Grid>(request, { key: "bench" });
-            if (mine !== this.asked) return;
-            if (json.obstacle) this.studio.say(sentence(json.obstacle), "warning");
-            const states = parseCrossings(this.kolam.grid, json.crossings);
-            if (!states || (json.obstacle && wanted.single_line)) return;
-            this.kolam.setStates(states);
+            const { json } = await engine.request<Grid>(this.request(wanted), { key: "bench" });
+            if (mine !== this.asked) return null;
+            const states = parseStates(kolam.grid, json.gaps);
+            if (json.obstacle || !states) return json.obstacle ?? null;
+            kolam.setStates(states);
+            kolam.setSymmetry(wanted.symmetry ?? kolam.symmetry.name, kolam.isChosen);
             this.update();
             this.store(json.text, merge);
         } catch (error) {
-            if (error instanceof RequestFailed) this.studio.say(error.message, "error");
+            if (error instanceof RequestFailed) this.studio.say(sentence(error.message), "error");
         }
+        return null;
     }
 
     /// Shows the change at once; the text is updated when the libraries have written it.
     private commit(): void {
         this.update();
         const mine = ++this.asked;
-        const request = this.request({ crossings: crossingsText(this.kolam.grid, this.kolam.states) });
+        const request = this.request({ gaps: statesText(this.kolam.states) });
         this.studio.engine.request<Grid>(request, { key: "bench" }).then(
             ({ json }) => {
                 if (mine === this.asked) this.store(json.text, "kolam");
@@ -227,7 +346,9 @@ class BenchPanel implements Panel {
         this.text = isOurs ? withEditsOf(pattern.text, this.made, made) : made;
         this.made = made;
         const fresh = { name: "kolam.lsys", variant: "", settings: [] };
-        store.change({ pattern: { ...pattern, ...(isOurs ? {} : fresh), text: this.text }, place: null }, merge);
+        // Only some kolams have productions.
+        const settings = pattern.settings.filter(([name]) => name !== "derivation length");
+        store.change({ pattern: { ...pattern, ...(isOurs ? { settings } : fresh), text: this.text }, place: null }, merge);
         if (!isOurs) this.studio.say("The kolam has replaced the pattern. Undo restores it.");
         void this.examine();
     }
@@ -247,15 +368,28 @@ class BenchPanel implements Panel {
 
     // --- pointer and keyboard ---------------------------------------------------------------------------------
 
+    private get places(): Place[] | null {
+        if (this.tool !== "dots") return null;
+        const { grid } = this.kolam;
+        if (this.around.grid !== grid) this.around = { grid, places: placesAround(grid) };
+        return this.around.places;
+    }
+
+    /// What pointer and keyboard select: gaps, or places for dots.
+    private get targets(): Place[] {
+        return this.places ?? this.kolam.grid.gaps;
+    }
+
     private point(event: PointerEvent): void {
-        const gap = this.board.gapAt(this.scene(), event.offsetX, event.offsetY);
+        const target = this.board.targetAt(this.scene(), event.offsetX, event.offsetY);
         this.isKeyboard = false;
-        if (this.painting !== null && gap >= 0 && this.kolam.states[gap] !== this.painting) {
-            this.cursor = gap;
-            this.toggle(gap);
+        if (this.painting !== null && target >= 0 && this.kolam.states[target] !== this.painting) {
+            this.cursor = target;
+            this.changeGap(this.painting);
         }
-        if (gap === this.cursor) return;
-        this.cursor = gap;
+        if (target === this.cursor) return;
+        this.cursor = target;
+        this.isDone = false;
         this.showHover();
         this.redraw();
     }
@@ -263,57 +397,76 @@ class BenchPanel implements Panel {
     private leave(): void {
         if (this.isKeyboard || this.painting !== null) return;
         this.cursor = -1;
+        this.isDone = false;
         this.showHover();
         this.redraw();
     }
 
     private press(event: KeyboardEvent): void {
-        if (event.ctrlKey || event.metaKey || event.altKey || this.kolam.grid.gaps.length === 0) return;
+        const { targets } = this;
+        if (event.ctrlKey || event.metaKey || event.altKey || targets.length === 0) return;
         const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-        const isChange = event.key === " " || event.key === "Enter";
+        const state = this.tool === "dots" ? undefined : letters[event.key.toLowerCase()];
+        const isChange = event.key === " " || event.key === "Enter" || state !== undefined;
         if (!way && !isChange) return;
         event.preventDefault();
         this.isKeyboard = true;
+        this.isReverse = event.shiftKey;
         if (this.cursor < 0) {
             this.cursor = 0;
-        } else if (isChange) {
-            this.toggle(this.cursor);
         } else if (way) {
-            const { grid } = this.kolam;
-            const here = grid.gaps[this.cursor].x;
+            const here = targets[this.cursor].x;
             if (way[0] !== 0) this.column = null;
             else this.column ??= here;
-            this.cursor = neighbour(grid, this.cursor, way[0], way[1], this.column ?? here);
+            this.cursor = neighbour(targets, this.cursor, way[0], way[1], this.column ?? here);
+            this.isDone = false;
+        } else if (this.tool === "dots") {
+            this.toggleDot();
+            return;
+        } else {
+            this.changeGap(state ?? this.gapChange);
         }
         this.announce();
     }
 
     private announce(): void {
-        if (this.kolam.grid.gaps.length === 0) return;
-        this.spoken.textContent = gapText(this.kolam, this.cursor);
+        if (this.cursor < 0) return;
+        const { kolam, places } = this;
+        this.spoken.textContent = places ? placeText(kolam, places[this.cursor]) : gapText(kolam, this.cursor);
         this.showHover();
         this.redraw();
     }
 
     private showHover(): void {
-        this.hover.textContent = this.cursor < 0 ? "" : changeText(this.kolam, this.cursor);
+        const { kolam, cursor, places } = this;
+        this.hover.textContent =
+            cursor < 0 ? ""
+            : places ? placeText(kolam, places[cursor])
+            : changeText(kolam, cursor, this.gapChange);
     }
 
     // --- drawing ---------------------------------------------------------------------------------------------
 
     private scene(): Scene {
-        const { grid, states, lines, orbits } = this.kolam;
-        const { cursor, isKeyboard } = this;
-        const orbit = cursor < 0 ? [] : orbits[cursor];
-        return { grid, states, strands: lines.strands, ...this.look, cursor, orbit, isFocused: isKeyboard };
+        const { grid, states, lines, lineOrbits, orbits } = this.kolam;
+        const { cursor, isKeyboard, places } = this;
+        const isGap = cursor >= 0 && !places;
+        const after = isGap && !this.isDone && !isKeyboard ? this.kolam.after(cursor, this.gapChange) : null;
+        const orbit = isGap ? orbits[cursor] : [];
+        const { strands } = lines;
+        return { grid, states, strands, lineOrbits, ...this.look, cursor, orbit, after, places, isFocused: isKeyboard };
     }
 
     private update(): void {
-        const { grid, count, crossings } = this.kolam;
-        this.side.update(this.kolam, this.chances, this.look);
-        const gaps = `${crossings} of ${grid.gaps.length} gaps crossed`;
-        this.canvas.setAttribute("aria-label", `Kolam on ${gridText(grid)} dots: ${counted(count, "line")}, ${gaps}`);
-        if (this.cursor >= 0) this.showHover();
+        const { kolam } = this;
+        const { grid, count } = kolam;
+        this.side.update(kolam, this.chances, this.look);
+        this.tools.update(this.tool);
+        this.canvas.setAttribute(
+            "aria-label",
+            `Kolam on ${counted(grid.dots.length, "dot")}: ${counted(count, "line")}, ${statesTold(kolam)}`,
+        );
+        this.showHover();
         this.redraw();
     }
 
@@ -336,7 +489,6 @@ class BenchPanel implements Panel {
     }
 }
 
-const sentence = (text: string): string =>
-    `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
+const sentence = (text: string): string => `${capital(text)}${text.endsWith(".") ? "" : "."}`;
 
 export const makeBenchPanel: MakePanel = (studio) => new BenchPanel(studio);

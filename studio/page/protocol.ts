@@ -11,7 +11,7 @@ export interface PatternRequest {
 
 export type Options = [string, string][]; // names as in `help`; flags have the value "true"
 
-/// Requests. All except `patterns`, `help`, `show`, `import`, `link` and `grid` concern a pattern.
+/// Requests. All except `patterns`, `help`, `show`, `import`, `link`, `dots` and `grid` concern a pattern.
 export type Request =
     | { do: "patterns" }
     | { do: "help" }
@@ -31,8 +31,13 @@ export type Request =
     | { do: "import"; name: string; view?: string } // with the file's bytes
     | { do: "show"; name: string } // with the file's bytes
     | { do: "scale"; name: string } // with the bytes of a .scl file: stored under that name, for the option `scale`
-    | { do: "grid"; grid: string; crossings?: string; symmetry?: string; density?: number; seed?: string;
-        single_line?: boolean; coloured?: boolean; title?: string }
+    /// A grid of dots in any notation that parse_dot_grid() reads; `add` and `remove` name places of dots, which the
+    /// symmetry multiplies.
+    | { do: "dots"; grid: string; symmetry?: SymmetryName; add?: [number, number][]; remove?: [number, number][] }
+    /// A kolam on a grid, as a pattern: of the gaps given as digits, or by chance. `single_line` joins its lines into
+    /// one; with a symmetry by looking for another kolam.
+    | { do: "grid"; grid: string; gaps?: string; symmetry?: SymmetryName; density?: number; joined?: number; seed?: string;
+        connects?: boolean; single_line?: boolean; coloured?: boolean; title?: string; strands?: boolean }
     /// Write a work as a link, and read one. `Shared` is the contents of a link.
     | { do: "link"; shared: Shared }
     | { do: "read_link"; link: string }
@@ -130,17 +135,35 @@ export interface Origins { origins: (Origin | null)[] } // null: unknown
 
 export interface Imported { systems: { name: string; line: number; text: string; losses: string[] }[]; diagnostics: Diagnostic[] }
 export interface Shown { text: string; made: string } // made: the recipe, as in `sikku 0.1.0, -n 4 --size A3`
+export type SymmetryName =
+    | "none" | "C2" | "C3" | "C4" | "C6" | "mirror-x" | "mirror-y" | "diagonal" | "mirrors" | "diagonals"
+    | "D3" | "D3-y" | "D4" | "D6";
+export interface Dots {
+    grid: string; // canonical notation
+    lattice: "square" | "triangular";
+    rows: number[]; // dots of each row from the top
+    is_solid: boolean; // centred rows without holes
+    dots: [number, number][]; // from the middle: half spacings to the right, half distances of rows upwards
+    gaps: [from: number, to: number, side: number][]; // dots by index; side of `from`, anticlockwise from the right
+    /// Those that the grid has, the largest first, `none` last. Gaps with the same orbit are images of each other.
+    /// The obstacles say why no single line has the symmetry, without and with joined gaps.
+    symmetries: { name: SymmetryName; orbits: number[]; obstacle?: string; joined_obstacle?: string }[];
+    /// Where gaps and arcs go under each of the grid's rotations and mirrors. Arc number sides * dot + s lies between the
+    /// sides s and s + 1 of a dot.
+    gap_images: number[][];
+    arc_images: number[][];
+    moved: [number, number]; // by editing: from the place of a dot before to its place now
+}
 export interface Grid {
     text: string; // of the pattern file
-    rows: number[];
-    dots: [number, number][]; // twice the distance from the middle, y up
-    gaps: { from: number; to: number; is_crossed: boolean; orbit: number }[]; // dots by index
-    crossings: string; // a digit for each gap
+    grid: string; // canonical notation
+    gaps: string; // a digit for each gap: 0 turned back, 1 crossed, 2 joined
     lines: number;
     changed: number; // by single_line
-    obstacle?: string; // the reason why no single line on this grid has this symmetry
-    /// Lines as closed polygons of points in the coordinates of `dots`.
-    strands: [number, number][][];
+    obstacle?: string; // the reason why no single line on this grid has this symmetry, or that none was found
+    /// With `strands`: lines as closed polygons of points in the coordinates of Dots.
+    strands?: [number, number][][];
+    line_orbits?: number[]; // lines that the kolam's symmetries take to each other have the same number, and colour
 }
 export interface Link { link: string } // the fragment, without `#`
 export interface ReadLink { shared: Shared }

@@ -159,9 +159,11 @@ for (const { name, text } of patterns) {
 }
 
 // Grids, and systems of other programs.
-for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3"]) {
-    for (const symmetry of ["none", "C2", "C4", "mirror-x", "D4"]) {
-        for (const single_line of [false, true]) await compare({ do: "grid", grid, symmetry, single_line, seed: "5" });
+for (const grid of ["5-3 idukku", "15x9-9x3", "oo./ooo", "5 to 4", "40x40"]) await compare({ do: "dots", grid });
+await compare({ do: "dots", grid: "5x5", symmetry: "C4", remove: [[4, 2]], add: [[6, 0]] });
+for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3", "7-4 idukku", "oo./ooo/.oo"]) {
+    for (const symmetry of ["none", "C2", "C4", "C6", "mirror-x", "D4", "D6"]) {
+        for (const single_line of [false, true]) await compare({ do: "grid", grid, symmetry, single_line, joined: 0.3, seed: "5" });
     }
 }
 const imports = join(root, "tests/corpus/import");

@@ -138,13 +138,19 @@ async function play() {
 
 async function bench() {
     await page.click("#tab-bench");
-    await page.fill("#bench-grid", "15x15");
-    await page.keyboard.press("Enter");
-    await until(() => document.querySelector(".bench-count").textContent === "15 lines");
-    await until(() => /15x15/.test(document.querySelector(".cm-content").textContent));
+    const count = (lines) => until((wanted) => document.querySelector(".bench-count").textContent === wanted, lines);
+    const grid = async (notation, written) => {
+        await page.fill("#bench-grid", notation);
+        await page.keyboard.press("Enter");
+        await until((wanted) => document.querySelector(".cm-content").textContent.includes(`// grid: ${wanted}`), written);
+    };
+    await count("7 lines");
+    await grid("15x15", "15x15");
+    await count("15 lines");
     const board = await page.locator(".bench-board").boundingBox();
-    await page.mouse.click(board.x + board.width / 2 + 22, board.y + board.height / 2);
-    assert.equal(await text(".bench-count"), "14 lines");
+    const [x, y] = [board.x + board.width / 2, board.y + board.height / 2];
+    await page.mouse.click(x + 22, y);
+    await count("14 lines");
     await page.locator(".bench-board").focus();
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("Space");
@@ -153,7 +159,7 @@ async function bench() {
         /^Gap between row 8 dot \d+ and row 8 dot \d+: turned back; 13 lines$/,
     );
     await page.click("button:has-text('Make a single line')");
-    await until(() => document.querySelector(".bench-count").textContent === "1 line");
+    await count("1 line");
     await until(() =>
         /^One closed line around 225 dots/.test(document.querySelector(".bench-certificate").textContent),
     );
@@ -162,13 +168,57 @@ async function bench() {
     await page.keyboard.press("Escape");
     await page.click("h3:has-text('Symmetry')");
     await page.keyboard.press("Control+z");
-    await until(() => document.querySelector(".bench-count").textContent === "13 lines");
-    await page.fill("#bench-grid", "1-2-3");
+    await count("13 lines");
+    await page.fill("#bench-grid", "1-2-2");
     await page.keyboard.press("Enter");
-    assert.match(await text(".bench-problem"), /odd/);
-    await page.fill("#bench-grid", "1-3-5-7-5-3-1");
-    await page.keyboard.press("Enter");
-    await page.click('[aria-label="Turns and mirrors"]');
+    await until(() => /odd and even in turn/.test(document.querySelector(".bench-problem").textContent));
+    await page.waitForTimeout(1200);
+
+    // An interlaced grid: the third state, six sides, symmetries, one line, undo.
+    await grid("7-4 idukku pulli", "7-4 idukku");
+    assert.match(await text(".bench-grid-facts"), /^37 dots in 7 rows, interlaced/);
+    await page.locator(".bench-board").focus();
+    const states = () => text(".bench-states");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Space");
+    assert.match(await states(), /^89 gaps crossed, 1 turned back\.$/);
+    await page.keyboard.press("Space");
+    assert.match(await states(), /^89 gaps crossed, 1 joined\.$/);
+    await page.keyboard.press("Shift+Space");
+    assert.match(await states(), /^89 gaps crossed, 1 turned back\.$/);
+    await page.keyboard.press("c");
+    assert.match(await states(), /^90 gaps crossed\.$/);
+    assert.equal(await page.locator(".bench-lock:visible").count(), 10);
+    await page.click('[aria-label="Sixth of a turn"]');
+    await page.click("button:has-text('Join all')");
+    assert.match(await states(), /^90 gaps joined\.$/);
+    await page.click("button:has-text('Random kolam')");
+    await until(() => / crossed/.test(document.querySelector(".bench-states").textContent));
+    await until(() => /symmetry [CD]6\.$/.test(document.querySelector(".bench-certificate").textContent));
+    await page.click("button:has-text('Make a single line')");
+    await until(() => /^One closed line around \d+ dots; symmetry C6/.test(document.querySelector(".bench-certificate").textContent));
+    console.log(await text(".bench-certificate"));
+
+    // Free shapes: the dot in the middle goes away and comes back.
+    await page.click(".bench-tool:has-text('Dots')");
+    await page.mouse.click(x, y);
+    await until(() => /^36 dots/.test(document.querySelector(".bench-grid-facts").textContent));
+    await until(() => document.querySelector(".cm-content").textContent.includes("Kolam on 36 dots"));
+    await page.mouse.click(x, y);
+    await until(() => /^37 dots/.test(document.querySelector(".bench-grid-facts").textContent));
+    await page.click(".bench-tool:has-text('Next')");
+
+    // A shape drawn in text can be pasted.
+    await page.evaluate(() => {
+        const data = new DataTransfer();
+        data.setData("text/plain", "oooo\no..o\noooo\n");
+        const paste = new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true });
+        document.querySelector("#bench-grid").dispatchEvent(paste);
+    });
+    await until(() => /^10 dots in 3 rows, straight/.test(document.querySelector(".bench-grid-facts").textContent));
+
+    await grid("7 to 1 ner pulli", "1-3-5-7-5-3-1");
+    await page.click('[aria-label="Quarter turns and mirrors"]');
     await until(() => /symmetry D4/.test(document.querySelector(".bench-certificate").textContent));
     await page.click("button:has-text('Make a single line')");
     await until(() => document.querySelector("#message").textContent.length > 0);

@@ -335,6 +335,45 @@ TEST(DotGrid, ImagesOfAKolamHaveOneCode) {
     }
 }
 
+TEST(DotGrid, SymmetriesTakeLinesToLines) {
+    for (const char* text : {"3x4", "5x5", "5-3", "1-3-5", "oo./ooo/.oo"}) {
+        const DotGrid grid = parse_dot_grid(text);
+        const GapStates states = random_states(grid, {.seed = 3, .density = 0.5, .joined = 0.4});
+        LineLabels before;
+        label_lines(grid, states, before, {});
+        const auto gaps = grid_symmetries(grid);
+        const auto arcs = arc_symmetries(grid);
+        ASSERT_EQ(arcs.size(), gaps.size());
+        for (std::size_t k = 0; k < gaps.size(); ++k) {
+            GapStates image(states.size());
+            for (std::size_t i = 0; i < states.size(); ++i) image[gaps[k][i]] = states[i];
+            LineLabels after;
+            label_lines(grid, image, after, {});
+            EXPECT_EQ(std::set<std::uint32_t>(arcs[k].begin(), arcs[k].end()).size(), before.line.size());
+            std::set<std::pair<std::uint32_t, std::uint32_t>> lines;
+            for (std::size_t i = 0; i < arcs[k].size(); ++i) {
+                lines.insert({before.line[i], after.line[arcs[k][i]]});
+            }
+            EXPECT_EQ(lines.size(), before.starts.size()) << text << ' ' << k;
+            EXPECT_EQ(after.starts.size(), before.starts.size());
+        }
+    }
+}
+
+TEST(DotGrid, PlacesHaveImages) {
+    const DotGrid square(parse_dot_grid("5x5"));
+    EXPECT_EQ(place_images(square, {0, 0}, GridSymmetry::d4).size(), 1u);
+    EXPECT_EQ(place_images(square, {4, 2}, GridSymmetry::d4).size(), 8u);
+    EXPECT_EQ(place_images(square, {6, 0}, GridSymmetry::c2), (std::vector<GridDot>{{6, 0}, {-6, 0}}));
+    EXPECT_EQ(place_images(square, {6, 2}, GridSymmetry::diagonal), (std::vector<GridDot>{{6, 2}, {2, 6}}));
+    EXPECT_EQ(place_images(parse_dot_grid("5-3"), {3, 2}, GridSymmetry::d6).size(), 6u);
+    EXPECT_NE(error_of([&] { place_images(square, {0, 0}, GridSymmetry::c6); }), "");
+    EXPECT_TRUE(square.is_solid());
+    EXPECT_TRUE(parse_dot_grid("15-8 idukku").is_solid());
+    EXPECT_FALSE(parse_dot_grid("oo./ooo").is_solid());
+    EXPECT_FALSE(parse_dot_grid("o.o").is_solid());
+}
+
 TEST(DotGrid, ChanceIsTheSameEverywhere) {
     // SplitMix64 of 0 begins E220A839…, 6E789E6A…, 06C45D18…, F88BB8A8…: of 1 about 0.88, 0.43, 0.03, 0.97.
     EXPECT_EQ(gap_states_text(parse_dot_grid("2x2"), random_states(parse_dot_grid("2x2"), {})), "0 11 0");

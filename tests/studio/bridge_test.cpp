@@ -173,6 +173,60 @@ TEST(Bridge, ScaleFilesAreKept) {
     std::filesystem::current_path(before);
 }
 
+TEST(Bridge, DescribesGridsOfDots) {
+    const Json square = asked({{"do", "dots"}, {"grid", "3 to 1 ner pulli"}});
+    EXPECT_EQ(square["grid"], "1-3-1");
+    EXPECT_EQ(square["lattice"], "square");
+    EXPECT_EQ(square["is_solid"], true);
+    EXPECT_EQ(square["dots"], Json::parse("[[0,2],[-2,0],[0,0],[2,0],[0,-2]]"));
+    EXPECT_EQ(square["gaps"], Json::parse("[[0,2,3],[1,2,0],[2,3,0],[2,4,3]]"));
+    EXPECT_EQ(square["symmetries"].front()["name"], "D4");
+    EXPECT_EQ(square["symmetries"].front()["orbits"], Json::parse("[0,0,0,0]"));
+    EXPECT_EQ(square["symmetries"].back()["orbits"], Json::parse("[0,1,2,3]"));
+    const Json hexagon = asked({{"do", "dots"}, {"grid", "15-8 idukku pulli"}});
+    EXPECT_EQ(hexagon["lattice"], "triangular");
+    EXPECT_EQ(hexagon["dots"].size(), 169U);
+    EXPECT_EQ(hexagon["symmetries"].front()["name"], "D6");
+    EXPECT_TRUE(hexagon["symmetries"].front().contains("obstacle"));
+    EXPECT_EQ(kind_of_failure({{"do", "dots"}, {"grid", "15-8 pulls"}}), "other");
+    EXPECT_EQ(kind_of_failure({{"do", "dots"}, {"grid", "40x40"}}), "request");
+    EXPECT_EQ(kind_of_failure({{"do", "dots"}}), "request");
+}
+
+TEST(Bridge, EditsDotsWithTheirImages) {
+    const auto edited = [](const char* change, const Json& places, const char* symmetry) {
+        return asked({{"do", "dots"}, {"grid", "5-3 idukku"}, {change, places}, {"symmetry", symmetry}});
+    };
+    EXPECT_EQ(edited("remove", {{0, 0}}, "none")["dots"].size(), 18U);
+    EXPECT_EQ(edited("remove", {{4, 0}}, "C6")["dots"].size(), 13U);
+    const Json wide = edited("add", {{6, 0}}, "none");
+    EXPECT_EQ(wide["dots"].size(), 20U);
+    EXPECT_EQ(wide["moved"], Json::parse("[-1,0]"));
+    EXPECT_EQ(edited("add", {{6, 0}}, "mirror-x")["moved"], Json::parse("[0,0]"));
+    EXPECT_EQ(asked({{"do", "dots"}, {"grid", wide["grid"]}})["dots"], wide["dots"]);
+    EXPECT_TRUE(edited("add", {{5, 0}}, "none").contains("error"));  // between two places
+    EXPECT_TRUE(edited("add", {{0, 1}}, "none").contains("error"));  // between two rows
+    EXPECT_TRUE(edited("add", {{2e9, 0}}, "none").contains("error"));
+    EXPECT_TRUE(edited("add", {0}, "none").contains("error"));
+    EXPECT_TRUE(edited("add", {{0, 0}}, "C4").contains("error"));
+}
+
+TEST(Bridge, MakesKolamsOfThreeStates) {
+    const Json made = asked({{"do", "grid"}, {"grid", "2x2"}, {"gaps", "1 02 2"}, {"strands", true}});
+    EXPECT_EQ(made["gaps"], "1 02 2");
+    EXPECT_EQ(made["lines"], made["strands"].size());
+    const std::string text = made["text"];
+    EXPECT_NE(text.find("title: Kolam on 2x2 dots\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("4 dots, 1 of 4 gaps crossed and 2 joined"), std::string::npos) << text;
+    EXPECT_NE(text.find("// grid: 2x2\n// gaps: 1 02 2\n"), std::string::npos) << text;
+    const Json random = asked({{"do", "grid"}, {"grid", "7-4"}, {"joined", 1.0}, {"density", 0.0}});
+    EXPECT_EQ(random["gaps"].get<std::string>().find_first_of("01"), std::string::npos);
+    const Json single = asked({{"do", "grid"}, {"grid", "7-4"}, {"symmetry", "C6"}, {"single_line", true}});
+    EXPECT_EQ(single["lines"], 1);
+    EXPECT_FALSE(single.contains("obstacle"));
+    EXPECT_EQ(kind_of_failure({{"do", "grid"}, {"grid", "2x2"}, {"gaps", "103"}}), "other");
+}
+
 TEST(Bridge, FilesWithoutPatternsAreRefused) {
     EXPECT_EQ(kind_of_failure({{"do", "show"}, {"name", "x.png"}}, "no picture"), "other");
     EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, "<svg></svg>")["error"]["message"],

@@ -1,24 +1,47 @@
-// The board: rice powder on red earth. The gap under the pointer previews the effect of a click.
+// The board: rice powder on red earth. The gap under the pointer previews the effect of a click; while dots are edited,
+// rings show where dots can be placed.
 import { makeChance } from "../sound/chance";
-import type { DotGrid } from "./dot_grid";
+import type { DotGrid, Place } from "./dot_grid";
 import { followLines } from "./dot_grid";
 import { traceSegments, traceStrand } from "./strand_path";
 
 export const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
 const earth = "#7d3324";
-const line_width = 0.16 * Math.SQRT2; // as in the pattern: 0.16 of a step, which is the diagonal of a unit square
+/// As in the pattern: 0.16 of a step, which is the diagonal of a unit square, or half a spacing of interlaced dots.
+const lineWidth = ({ isTriangular }: DotGrid): number => 0.16 * (isTriangular ? 1 : Math.SQRT2);
 const margin = 1.55; // around the outermost dots
+const bar_height = 46; // pixels that stay free above and below, for tools and texts
 
 export interface Scene {
     grid: DotGrid;
     states: Uint8Array;
     strands: number[][];
+    lineOrbits: number[]; // lines with the same number have the same colour
     isColoured: boolean;
     isFilled: boolean;
     hasDots: boolean;
-    cursor: number; // gap selected by pointer or keyboard, -1: none
+    cursor: number; // gap or place selected by pointer or keyboard, -1: none
     orbit: number[]; // gaps that change with it
+    after: Uint8Array | null; // the states after the change, if it is previewed
+    places: Place[] | null; // while dots are edited: where they can be
     isFocused: boolean; // the gap was selected by keyboard
+}
+
+/// The places of the lattice in the grid's box and around it, from the top, where dots can be added or removed.
+export function placesAround({ dots, isTriangular }: DotGrid): Place[] {
+    if (dots.length === 0) return [];
+    const extreme = (value: (dot: Place) => number): [number, number] =>
+        dots.reduce(([low, high], dot) => [Math.min(low, value(dot)), Math.max(high, value(dot))], [Infinity, -Infinity]);
+    const [left, right] = extreme((dot) => dot.x);
+    const [bottom, top] = extreme((dot) => dot.level);
+    const [{ x: first, level }] = dots;
+    const places: Place[] = [];
+    for (let row = top + 2; row >= bottom - 2; row -= 2) {
+        const shift = isTriangular ? (row - level) / 2 : 0;
+        const isOff = (left - first - shift) % 2 !== 0;
+        for (let x = isOff ? left - 1 : left - 2; x <= right + 2; x += 2) places.push({ x, level: row });
+    }
+    return places;
 }
 
 export class Board {
@@ -61,27 +84,31 @@ export class Board {
         return true;
     }
 
-    private place({ grid }: Scene): void {
-        const across = Math.max(...grid.rows) - 1 + margin;
-        const up = grid.rows.length - 1 + margin;
-        this.scale = Math.min(this.width / (2 * across), this.height / (2 * up), 56);
+    private place({ grid, places }: Scene): void {
+        const around = places ? margin + 1.2 : margin;
+        const across = grid.dots.reduce((most, { x }) => Math.max(most, Math.abs(x)), 0) + around;
+        const up = (grid.rows.length - 1) * grid.rise + around;
+        this.scale = Math.min(this.width / (2 * across), (this.height - 2 * bar_height) / (2 * up), 56);
     }
 
-    /// The gap nearest to a point of the canvas; -1 outside the grid.
-    gapAt(scene: Scene, x: number, y: number): number {
+    /// The gap nearest to a point of the canvas, or the place for a dot; -1 outside the grid.
+    targetAt(scene: Scene, x: number, y: number): number {
         this.place(scene);
         const px = (x - this.width / 2) / this.scale;
         const py = (this.height / 2 - y) / this.scale;
+        const { grid, places } = scene;
         let nearest = 1;
         let found = -1;
-        scene.grid.gaps.forEach((gap, i) => {
-            const distance =
-                Math.max(Math.abs(gap.x - px), Math.abs(gap.y - py)) * 0.5 + 0.5 * Math.hypot(gap.x - px, gap.y - py);
-            if (distance < nearest) {
-                nearest = distance;
-                found = i;
-            }
-        });
+        const look = (across: number, up: number, index: number): void => {
+            const straight = Math.hypot(across, up);
+            // In the square lattice the fields of gaps are squares on their corners.
+            const distance = grid.isTriangular ? straight : 0.5 * (Math.max(Math.abs(across), Math.abs(up)) + straight);
+            if (distance >= nearest) return;
+            nearest = distance;
+            found = index;
+        };
+        if (places) places.forEach((place, i) => look(place.x - px, place.level * grid.rise - py, i));
+        else grid.gaps.forEach((gap, i) => look(gap.x - px, gap.y - py, i));
         return found;
     }
 
@@ -93,14 +120,16 @@ export class Board {
     draw(scene: Scene): void {
         this.fit();
         this.place(scene);
-        const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots];
+        const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots, scene.places];
         if (shown.some((each, i) => each !== this.shown[i])) this.drawStill(scene);
         this.shown = shown;
         const { context } = this;
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.drawImage(this.still.canvas, 0, 0);
         this.toScene(context);
-        if (scene.cursor >= 0) this.drawPreview(context, scene);
+        if (scene.cursor < 0) return;
+        if (scene.places) this.drawPlace(context, scene, scene.places[scene.cursor]);
+        else this.drawGap(context, scene);
     }
 
     private drawStill(scene: Scene): void {
@@ -110,8 +139,11 @@ export class Board {
         still.drawImage(this.ground, 0, 0);
         this.toScene(still);
         if (scene.isFilled) this.drawFields(still, scene);
-        if (scene.hasDots) this.drawDots(still, scene);
+        if (scene.places) this.drawPlaces(still, scene);
+        if (scene.hasDots || scene.places) this.drawDots(still, scene);
+        still.globalAlpha = scene.places ? 0.36 : 1; // while dots are edited
         this.drawLines(still, scene);
+        still.globalAlpha = 1;
     }
 
     /// Earth: uneven, darker towards the edges.
@@ -148,12 +180,36 @@ export class Board {
         context.fill("evenodd");
     }
 
-    private drawDots(context: CanvasRenderingContext2D, { grid }: Scene): void {
+    /// Rings where dots can be placed.
+    private drawPlaces(context: CanvasRenderingContext2D, { grid, places }: Scene): void {
+        context.strokeStyle = "rgb(253 243 226 / 42%)";
+        context.lineWidth = 0.05;
+        context.beginPath();
+        for (const { x, level } of places!) {
+            const y = level * grid.rise;
+            context.moveTo(x + 0.16, y);
+            context.arc(x, y, 0.16, 0, 2 * Math.PI);
+        }
+        context.stroke();
+    }
+
+    private drawPlace(context: CanvasRenderingContext2D, { grid, isFocused }: Scene, { x, level }: Place): void {
+        const y = level * grid.rise;
+        context.strokeStyle = "#ffd58a";
+        context.lineWidth = isFocused ? 0.12 : 0.08;
+        context.beginPath();
+        context.arc(x, y, 0.46, 0, 2 * Math.PI);
+        context.stroke();
+    }
+
+    private drawDots(context: CanvasRenderingContext2D, { grid, places }: Scene): void {
         const chance = makeChance(5);
         context.fillStyle = "#f6ecd9";
-        for (const { x, y } of grid.dots) {
+        const size = (grid.isTriangular ? 0.8 : 1) * (places ? 1.5 : 1);
+        for (const { x, level } of grid.dots) {
+            const y = level * grid.rise;
             // Dots look placed by hand: none is perfectly round or exactly in place.
-            const radius = 0.125 + 0.022 * chance();
+            const radius = size * (0.125 + 0.022 * chance());
             const tilt = Math.PI * chance();
             const dx = 0.022 * (chance() - 0.5);
             const dy = 0.022 * (chance() - 0.5);
@@ -173,6 +229,7 @@ export class Board {
 
     private drawLines(context: CanvasRenderingContext2D, scene: Scene): void {
         const paths = this.paths(scene);
+        const line_width = lineWidth(scene.grid);
         context.lineJoin = "round";
         // The shadow of the powder on the earth.
         context.save();
@@ -184,13 +241,14 @@ export class Board {
         const scale = 1 / (this.scale * this.ratio);
         paths.forEach((path, index) => {
             const powder = context.createPattern(
-                this.powderOf(scene.isColoured ? index % line_colours.length : 0),
+                this.powderOf(scene.isColoured ? scene.lineOrbits[index] % line_colours.length : 0),
                 "repeat",
             )!;
             powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
             context.strokeStyle = powder;
             context.lineWidth = line_width * 0.96;
             context.stroke(path);
+            if (scene.places) return;
             // The amount of powder varies along the line.
             context.lineWidth = line_width * 1.14;
             context.lineCap = "round";
@@ -205,20 +263,39 @@ export class Board {
         return (this.powders[colour] ??= powderTile(line_colours[colour]));
     }
 
+    private drawGap(context: CanvasRenderingContext2D, scene: Scene): void {
+        const { grid, cursor } = scene;
+        if (scene.after) this.drawPreview(context, scene, scene.after);
+        if (!scene.isFocused) return;
+        const { x, y } = grid.gaps[cursor];
+        for (const [width, colour] of [
+            [0.16, "rgb(40 12 6 / 80%)"],
+            [0.08, "#ffe9c4"],
+        ] as const) {
+            context.lineWidth = width;
+            context.strokeStyle = colour;
+            context.beginPath();
+            context.arc(x, y, grid.isTriangular ? 0.5 : 0.72, 0, 2 * Math.PI);
+            context.stroke();
+        }
+    }
+
     /// The pieces that a click would draw, on a patch of earth.
-    private drawPreview(context: CanvasRenderingContext2D, scene: Scene): void {
-        const { grid, states, cursor, orbit } = scene;
-        const after = states.slice();
-        for (const gap of orbit) after[gap] = 1 - after[gap];
+    private drawPreview(context: CanvasRenderingContext2D, scene: Scene, after: Uint8Array): void {
+        const { grid, cursor, orbit } = scene;
+        const line_width = lineWidth(grid);
+        const reach = grid.isTriangular ? 0.7 : 0.95;
         const places = new Set(orbit.map((gap) => `${grid.gaps[gap].x} ${grid.gaps[gap].y}`));
         for (const gap of orbit) {
             const { x, y } = grid.gaps[gap];
-            const patch = context.createRadialGradient(x, y, 0.2, x, y, 0.95);
-            patch.addColorStop(0, gap === cursor ? "rgb(98 36 24 / 92%)" : "rgb(98 36 24 / 62%)");
+            const patch = context.createRadialGradient(x, y, 0.2, x, y, reach);
+            const strong = gap === cursor ? "rgb(98 36 24 / 94%)" : "rgb(98 36 24 / 78%)";
+            patch.addColorStop(0, strong);
+            patch.addColorStop(0.45, strong);
             patch.addColorStop(1, "rgb(98 36 24 / 0%)");
             context.fillStyle = patch;
             context.beginPath();
-            context.arc(x, y, 0.95, 0, 2 * Math.PI);
+            context.arc(x, y, reach, 0, 2 * Math.PI);
             context.fill();
         }
         context.strokeStyle = "#ffd58a";
@@ -233,18 +310,6 @@ export class Board {
         }
         context.stroke();
         context.setLineDash([]);
-        if (!scene.isFocused) return;
-        const { x, y } = grid.gaps[cursor];
-        for (const [width, colour] of [
-            [0.16, "rgb(40 12 6 / 80%)"],
-            [0.08, "#ffe9c4"],
-        ] as const) {
-            context.lineWidth = width;
-            context.strokeStyle = colour;
-            context.beginPath();
-            context.arc(x, y, 0.72, 0, 2 * Math.PI);
-            context.stroke();
-        }
     }
 }
 

@@ -1,160 +1,176 @@
-// Kolams on a grid of dots: the gaps between dots, and the lines that they form. Follows the rules of
-// art/kolam/dot_grid.h, but in the page, so that clicks take effect at once.
+// Kolams on a grid of dots: the gaps between dots, and the lines that they form. The libraries read the notation of a
+// grid; lines are followed here by the rules of art/kolam/dot_grid_lines.h, so that clicks take effect at once.
+import type { Dots, SymmetryName } from "../protocol";
 
-/// A gap's state is a number so that states are a Uint8Array.
-export const turned = 0; // the lines turn back on both sides
-export const crossed = 1; // two lines cross
-export type GapState = typeof turned | typeof crossed; // later: joined, where two dots share a loop
+/// A gap's state is a number, the digit of the pattern's comment, so that states are a Uint8Array.
+export const turned = 0; // the lines turn back, each around its dot
+export const crossed = 1; // they cross
+export const joined = 2; // each runs past both dots, on its side of the gap
+export const state_names = ["turned back", "crossed", "joined"] as const;
 
-/// Sides of a dot, anticlockwise: right, up, left, down. Arc s lies between the sides s and s + 1.
-const side_x = [1, 0, -1, 0];
-const side_y = [0, 1, 0, -1];
+const square_ways = [[2, 0], [0, 2], [-2, 0], [0, -2]];
+const triangular_ways = [[2, 0], [1, 2], [-1, 2], [-2, 0], [-1, -2], [1, -2]];
 
-export interface Point {
+/// A place of the lattice: half spacings to the right of the middle, half distances of rows above it.
+export interface Place {
     x: number;
-    y: number;
-} // twice the distance from the middle, y up
+    level: number;
+}
 export interface Gap {
     from: number;
     to: number;
-    side: number;
-    x: number;
+    side: number; // of `from`
+    x: number; // where it is drawn, in half spacings, y up
     y: number;
-} // side of `from`: 0 or 3
+    level: number;
+}
+export interface GridSymmetry {
+    name: SymmetryName;
+    orbits: number[][]; // for each gap, the gaps of its orbit, including itself
+    obstacle?: string; // why no single line has it
+    obstacleIfJoined?: string; // the same if gaps may be joined
+}
 
 export interface DotGrid {
-    rows: number[];
-    dots: Point[];
+    text: string; // canonical notation
+    isSolid: boolean; // centred rows without holes
+    isTriangular: boolean;
+    sides: number; // of a dot, anticlockwise from the right: 4 or 6. Arc s lies between the sides s and s + 1
+    rise: number; // half the distance of rows, in half spacings
+    rows: number[]; // dots of each row from the top
+    dots: Place[];
     gaps: Gap[]; // row by row: those within the row, then those to the next row
-    gapAt: Int32Array; // by 4 * dot + side, -1 at the border
-    dotAt(x: number, y: number): number; // -1: none
+    gapAt: Int32Array; // by sides * dot + side, -1 at the border
+    symmetries: GridSymmetry[]; // that the grid has, the largest first, `none` last
+    gapImages: number[][]; // under each of the grid's rotations and mirrors
+    arcImages: number[][];
+    moved: Place; // by editing: from the place of a dot before to its place now
 }
 
-const most_gaps = 1000; // that a pattern can list and the bench can read back
+/// The steps from a dot to its neighbours, by side, as x and level.
+export function waysOf({ isTriangular }: Pick<DotGrid, "isTriangular">): number[][] {
+    return isTriangular ? triangular_ways : square_ways;
+}
 
-const tooLarge = (): Error => new Error(`A grid has at most ${most_gaps} gaps, such as 22 x 22 dots.`);
-
-/// Throws an Error with a message for the user.
-export function makeGrid(rows: number[]): DotGrid {
-    if (rows.length === 0 || rows.some((row) => !Number.isInteger(row) || row < 1)) {
-        throw new Error("Enter rows and columns, such as 7x7, or the dots of each row, such as 1-3-5-3-1.");
-    }
-    if (rows.some((row) => row % 2 !== rows[0] % 2)) {
-        throw new Error("All rows must have an odd number of dots, or all an even one, because they are centred.");
-    }
-    const count = rows.reduce((sum, row) => sum + row, 0);
-    if (count > most_gaps) throw tooLarge();
-    const dots: Point[] = [];
-    const begins: number[] = [];
-    rows.forEach((length, row) => {
-        begins.push(dots.length);
-        for (let i = 0; i < length; ++i) dots.push({ x: 2 * i - (length - 1), y: rows.length - 1 - 2 * row });
+export function makeGrid(answer: Dots): DotGrid {
+    const isTriangular = answer.lattice === "triangular";
+    const sides = isTriangular ? 6 : 4;
+    const rise = isTriangular ? Math.sqrt(3) / 2 : 1;
+    const dots = answer.dots.map(([x, level]) => ({ x, level }));
+    const gapAt = new Int32Array(sides * dots.length).fill(-1);
+    const gaps = answer.gaps.map(([from, to, side], index) => {
+        gapAt[sides * from + side] = gapAt[sides * to + ((side + sides / 2) % sides)] = index;
+        const level = (dots[from].level + dots[to].level) / 2;
+        return { from, to, side, x: (dots[from].x + dots[to].x) / 2, y: level * rise, level };
     });
-    const dotAt = (x: number, y: number): number => {
-        const row = (rows.length - 1 - y) / 2;
-        const column = (x + (rows[row] ?? 0) - 1) / 2;
-        return rows[row] !== undefined && Number.isInteger(column) && column >= 0 && column < rows[row]
-            ? begins[row] + column
-            : -1;
-    };
-    const gaps: Gap[] = [];
-    const gapAt = new Int32Array(4 * count).fill(-1);
-    const add = (from: number, to: number, side: number): void => {
-        gapAt[4 * from + side] = gapAt[4 * to + ((side + 2) % 4)] = gaps.length;
-        gaps.push({ from, to, side, x: (dots[from].x + dots[to].x) / 2, y: (dots[from].y + dots[to].y) / 2 });
-    };
-    rows.forEach((length, row) => {
-        const begin = begins[row];
-        for (let dot = begin; dot + 1 < begin + length; ++dot) add(dot, dot + 1, 0);
-        for (let dot = begin; dot < begin + length; ++dot) {
-            const below = dotAt(dots[dot].x, dots[dot].y - 2);
-            if (below >= 0) add(dot, below, 3);
-        }
+    const symmetries = answer.symmetries.map(({ name, orbits, obstacle, joined_obstacle }) => {
+        return { name, orbits: members(orbits), obstacle, obstacleIfJoined: joined_obstacle };
     });
-    if (gaps.length > most_gaps) throw tooLarge();
-    return { rows, dots, gaps, gapAt, dotAt };
+    const moved = { x: answer.moved[0], level: answer.moved[1] };
+    const { grid: text, is_solid: isSolid, rows, gap_images: gapImages, arc_images: arcImages } = answer;
+    const shape = { text, isSolid, isTriangular, sides, rise, rows };
+    return { ...shape, dots, gaps, gapAt, symmetries, gapImages, arcImages, moved };
 }
 
-/// `7x7`, or `1-3-5-3-1`.
-export function parseGrid(text: string): DotGrid {
-    const clean = text.trim().toLowerCase().replaceAll("×", "x").replaceAll(/\s+/g, "");
-    const sides = /^(\d+)x(\d+)$/.exec(clean);
-    if (sides) {
-        const [rows, columns] = [Number(sides[1]), Number(sides[2])];
-        return makeGrid(rows > 0 && rows <= most_gaps ? Array<number>(rows).fill(columns) : []);
-    }
-    return makeGrid(/^\d+([-,]\d+)*$/.test(clean) ? clean.split(/[-,]/).map(Number) : []);
+function members(orbits: number[]): number[][] {
+    const found: number[][] = [];
+    orbits.forEach((orbit, gap) => (found[orbit] ??= []).push(gap));
+    return orbits.map((orbit) => found[orbit]);
 }
 
-export function gridText({ rows }: DotGrid): string {
-    return rows.every((row) => row === rows[0]) ? `${rows.length}x${rows[0]}` : rows.join("-");
+/// Shown until the libraries have described a grid.
+export const no_grid: DotGrid = makeGrid({
+    grid: "",
+    lattice: "square",
+    rows: [],
+    is_solid: true,
+    dots: [],
+    gaps: [],
+    symmetries: [{ name: "none", orbits: [] }],
+    gap_images: [],
+    arc_images: [],
+    moved: [0, 0],
+});
+
+/// True if a shift takes places of one lattice to places of the other.
+export function agrees(a: DotGrid, b: DotGrid, shift: Place): boolean {
+    if (a.isTriangular !== b.isTriangular || a.dots.length === 0 || b.dots.length === 0) return false;
+    const x = a.dots[0].x + shift.x - b.dots[0].x;
+    const level = a.dots[0].level + shift.level - b.dots[0].level;
+    return level % 2 === 0 && (x - (a.isTriangular ? level / 2 : 0)) % 2 === 0;
 }
 
-/// A digit for each gap; each row of gaps is a word, as in the comment of a pattern.
-export function crossingsText({ gaps, dots }: DotGrid, states: Uint8Array): string {
-    let text = "";
-    gaps.forEach((gap, i) => {
-        const before = gaps[i - 1];
-        if (before && (gap.side !== before.side || dots[gap.from].y !== dots[before.from].y)) text += " ";
-        text += states[i];
-    });
-    return text;
-}
-
-export function parseCrossings(grid: DotGrid, text: string): Uint8Array | null {
+/// The digits of a pattern's comment; null if they do not fit the grid.
+export function parseStates(grid: DotGrid, text: string): Uint8Array | null {
     const digits = text.replaceAll(/[\s,/]/g, "");
-    if (digits.length !== grid.gaps.length || /[^01]/.test(digits)) return null;
+    if (digits.length !== grid.gaps.length || /[^012]/.test(digits)) return null;
     return Uint8Array.from(digits, Number);
 }
+
+export const statesText = (states: Uint8Array): string => states.join("");
 
 // --- lines --------------------------------------------------------------------------------------------------------
 
 export interface Lines {
-    /// Each line as the midpoints of the sides that it crosses: x, y, x, y …
+    /// Each line as the midpoints of the sides that it passes, where they are drawn: x, y, x, y …
     strands: number[][];
-    lineOfArc: Int32Array; // by 4 * dot + arc
+    lineOfArc: Int32Array; // by sides * dot + arc
 }
 
 export function followLines(grid: DotGrid, states: Uint8Array): Lines {
-    const { dots, gaps, gapAt } = grid;
-    const lineOfArc = new Int32Array(4 * dots.length).fill(-1);
+    const { dots, gaps, gapAt, sides, rise } = grid;
+    const ways = waysOf(grid);
+    const lineOfArc = new Int32Array(sides * dots.length).fill(-1);
     const strands: number[][] = [];
     for (let start = 0; start < lineOfArc.length; ++start) {
         if (lineOfArc[start] >= 0) continue;
         const points: number[] = [];
-        let dot = start >> 2;
-        let arc = start & 3;
+        let dot = Math.floor(start / sides);
+        let arc = start % sides;
         let isAnticlockwise = true;
         do {
-            lineOfArc[4 * dot + arc] = strands.length;
-            const entry = isAnticlockwise ? arc : (arc + 1) & 3;
-            points.push(dots[dot].x + side_x[entry], dots[dot].y + side_y[entry]);
-            const exit: number = isAnticlockwise ? (arc + 1) & 3 : arc;
-            const gap: number = gapAt[4 * dot + exit];
-            if (gap >= 0 && states[gap] === crossed) {
-                dot = gaps[gap].from === dot ? gaps[gap].to : gaps[gap].from;
-                arc = (exit + (isAnticlockwise ? 1 : 2)) & 3;
-                isAnticlockwise = !isAnticlockwise;
+            lineOfArc[sides * dot + arc] = strands.length;
+            const next = (arc + 1) % sides;
+            const entry = isAnticlockwise ? arc : next;
+            points.push(dots[dot].x + ways[entry][0] / 2, (dots[dot].level + ways[entry][1] / 2) * rise);
+            const exit: number = isAnticlockwise ? next : arc;
+            const gap: number = gapAt[sides * dot + exit];
+            if (gap < 0 || states[gap] === turned) {
+                arc = (arc + (isAnticlockwise ? 1 : sides - 1)) % sides;
             } else {
-                arc = (arc + (isAnticlockwise ? 1 : 3)) & 3;
+                dot = gaps[gap].from === dot ? gaps[gap].to : gaps[gap].from;
+                isAnticlockwise = (states[gap] === crossed) !== isAnticlockwise;
+                arc = (exit + sides / 2 + (isAnticlockwise ? 0 : sides - 1)) % sides;
             }
-        } while (!(4 * dot + arc === start && isAnticlockwise));
+        } while (!(sides * dot + arc === start && isAnticlockwise));
         strands.push(points);
     }
     return { strands, lineOfArc };
 }
 
-export function countLines(grid: DotGrid, states: Uint8Array): number {
-    return followLines(grid, states).strands.length;
+/// A number for each line; lines that the drawing's own symmetries take to each other share one, and a colour.
+export function lineOrbits(grid: DotGrid, states: Uint8Array, { strands, lineOfArc }: Lines): number[] {
+    const parents = strands.map((_, line) => line);
+    const first = (line: number): number => {
+        let at = line;
+        while (parents[at] !== at) at = parents[at];
+        return at;
+    };
+    grid.gapImages.forEach((images, isometry) => {
+        if (!states.every((state, gap) => state === states[images[gap]])) return;
+        grid.arcImages[isometry].forEach((image, arc) => {
+            const [a, b] = [first(lineOfArc[arc]), first(lineOfArc[image])];
+            parents[Math.max(a, b)] = Math.min(a, b);
+        });
+    });
+    const numbers = new Map<number, number>();
+    return parents.map((_, line) => {
+        const root = first(line);
+        if (!numbers.has(root)) numbers.set(root, numbers.size);
+        return numbers.get(root)!;
+    });
 }
 
-/// True if two different lines meet in a gap.
-export function joinsTwoLines(grid: DotGrid, states: Uint8Array, lines: Lines, index: number): boolean {
-    const { from, to, side } = grid.gaps[index];
-    const first = lines.lineOfArc[4 * from + side];
-    const second =
-        states[index] === crossed
-            ? lines.lineOfArc[4 * from + ((side + 3) & 3)]
-            : lines.lineOfArc[4 * to + ((side + 2) & 3)];
-    return first !== second;
+export function countLines(grid: DotGrid, states: Uint8Array): number {
+    return followLines(grid, states).strands.length;
 }

@@ -1,89 +1,133 @@
 // The kolam on the bench: a grid, the states of its gaps, and the symmetry that changes preserve.
-import type { DotGrid, Lines } from "./dot_grid";
-import { countLines, crossed, followLines, makeGrid, parseGrid } from "./dot_grid";
-import type { Symmetry } from "./symmetry";
-import { gapOrbits, hasSymmetry, symmetrised } from "./symmetry";
+import type { SymmetryName } from "../protocol";
+import type { DotGrid, GridSymmetry, Lines, Place } from "./dot_grid";
+import { agrees, countLines, crossed, followLines, joined, lineOrbits, no_grid, turned } from "./dot_grid";
+import { isSymmetric, symmetrised } from "./symmetry";
 
-const isEven = (value: number): boolean => value % 2 === 0;
+/// What a click steps through: crossed, turned back, joined.
+const next_state = [joined, turned, crossed];
+const state_before = [crossed, joined, turned];
+
+/// A change of gaps: to the next or the previous state, or to a certain one.
+export type Change = "next" | "previous" | number;
 
 export class Kolam {
-    grid: DotGrid;
-    states: Uint8Array;
-    symmetry: Symmetry = "none";
-    orbits: number[][];
-    lines: Lines;
-
-    constructor(text: string) {
-        this.grid = parseGrid(text);
-        this.states = new Uint8Array(this.grid.gaps.length).fill(crossed);
-        this.orbits = gapOrbits(this.grid, "none");
-        this.lines = followLines(this.grid, this.states);
-    }
+    grid: DotGrid = no_grid;
+    states = new Uint8Array(0);
+    lines: Lines = followLines(no_grid, this.states);
+    lineOrbits: number[] = []; // see lineOrbits()
+    symmetry: GridSymmetry = no_grid.symmetries[0];
+    /// The user has chosen the symmetry; otherwise it follows the drawing.
+    isChosen = false;
 
     get count(): number {
         return this.lines.strands.length;
     }
-    get crossings(): number {
-        return this.states.reduce((sum, state) => sum + (state === crossed ? 1 : 0), 0);
+    get orbits(): number[][] {
+        return this.symmetry.orbits;
+    }
+    get isJoined(): boolean {
+        return this.states.includes(joined);
+    }
+    countOf(state: number): number {
+        return this.states.reduce((sum, each) => sum + (each === state ? 1 : 0), 0);
+    }
+    symmetryNamed(name: SymmetryName): GridSymmetry | undefined {
+        return this.grid.symmetries.find((each) => each.name === name);
     }
 
-    /// Sets another grid with the states of its gaps; the symmetry stays if the grid has it.
+    /// Sets another grid with the states of its gaps. A chosen symmetry stays if the grid has it, any other if the
+    /// drawing has it.
     set(grid: DotGrid, states: Uint8Array): void {
+        const { name } = this.symmetry;
         this.grid = grid;
-        if (!hasSymmetry(grid, this.symmetry)) this.symmetry = "none";
-        this.orbits = gapOrbits(grid, this.symmetry);
+        const same = this.symmetryNamed(name);
+        this.isChosen &&= same !== undefined;
+        const stays = same && (this.isChosen || isSymmetric(same.orbits, states));
+        this.symmetry = stays ? same : grid.symmetries[grid.symmetries.length - 1];
         this.setStates(states);
     }
 
     setStates(states: Uint8Array): void {
         this.states = Uint8Array.from(states);
         this.lines = followLines(this.grid, this.states);
+        this.lineOrbits = lineOrbits(this.grid, this.states, this.lines);
+    }
+
+    stateAfter(gap: number, change: Change): number {
+        const state = this.states[gap];
+        return change === "next" ? next_state[state] : change === "previous" ? state_before[state] : change;
     }
 
     /// The states after changing a gap and its images under the symmetry.
-    after(gap: number): Uint8Array {
+    after(gap: number, change: Change): Uint8Array {
         const states = this.states.slice();
-        const state = 1 - states[gap];
+        const state = this.stateAfter(gap, change);
         for (const each of this.orbits[gap]) states[each] = state;
         return states;
     }
 
-    countAfter(gap: number): number {
-        return countLines(this.grid, this.after(gap));
+    countAfter(gap: number, change: Change): number {
+        return countLines(this.grid, this.after(gap, change));
     }
 
     /// Returns true if this changes the drawing.
-    setSymmetry(symmetry: Symmetry): boolean {
-        if (!hasSymmetry(this.grid, symmetry)) return false;
-        this.symmetry = symmetry;
-        this.orbits = gapOrbits(this.grid, symmetry);
-        const before = this.states.join("");
+    setSymmetry(name: SymmetryName, isChosen: boolean): boolean {
+        const found = this.symmetryNamed(name);
+        if (!found) return false;
+        this.symmetry = found;
+        this.isChosen = isChosen;
+        if (isSymmetric(this.orbits, this.states)) return false;
         this.setStates(symmetrised(this.orbits, this.states));
-        return this.states.join("") !== before;
+        return true;
     }
 
-    /// Gaps that both grids have keep their states, aligned at the centre or at the upper left corner.
-    setGrid(grid: DotGrid): void {
+    /// Gaps that both grids have keep their states: after editing in their places, otherwise aligned at the middle or
+    /// at the first dot.
+    setGrid(grid: DotGrid, isEdited: boolean): void {
         const old = this.grid;
-        const isCentred = isEven(grid.rows[0] - old.rows[0]) && isEven(grid.rows.length - old.rows.length);
-        const dx = isCentred ? 0 : grid.dots[0].x - old.dots[0].x;
-        const dy = isCentred ? 0 : grid.dots[0].y - old.dots[0].y;
-        const states = new Map(old.gaps.map((gap, i) => [`${gap.x + dx} ${gap.y + dy}`, this.states[i]]));
+        let shift: Place = isEdited ? grid.moved : { x: 0, level: 0 };
+        if (!agrees(old, grid, shift) && old.dots.length > 0) {
+            shift = { x: grid.dots[0].x - old.dots[0].x, level: grid.dots[0].level - old.dots[0].level };
+        }
+        const known = new Map<string, number>();
+        if (agrees(old, grid, shift)) {
+            old.gaps.forEach((gap, i) =>
+                known.set(`${gap.x + shift.x} ${gap.level + shift.level}`, this.states[i]),
+            );
+        }
         this.set(
             grid,
-            Uint8Array.from(grid.gaps, (gap) => states.get(`${gap.x} ${gap.y}`) ?? crossed),
+            Uint8Array.from(grid.gaps, (gap) => known.get(`${gap.x} ${gap.level}`) ?? crossed),
         );
         this.setStates(symmetrised(this.orbits, this.states));
     }
 
-    /// The grid with more or fewer rows and columns; rows of different lengths change by two dots each. Null if nothing
-    /// would be left. Throws an Error with a message for the user.
-    resized(rows: number, columns: number): DotGrid | null {
-        const old = this.grid.rows;
-        const isRectangle = old.every((row) => row === old[0]);
-        const widened = old.map((row) => row + columns * (isRectangle ? 1 : 2)).filter((row) => row > 0);
-        const last = widened[widened.length - 1];
-        const next = rows > 0 ? [...widened, last] : rows < 0 ? widened.slice(0, -1) : widened;
-        return next.length === 0 || next.length !== old.length + rows ? null : makeGrid(next);
+    /// The notation of a grid with more or fewer rows and columns. Rows of different lengths change by two dots, in
+    /// interlaced grids by one; a grid that is the same from above and below grows and shrinks at both ends. Null for
+    /// shapes with holes, and if nothing would be left.
+    resized(rows: number, columns: number): string | null {
+        const { grid } = this;
+        const isRectangle = grid.rows.every((row) => row === grid.rows[0]);
+        const step = isRectangle || grid.isTriangular ? 1 : 2;
+        let made = grid.rows.map((row) => row + columns * step);
+        if (!grid.isSolid || made.length === 0 || made.some((row) => row < 1)) return null;
+        if (isRectangle && !grid.isTriangular) {
+            if (rows > 0) made.push(made[0]);
+            else if (rows < 0) made.pop();
+        } else if (made.every((row, i) => row === made[made.length - 1 - i])) {
+            if (rows > 0) {
+                const end = made[0] > step ? made[0] - step : made[0];
+                made = [end, ...made.map((row) => row + end + step - made[0]), end];
+            } else if (rows < 0) {
+                made = made.slice(1, -1);
+            }
+        } else if (rows > 0) {
+            const [before, last] = made.slice(-2);
+            made.push(before < last ? last + step : last > step ? last - step : last + grid.sides / 2 - 2);
+        } else if (rows < 0) {
+            made.pop();
+        }
+        return made.length === 0 ? null : made.join(",");
     }
 }

@@ -1,6 +1,4 @@
-// Writes the kolam of the bench into the text of a pattern, and reads it back.
-import type { DotGrid } from "./dot_grid";
-import { gridText, parseCrossings, parseGrid } from "./dot_grid";
+// Reads the kolam of the bench from the text of a pattern, and keeps what the user edited there.
 
 const dots_line = "dots: 0.2 step #fffaf0";
 
@@ -9,29 +7,37 @@ export function withDots(text: string, hasDots: boolean): string {
     return hasDots ? `${text.trimEnd()}\n${dots_line}\n` : text;
 }
 
-export const kolamTitle = (grid: DotGrid): string => `Kolam on ${gridText(grid)} dots`;
-
 export interface ReadKolam {
-    grid: DotGrid;
-    states: Uint8Array;
+    grid: string; // its notation
+    gaps: string; // digits
     isColoured: boolean;
     hasDots: boolean;
 }
 
-/// The grid and its crossings, if the bench made the text.
+/// The grid and the states of its gaps, if the libraries made the text.
 export function readKolam(text: string): ReadKolam | null {
+    const found = comments(text) ?? olderComments(text);
+    if (!found) return null;
+    const palette = /^palette:(.*)$/m.exec(text)?.[1].trim().split(/\s+/) ?? [];
+    const hasDots = /^dots:(?!\s*none)/m.test(text);
+    return { ...found, isColoured: palette.length > 2, hasDots };
+}
+
+type Comments = Pick<ReadKolam, "grid" | "gaps">;
+
+function comments(text: string): Comments | null {
+    // Blanks in the drawing of a shape say how its rows are shifted, so only the one behind the colon is skipped.
+    const grid = /^\/\/ grid: (.*)$/m.exec(text);
+    const gaps = /^\/\/ gaps:([\d ]*)$/m.exec(text);
+    return grid && gaps && { grid: grid[1], gaps: gaps[1] };
+}
+
+/// Kolams made before there were interlaced grids name the grid only in the title.
+function olderComments(text: string): Comments | null {
     const title = /^title:.*?\bon ([\dx-]+) dots/m.exec(text);
     const crossings = /^\/\/ crossings:([\d ]*)$/m.exec(text);
-    if (!title || !crossings) return null;
-    try {
-        const grid = parseGrid(title[1]);
-        const states = parseCrossings(grid, crossings[1]);
-        const palette = /^palette:(.*)$/m.exec(text)?.[1].trim().split(/\s+/) ?? [];
-        const hasDots = /^dots:(?!\s*none)/m.test(text);
-        return states && { grid, states, isColoured: palette.length > 2, hasDots };
-    } catch {
-        return null; // the title was edited
-    }
+    // Numbers were rows from the top; two numbers with a dash now are the longest row and the last.
+    return title && crossings && { grid: title[1].replaceAll("-", ","), gaps: crossings[1] };
 }
 
 /// Keys that the bench writes; all others belong to the user.

@@ -1,33 +1,38 @@
 // The controls beside the board.
 import { button, element, icon } from "../elements";
-import { gridText } from "./dot_grid";
-import { counted } from "./gap_names";
+import type { SymmetryName } from "../protocol";
+import type { DotGrid } from "./dot_grid";
+import { crossed, joined, turned } from "./dot_grid";
+import { counted, statesTold } from "./gap_names";
 import type { Kolam } from "./kolam";
-import { hasSymmetry, symmetries, type Symmetry } from "./symmetry";
+import { presets } from "./presets";
+import { symmetry_labels } from "./symmetry";
 
-const shapes: [string, string[]][] = [
-    ["Squares", ["3x3", "4x4", "5x5", "6x6", "7x7", "9x9", "11x11", "15x15"]],
-    [
-        "Diamonds",
-        ["1-3-1", "1-3-5-3-1", "1-3-5-7-5-3-1", "1-3-5-7-9-7-5-3-1", "1-3-5-7-9-11-13-11-9-7-5-3-1", "2-4-6-6-4-2"],
-    ],
-    ["Octagons", ["3-5-5-5-3", "3-5-7-7-7-5-3", "5-7-9-11-11-11-11-11-9-7-5"]],
-    ["Other shapes", ["1-3-5-7", "1-3-5-7-9-11", "3-3-9-9-9-3-3", "5-1-5", "7-5-3-1-3-5-7", "4x7", "2x9"]],
+const symmetry_order: SymmetryName[] = [
+    ...(["none", "mirror-x", "mirror-y", "mirrors", "diagonal", "diagonals"] as const),
+    ...(["C2", "C3", "C4", "C6", "D3", "D3-y", "D4", "D6"] as const),
 ];
-
-const symmetry_icons: Record<Symmetry, string> = {
+const symmetry_icons: Record<SymmetryName, string> = {
     "none": "M4 4h8v8H4z",
     "mirror-x": "M8 2v12M5.5 5L2.5 8l3 3zM10.5 5l3 3-3 3z",
     "mirror-y": "M2 8h12M5 5.5l3-3 3 3zM5 10.5l3 3 3-3z",
     "mirrors": "M8 2v12M2 8h12",
+    "diagonal": "M3 13L13 3M4 8V4h4zM12 8v4H8z",
+    "diagonals": "M3 3l10 10M13 3L3 13",
     "C2": "M12.5 6A5 5 0 0 0 4 5M3.5 2.5V5H6M3.5 10a5 5 0 0 0 8.5 1M12.5 13.5V11H10",
+    "C3": "M8 8V2.5h3M8 8l4.8 2.7-1.5 2.6M8 8l-4.8 2.7-1.5-2.6",
     "C4": "M8 2.5h3.5V6M13.5 8v3.5H10M8 13.5H4.5V10M2.5 8V4.5H6",
+    "C6": "M8 8V2.5h2M8 8V13.5H6M8 8l4.8-2.7 1 1.7M8 8l4.8 2.7-1 1.7M8 8L3.2 10.7l-1-1.7M8 8L3.2 5.3l1-1.7",
+    "D3": "M8 1.5v13M2.4 4.8l11.2 6.4M13.6 4.8L2.4 11.2M8 4l3.5 6h-7z",
+    "D3-y": "M1.5 8h13M4.8 2.4l6.4 11.2M4.8 13.6l6.4-11.2M12 8l-6 3.5v-7z",
     "D4": "M8 1.5v13M1.5 8h13M3.5 3.5l9 9M12.5 3.5l-9 9",
+    "D6": "M8 1.5v13M1.5 8h13M4.8 2.4l6.4 11.2M4.8 13.6l6.4-11.2M2.4 4.8l11.2 6.4M13.6 4.8L2.4 11.2",
 };
 const dice_icon = "M3 3h10v10H3zM5.7 5.7h.01M10.3 5.7h.01M8 8h.01M5.7 10.3h.01M10.3 10.3h.01";
 const keys_text =
-    "Click a gap between two dots to cross the lines there or turn them back; drag to change several. "
-    + "On the board, the arrow keys select a gap and the space key changes it.";
+    "Click a gap between two dots: its lines cross, turn back, run past joined, and cross again; Shift goes backwards. "
+    + "Drag to change several gaps. On the board the arrow keys select a gap, the space key changes it, and C, T and J "
+    + "cross, turn back and join.";
 
 export interface Look {
     isColoured: boolean;
@@ -35,14 +40,18 @@ export interface Look {
     hasDots: boolean;
 }
 export interface Chances {
-    density: number;
+    density: number; // of crossed gaps
+    joined: number; // of the others
+    connects: boolean; // crosses further gaps until all dots are connected
     seed: number;
 }
+export const first_chances: Chances = { density: 0.7, joined: 0, connects: true, seed: 1 };
 
 export interface SideActs {
     resize(rows: number, columns: number): void;
     shape(text: string): void;
-    symmetry(symmetry: Symmetry): void;
+    check(text: string): void; // while it is typed
+    symmetry(symmetry: SymmetryName): void;
     single(): void;
     setAll(change: (state: number) => number): void;
     chances(chances: Chances): void;
@@ -52,6 +61,7 @@ export interface SideActs {
 export class Side {
     readonly element = element("aside", { class: "bench-side", "aria-label": "Kolam" });
     readonly certificate = element("p", { class: "bench-certificate" });
+    private readonly states = element("p", { class: "bench-states" });
     private readonly count = element("p", { class: "bench-count" });
     private readonly gridField = element("input", {
         type: "text",
@@ -60,28 +70,31 @@ export class Side {
         autocomplete: "off",
     });
     private readonly problem = element("p", { class: "note bench-problem", role: "alert", hidden: true });
+    private readonly gridFacts = element("p", { class: "bench-grid-facts", role: "status" });
+    private readonly steppers: HTMLButtonElement[] = [];
     private readonly rows = element("output", { class: "number" });
     private readonly columns = element("output", { class: "number" });
-    private readonly locks = new Map<Symmetry, HTMLButtonElement>();
+    private readonly locks = new Map<SymmetryName, HTMLButtonElement>();
     private readonly lockName = element("p", { class: "bench-lock-name" });
-    private readonly density = element("input", { type: "range", id: "bench-density", min: 0, max: 100, step: 1 });
-    private readonly densityText = element("output", { class: "number", for: "bench-density" });
+    private readonly density = shareSlider("density");
+    private readonly joined = shareSlider("joined");
+    private readonly connects = element("input", { type: "checkbox" });
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
     private readonly boxes = new Map<keyof Look, HTMLInputElement>();
     private kolam: Kolam | null = null;
     private counted: unknown = null; // the lines counted last
-    private chances: Chances = { density: 0.7, seed: 1 };
+    private chances = first_chances;
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
 
     constructor(private readonly acts: SideActs) {
         this.element.append(
-            element("div", { class: "bench-facts" }, this.count, this.certificate),
+            element("div", { class: "bench-facts" }, this.count, this.states, this.certificate),
             this.section("Grid of dots", ...this.gridControls()),
             this.section("Symmetry", this.lockControls(), this.lockName),
             this.section("Gaps", ...this.gapControls()),
             this.section(
                 "Look",
-                this.toggle("Each line in its own colour", "isColoured"),
+                this.toggle("Coloured lines", "isColoured"),
                 this.toggle("Fill alternate fields", "isFilled"),
                 this.toggle("Dots", "hasDots"),
             ),
@@ -95,44 +108,62 @@ export class Side {
 
     private gridControls(): HTMLElement[] {
         const { acts } = this;
+        const step = (label: string, act: () => void, path: string): HTMLElement => {
+            const made = button(label, act, { icon: path });
+            this.steppers.push(made);
+            return made;
+        };
         const stepper = (label: string, output: HTMLElement, act: (by: number) => void): HTMLElement =>
             element(
                 "div",
                 { class: "bench-stepper" },
                 element("span", { class: "label" }, label),
-                button(`Fewer ${label.toLowerCase()}`, () => act(-1), { icon: "M4 8h8" }),
+                step(`Fewer ${label.toLowerCase()}`, () => act(-1), "M4 8h8"),
                 output,
-                button(`More ${label.toLowerCase()}`, () => act(1), { icon: "M4 8h8M8 4v8" }),
+                step(`More ${label.toLowerCase()}`, () => act(1), "M4 8h8M8 4v8"),
             );
-        const groups = shapes.map(([label, texts]) => {
-            const options = texts.map((text) => element("option", { value: text }, text.replace("x", " × ")));
+        const groups = presets.map(([label, texts]) => {
+            const options = texts.map((each) => {
+                const [name, value] = typeof each === "string" ? [each, each] : each;
+                return element("option", { value }, name.replaceAll(/(?<=\d)x(?=\d)/g, " × "));
+            });
             return element("optgroup", { label }, ...options);
         });
-        const title = element("option", { value: "" }, "Shapes…");
-        const select = element("select", { "aria-label": "Shapes" }, title, ...groups);
+        const title = element("option", { value: "" }, "Grids…");
+        const select = element("select", { "aria-label": "Grids" }, title, ...groups);
         select.addEventListener("change", () => {
             if (select.value) acts.shape(select.value);
             select.value = "";
         });
         this.gridField.addEventListener("change", () => acts.shape(this.gridField.value));
-        const label = element("label", { for: "bench-grid" }, "Dots in each row");
+        this.gridField.addEventListener("paste", (event) => {
+            const text = event.clipboardData?.getData("text/plain") ?? "";
+            if (!/\n./.test(text)) return;
+            // The rows of a drawn shape: a field has no line feeds.
+            event.preventDefault();
+            this.gridField.value = text.replace(/\s+$/, "").replaceAll(/\r?\n/g, "/");
+            acts.check(this.gridField.value);
+        });
+        this.gridField.addEventListener("input", () => acts.check(this.gridField.value));
+        const label = element("label", { for: "bench-grid" }, "Name, or dots in each row");
         return [
+            element("div", { class: "bench-pair" }, element("div", { class: "field" }, label, this.gridField), select),
+            this.problem,
+            this.gridFacts,
             element(
                 "div",
                 { class: "bench-steppers" },
                 stepper("Rows", this.rows, (by) => acts.resize(by, 0)),
                 stepper("Columns", this.columns, (by) => acts.resize(0, by)),
             ),
-            element("div", { class: "bench-pair" }, element("div", { class: "field" }, label, this.gridField), select),
-            this.problem,
         ];
     }
 
     private lockControls(): HTMLElement {
-        const locks = symmetries.map(({ name, label }) => {
+        const locks = symmetry_order.map((name) => {
             const made = element(
                 "button",
-                { type: "button", class: "bench-lock", role: "radio", "aria-label": label, title: label },
+                { type: "button", class: "bench-lock", role: "radio", "aria-label": symmetry_labels[name], hidden: true },
                 icon(symmetry_icons[name]),
             );
             made.addEventListener("click", () => this.acts.symmetry(name));
@@ -143,12 +174,12 @@ export class Side {
         return element("div", { class: "bench-locks", role: "radiogroup", "aria-label": "Symmetry" }, ...locks);
     }
 
-    private moveLock(event: KeyboardEvent, name: Symmetry): void {
+    private moveLock(event: KeyboardEvent, name: SymmetryName): void {
         const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
         const { kolam } = this;
         if (by === undefined || !kolam) return;
         event.preventDefault();
-        const offered = symmetries.map((each) => each.name).filter((each) => hasSymmetry(kolam.grid, each));
+        const offered = symmetry_order.filter((each) => kolam.symmetryNamed(each));
         const next = offered[(offered.indexOf(name) + by + offered.length) % offered.length];
         this.acts.symmetry(next);
         this.locks.get(next)!.focus();
@@ -156,8 +187,12 @@ export class Side {
 
     private gapControls(): HTMLElement[] {
         const { acts } = this;
-        this.density.addEventListener("input", () => {
-            acts.chances({ ...this.chances, density: this.density.valueAsNumber / 100 });
+        for (const name of ["density", "joined"] as const) {
+            const { input } = this[name];
+            input.addEventListener("input", () => acts.chances({ ...this.chances, [name]: input.valueAsNumber / 100 }));
+        }
+        this.connects.addEventListener("change", () => {
+            acts.chances({ ...this.chances, connects: this.connects.checked });
         });
         this.seed.addEventListener("change", () => {
             const seed = Number(this.seed.value);
@@ -173,20 +208,19 @@ export class Side {
                 "div",
                 { class: "toolbar" },
                 button("Make a single line", () => acts.single(), { kind: "primary" }),
-                button("Cross all", () => acts.setAll(() => 1)),
-                button("Turn all back", () => acts.setAll(() => 0)),
-                button("Swap all", () => acts.setAll((state) => 1 - state)),
+                button("Cross all", () => acts.setAll(() => crossed)),
+                button("Turn all back", () => acts.setAll(() => turned)),
+                button("Join all", () => acts.setAll(() => joined)),
+                button("Swap", () =>
+                    acts.setAll((state) => (state === crossed ? turned : state === turned ? crossed : state)),
+                ),
             ),
             element(
                 "div",
                 { class: "bench-random" },
-                element(
-                    "div",
-                    { class: "slider bench-density" },
-                    element("label", { for: "bench-density" }, "Crossed"),
-                    this.density,
-                    this.densityText,
-                ),
+                shareRow("Crossed", this.density),
+                shareRow("Joined", this.joined),
+                element("label", { class: "switch" }, this.connects, "Connect all dots"),
                 element("div", { class: "bench-dice" }, seedLabel, this.seed, dice),
             ),
         ];
@@ -203,7 +237,17 @@ export class Side {
     refuse(message: string): void {
         this.problem.textContent = message;
         this.problem.hidden = false;
+        this.gridFacts.textContent = "";
         this.gridField.setAttribute("aria-invalid", "true");
+    }
+
+    /// Shows what the grid in the field would be, or is.
+    describe(grid: DotGrid): void {
+        const dots = counted(grid.dots.length, "dot");
+        const rows = grid.rows.length === 1 ? "one row" : `${grid.rows.length} rows`;
+        this.gridFacts.textContent = grid.dots.length === 0 ? "" : `${dots} in ${rows}, ${grid.isTriangular ? "interlaced (idukku)" : "straight (ner)"}`;
+        this.gridField.removeAttribute("aria-invalid");
+        this.problem.hidden = true;
     }
 
     update(kolam: Kolam, chances: Chances, look: Look): void {
@@ -214,26 +258,54 @@ export class Side {
             this.count.textContent = counted(count, "line");
             this.count.classList.toggle("single", count === 1);
             // Shown until the libraries have examined the kolam.
-            const gaps = `${kolam.crossings} of ${counted(grid.gaps.length, "gap")} crossed`;
-            this.certificate.textContent = `${counted(grid.dots.length, "dot")}, ${gaps}.`;
+            this.certificate.textContent = `${counted(count, "closed line")} around ${counted(grid.dots.length, "dot")}.`;
+            this.states.textContent = `${capital(statesTold(kolam))}.`;
         }
         this.rows.textContent = String(grid.rows.length);
-        this.columns.textContent = String(Math.max(...grid.rows));
-        this.gridField.value = gridText(grid);
-        this.gridField.removeAttribute("aria-invalid");
-        this.problem.hidden = true;
+        this.columns.textContent = String(Math.max(0, ...grid.rows));
+        for (const stepper of this.steppers) stepper.disabled = !grid.isSolid;
+        this.gridField.value = grid.text;
+        this.describe(grid);
         for (const [name, lock] of this.locks) {
-            lock.disabled = !hasSymmetry(grid, name);
-            lock.setAttribute("aria-checked", String(name === kolam.symmetry));
-            lock.tabIndex = name === kolam.symmetry ? 0 : -1;
+            const found = kolam.symmetryNamed(name);
+            const obstacle = kolam.isJoined ? found?.obstacleIfJoined : found?.obstacle;
+            lock.hidden = !found;
+            lock.title = obstacle ? `${symmetry_labels[name]} (${obstacle})` : symmetry_labels[name];
+            lock.setAttribute("aria-checked", String(name === kolam.symmetry.name));
+            lock.tabIndex = name === kolam.symmetry.name ? 0 : -1;
         }
-        this.lockName.textContent = symmetries.find(({ name }) => name === kolam.symmetry)!.label;
-        const percent = Math.round(chances.density * 100);
-        this.density.valueAsNumber = percent;
-        this.density.style.setProperty("--at", `${percent}%`);
-        this.density.setAttribute("aria-valuetext", `${percent} percent of the gaps`);
-        this.densityText.textContent = `${percent} %`;
+        this.lockName.textContent = symmetry_labels[kolam.symmetry.name];
+        showShare(this.density, chances.density, "of the gaps");
+        showShare(this.joined, chances.joined, "of the other gaps");
+        this.connects.checked = chances.connects;
         this.seed.value = String(chances.seed);
         for (const [name, box] of this.boxes) box.checked = look[name];
     }
 }
+
+interface ShareSlider {
+    input: HTMLInputElement;
+    output: HTMLOutputElement;
+}
+
+function shareSlider(name: string): ShareSlider {
+    const id = `bench-${name}`;
+    return {
+        input: element("input", { type: "range", id, min: 0, max: 100, step: 1 }),
+        output: element("output", { class: "number", for: id }),
+    };
+}
+
+function shareRow(label: string, { input, output }: ShareSlider): HTMLElement {
+    return element("div", { class: "slider bench-density" }, element("label", { for: input.id }, label), input, output);
+}
+
+function showShare({ input, output }: ShareSlider, share: number, whole: string): void {
+    const percent = Math.round(share * 100);
+    input.valueAsNumber = percent;
+    input.style.setProperty("--at", `${percent}%`);
+    input.setAttribute("aria-valuetext", `${percent} percent ${whole}`);
+    output.textContent = `${percent} %`;
+}
+
+export const capital = (text: string): string => `${text.slice(0, 1).toUpperCase()}${text.slice(1)}`;
