@@ -103,6 +103,14 @@ void set_animation(DrawSettings& settings, const std::string& text) {
     settings.animation = seconds;
 }
 
+void set_lesson(DrawSettings& settings, const std::string& text) {
+    double seconds = 3;
+    if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
+        refuse_option("lesson", text, "expected seconds for each stroke, 0.1 to 600");
+    }
+    settings.lesson = seconds;
+}
+
 /// Parses `SPACING`, followed by `ANGLE` and `cross` in either order.
 void set_hatch(DrawSettings& settings, const std::string& text) {
     Hatch& hatch = settings.hatch.emplace();
@@ -285,6 +293,15 @@ const std::array own_rows = {
                .group = kolams,
                .unit = "s"},
               set_animation},
+    Option<S>{{.name = "lesson",
+               .help = "drawing lesson: the dots, then stroke after stroke as a hand draws them, with numbers and "
+                       "arrows; pages of a PDF, an animated SVG or .gif with so many seconds per stroke (3), or the "
+                       "cells of a picture",
+               .value = "[SECONDS]",
+               .group = kolams,
+               .unit = "s",
+               .is_alone = true},
+              set_lesson},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
                        "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
@@ -530,7 +547,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     Diagnostics diagnostics;
     Style style = read_style(drawn.pattern(), settings.dpi, diagnostics);
     diagnostics.throw_if_errors();
-    if ((settings.dots || settings.dot_spacing) && !style.dots) style.dots.emplace();
+    if ((settings.dots || settings.dot_spacing || settings.lesson) && !style.dots) style.dots.emplace();
     return style;
 }
 
@@ -567,6 +584,7 @@ void check_model(const DrawSettings& settings) {
                   {settings.frame_time.has_value(), "frame-time", reason},
                   {settings.hold.has_value(), "hold", reason},
                   {settings.fit_frames, "fit-frames", reason},
+                  {settings.lesson.has_value(), "lesson", reason},
                   {settings.border, "border", reason},
                   {settings.colours_strokes, "colour-by", reason},
                   {settings.press.marks, "marks", reason},
@@ -604,17 +622,49 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
                   {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
 }
 
+void check_gif(const DrawSettings& settings) {
+    constexpr const char* screen = "does not apply to a .gif, which is shown on screens";
+    refuse_first({{settings.press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
+    const PixelSize size = pixel_size(settings.page, settings.dpi);
+    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
+        refuse_option(
+            "dpi", fmt::format("{:g}", settings.dpi),
+            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
+    }
+}
+
+void check_lesson(const DrawSettings& settings, PrintFormat format) {
+    if (!settings.lesson) return;
+    constexpr const char* alone = "cannot be combined with 'lesson', which has its own pages and order";
+    refuse_first({{settings.plotter || is_for_plotters(format), "lesson",
+                   "a lesson has colours, numbers and several steps; a plot is one drawing"},
+                  {settings.generations.has_value(), "generations", alone},
+                  {settings.tile.has_value(), "tile", alone},
+                  {settings.window.has_value(), "window", alone},
+                  {settings.animation.has_value(), "animate", alone},
+                  {settings.only_dots, "dots", alone},
+                  {settings.border, "border", "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.press.bleed > 0, "bleed", "the pages of a lesson are not trimmed"},
+                  {settings.press.marks, "marks", "the pages of a lesson are not trimmed"}});
+    if (is_vector(format) || format == PrintFormat::gif) return;
+    constexpr const char* filled = "each step of a lesson is scaled to fill its cell of the picture";
+    refuse_first(
+        {{settings.step.has_value(), "step", filled}, {settings.dot_spacing.has_value(), "dot-spacing", filled}});
+}
+
 void check_growth(const DrawSettings& settings, PrintFormat format) {
     const bool is_gif = format == PrintFormat::gif;
     const bool is_sheet = settings.generations && !is_gif && !settings.frames;
-    const Press& press = settings.press;
     refuse_first(
-        {{is_gif && !settings.generations, "generations", "needed for a .gif, an animation of growth: A:B"},
+        {{is_gif && !settings.generations && !settings.lesson, "generations",
+          "needed for a .gif, an animation of growth: A:B"},
          {settings.frames && !settings.generations, "frames", "needs 'generations'"},
          {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
+         {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
          {settings.frame_time && !is_gif, "frame-time", "applies only to a .gif"},
          {settings.hold && !is_gif, "hold", "applies only to a .gif"},
          {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
+    if (is_gif) check_gif(settings);
     if (!settings.generations) return;
     const auto [first, last] = *settings.generations;
     const std::int64_t most = is_sheet ? 100 : most_frames;
@@ -632,15 +682,6 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
               "a sheet of generations cannot be cut into tiles; 'frames' cuts each generation"},
              {settings.step.has_value(), "step", filled},
              {settings.dot_spacing.has_value(), "dot-spacing", filled}});
-    }
-    if (!is_gif) return;
-    constexpr const char* screen = "does not apply to a .gif, which is shown on screens";
-    refuse_first({{press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
-    const PixelSize size = pixel_size(settings.page, settings.dpi);
-    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
-        refuse_option(
-            "dpi", fmt::format("{:g}", settings.dpi),
-            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
     }
 }
 
@@ -667,6 +708,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
                   {settings.window && settings.border, "border",
                    "a border frames the whole drawing; a window shows only part of it"},
                   {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
+    check_lesson(settings, format);
     check_growth(settings, format);
 }
 

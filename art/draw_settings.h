@@ -48,6 +48,7 @@ struct DrawSettings {
     std::optional<double> hold;        ///< minimum display time of the last generation
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
+    std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;          ///< sheet of a tiled print
     std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
     bool plotter = false;

@@ -4,6 +4,7 @@
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
 #include "art/drawing/growth.h"
+#include "art/drawing/lesson.h"
 #include "art/image/image_file.h"
 #include "art/print_cell.h"
 #include "art/raster/raster.h"
@@ -88,7 +89,7 @@ public:
 private:
     Cost forecast(const Grammar& grammar) const;
     bool is_model() const { return info(format_).kind == FormatKind::model; }
-    bool is_growth() const { return format_ == PrintFormat::gif || settings_.frames; }
+    bool is_growth() const { return (format_ == PrintFormat::gif && !settings_.lesson) || settings_.frames; }
 
     std::string made_with(const Grammar& grammar) const {
         std::string own;
@@ -131,6 +132,7 @@ private:
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
         if (settings_.border) refuse("border", plane);
+        if (settings_.lesson) refuse("lesson", plane);
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
         if (settings_.tile && !is_vector(format_))
@@ -157,7 +159,12 @@ private:
                     Made& made);
     void make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                      Made& made);
-    void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options);
+    void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                    const std::vector<SheetCell>& cells);
+    std::vector<SheetCell> generation_cells() const;
+    std::vector<SheetCell> lesson_cells(const DrawOptions& options) const;
+    void make_lesson(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                     Made& made);
     void make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                     Made& made);
 
@@ -191,12 +198,31 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     }
 }
 
-/// Makes a sheet of several generations side by side.
-void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options) {
-    if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
+std::vector<SheetCell> PrintWork::generation_cells() const {
     const auto [first, last] = *settings_.generations;
     SheetCell cell = print_cell(document_, settings_);
     cell.may_be_empty = true;
+    return generations(cell, first, last);
+}
+
+/// A cell for each step; without dots, the first step is left out.
+std::vector<SheetCell> PrintWork::lesson_cells(const DrawOptions& options) const {
+    DrawOptions drawing = options;
+    drawing.begin = nullptr;
+    const LessonLength length = lesson_length(document_.grammar(), print_, drawing);
+    std::vector<SheetCell> cells;
+    for (std::size_t step = length.first; step < length.count; ++step) {
+        SheetCell& cell = cells.emplace_back(print_cell(document_, settings_));
+        cell.lesson_step = step;
+        cell.caption = {step == 0 ? "dots" : step + 1 == length.count ? "whole" : std::to_string(step)};
+    }
+    return cells;
+}
+
+/// Makes a sheet of drawings side by side.
+void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                           const std::vector<SheetCell>& cells) {
+    if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     SheetOptions sheet;
     sheet.format = options.format;
     sheet.page = print_.page;
@@ -213,7 +239,20 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.compression = options.compression;
     sheet.monitor = options.monitor;
     sheet.watch = options.watch;
-    draw_sheet(generations(cell, first, last), sheet, name, destination);
+    draw_sheet(cells, sheet, name, destination);
+}
+
+void PrintWork::make_lesson(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                            Made& made) {
+    if (info(format_).kind == FormatKind::pixels)
+        return make_sheet(destination, name, options, lesson_cells(options));
+    LessonOptions lesson;
+    lesson.seconds = *settings_.lesson * 2 / 3;
+    lesson.pause = *settings_.lesson / 3;
+    lesson.hold = settings_.hold.value_or(lesson.hold);
+    const DrawReport report = draw_lesson(document_.grammar(), print_, options, lesson, name, destination);
+    if (report.dots == 0) made.warn("the lesson has no page of dots: the lines enclose none");
+    if (report.overflows) made.warn("the drawing is larger than the page within its margins and is cut off");
 }
 
 void PrintWork::make_print(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -274,8 +313,10 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
         make_model(destination, name, options, made);
     } else if (is_growth()) {
         make_growth(destination, name, options, made);
+    } else if (settings_.lesson) {
+        make_lesson(destination, name, options, made);
     } else if (settings_.generations) {
-        make_sheet(destination, name, options);
+        make_sheet(destination, name, options, generation_cells());
     } else {
         make_print(destination, name, options, made);
     }
@@ -289,6 +330,7 @@ DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {
     const char* const why = "makes several pictures or sheets; only one picture can be drawn in memory";
     if (settings_.generations) refuse_option("generations", "", why);
     if (settings_.tile) refuse_option("tile", "", why);
+    if (settings_.lesson) refuse_option("lesson", "", why);
     constexpr std::size_t bytes_of_pixel = 4;
     DrawnPixels pixels;
     drawing_.show_pixels = [&](Rendering& rendering, const PixelSize& size) {

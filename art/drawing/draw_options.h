@@ -33,8 +33,9 @@ struct DrawingOptions {
     bool may_be_empty = false;     ///< a drawing without lines gives an empty page, as for one of several generations
     bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
     bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
-    bool border = false;           ///< add a frame of red earth within the margins: see draw_border()
-    double budget = 200e6;         ///< maximum number of derivation nodes visited in one pass
+    std::optional<std::size_t> lesson_step;  ///< show this step of a lesson, from 0: see LessonDrawing
+    bool border = false;                     ///< add a frame of red earth within the margins: see draw_border()
+    double budget = 200e6;                   ///< maximum number of derivation nodes visited in one pass
 };
 
 struct DrawOptions : DrawingOptions {

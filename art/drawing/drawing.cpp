@@ -2,6 +2,7 @@
 
 #include "art/drawing/composition.h"
 #include "art/drawing/hand_drawing.h"
+#include "art/drawing/lesson_drawing.h"
 #include "art/drawing/seen_drawing.h"
 #include "art/drawing/word_drawing.h"
 #include "art/print/clip.h"
@@ -92,9 +93,13 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
     } else {
         drawing = std::move(lines);
     }
-    if (!(style.hand > 0)) return drawing;
-    if (shared->is_spatial()) throw std::runtime_error("lines drawn by hand apply only to drawings in the plane");
-    return std::make_unique<HandDrawing>(std::move(drawing), shared->seed(), options);
+    if (!(style.hand > 0) && !options.lesson_step) return drawing;
+    if (shared->is_spatial()) {
+        throw std::runtime_error("lines drawn by hand and lessons apply only to drawings in the plane");
+    }
+    auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), shared->seed(), options);
+    if (!options.lesson_step) return by_hand;
+    return std::make_unique<LessonDrawing>(std::move(by_hand), options);
 }
 
 }  // namespace sikku

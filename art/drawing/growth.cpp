@@ -1,8 +1,8 @@
 #include "art/drawing/growth.h"
 
 #include "art/drawing/drawing.h"
+#include "art/drawing/gif_file.h"
 #include "art/image/image_file.h"
-#include "art/print/recipe_comments.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
@@ -11,7 +11,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -79,70 +78,22 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
     return result;
 }
 
-/// Adds the recipe as a comment before the trailer of a GIF file. Source: GIF 89a, section 24.
-void add_recipe(const std::filesystem::path& file, const Print& print) {
-    const std::vector<std::string> pieces = recipe_comments(print.pattern, print.made);
-    if (pieces.empty()) return;
-    std::string comment = "\x21\xFE";
-    for (const std::string& piece : pieces) {
-        comment += static_cast<char>(piece.size() + 1);
-        comment += piece + "\n";
-    }
-    comment += '\0';
-    comment += ';';
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekg(-1, std::ios::end);
-    if (stream.get() != ';') throw std::runtime_error("the animation has no trailer");
-    stream.seekp(-1, std::ios::end);
-    stream.write(comment.data(), static_cast<std::streamsize>(comment.size()));
-    stream.close();
-    if (!stream) throw std::runtime_error("the recipe cannot be added");
-}
-
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
     // All generations are read as words, so the largest is checked before the first is drawn.
     require_affordable(generation_of(grammar, growth.last), true, options.budget);
-    const PixelSize size = pixel_size(given.page, given.dpi);
-    const auto opened = destination.open(file);
-    Output& output = *opened;
-    std::unique_ptr<AnimationWriter> animation;
-    const auto named = [&](auto&& action) {
-        try {
-            return action();
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error("cannot write '" + file.string() + "': " + error.what());
-        }
-    };
-    named([&] { animation = open_animation(output.temporary(), size.width, size.height); });
+    const auto output = destination.open(file);
+    GifFile gif(given, options, *output, file);
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         Print print = given;
         const auto drawing =
             make_drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
         report = drawing->place(print);
         print.style = drawing->style();
-        print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
-        print.style.ground->alpha = 255;
-        const auto rendering = drawing->rendering(print);
-        const auto channels = static_cast<std::size_t>(rendering->channels());
-        std::vector<std::uint8_t> pixels;
-        pixels.reserve(std::size_t(size.width) * std::size_t(size.height) * 3);
-        rendering->render(options.threads, [&](int, int, std::span<const std::uint8_t> rows) {
-            if (options.watch) options.watch(0);
-            for (std::size_t i = 0; i + channels <= rows.size(); i += channels) {
-                for (std::size_t channel = 0; channel < 3; ++channel) {
-                    pixels.push_back(rows[i + (channels < 3 ? 0 : channel)]);
-                }
-            }
-        });
-        const double seconds = n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds;
-        named([&] { animation->frame(pixels, seconds); });
+        gif.frame(*drawing, print, n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds);
     }
-    named([&] {
-        animation->close();
-        add_recipe(output.temporary(), given);
-    });
-    output.commit();
+    gif.close();
+    output->commit();
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ HandDrawing::HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, c
     hand_.seed = seed;
     hand_.monitor = options.monitor;
     // Outlines are filled in the colours of lines.
-    if (style_.fill_colour({}) != style_.line_colour({})) style_.palette.push_back(style_.line_colour({}));
+    if (hand_.strength > 0 && style_.fill_colour({}) != style_.line_colour({}))
+        style_.palette.push_back(style_.line_colour({}));
 }
 
 const DrawnExtent& HandDrawing::seen() {
@@ -58,18 +59,25 @@ const DrawnExtent& HandDrawing::seen() {
     return *extent_;
 }
 
-HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathSink& fills) const {
+HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathSink& fills,
+                                 std::vector<LessonStep>* steps) const {
     const double step = print.placement.step;
     HandGatherer gatherer(fills, print.style, step, options_.budget / nodes_of_curve);
     OldColours coloured(gatherer, drawn_);
     drawing_->read(print, window, coloured);
     HandStrokes strokes{std::move(gatherer.gathered), std::move(gatherer.dots)};
     order_by_hand(strokes.lines);
+    if (steps) *steps = lesson_steps(strokes.lines);
     draw_by_hand(strokes.lines, strokes.dots, hand_);
     return strokes;
 }
 
 void HandDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    if (!(hand_.strength > 0)) {
+        OldColours coloured(sink, drawn_);
+        drawing_->read(print, window, coloured);
+        return;
+    }
     const HandStrokes strokes = this->strokes(print, window, sink);
     if (options_.plot || is_for_plotters(options_.format)) {
         read_middles(strokes, sink);
@@ -130,6 +138,7 @@ void HandDrawing::read_outlines(const Print& print, const HandStrokes& strokes, 
 }
 
 std::unique_ptr<Rendering> HandDrawing::rendering(const Print& print, const Window& window) const {
+    if (!(hand_.strength > 0)) return Drawing::rendering(print, window);
     auto raster = make_raster(print);
     const HandStrokes strokes = this->strokes(print, window, *raster);
     const double pixels = print.placement.step * print.dpi / 25.4;  // of a step

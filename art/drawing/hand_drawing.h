@@ -3,6 +3,7 @@
 
 #include "art/drawing/drawing.h"
 #include "art/hand/hand.h"
+#include "art/hand/lesson_steps.h"
 
 #include <cstdint>
 #include <memory>
@@ -34,8 +35,11 @@ public:
     std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
     void report(DrawReport& report) const override { drawing_->report(report); }
 
+    /// The strokes of a placed print. Fills pass on to a sink. @param steps  if not null, receives those of a lesson
+    HandStrokes strokes(const Print& print, const Window& window, PathSink& fills,
+                        std::vector<LessonStep>* steps = nullptr) const;
+
 private:
-    HandStrokes strokes(const Print& print, const Window& window, PathSink& fills) const;
     void read_middles(const HandStrokes& strokes, PathSink& sink) const;
     void read_outlines(const Print& print, const HandStrokes& strokes, PathSink& sink) const;
 

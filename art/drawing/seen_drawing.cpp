@@ -126,7 +126,7 @@ double most_nodes(PixelSize size, double budget) {
 
 /// True if more is to be drawn than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
-    return style.dots || style.hand > 0 || options.border || options.colours_strokes || options.plot || options.tiles ||
+    return style.dots || style.hand > 0 || options.lesson_step || options.border || options.colours_strokes || options.plot || options.tiles ||
            options.format == PrintFormat::hpgl || options.format == PrintFormat::gcode;
 }
 
@@ -258,7 +258,7 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
     double drawn = cost.kept_memory;
     if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
-    if (print.style.hand > 0) drawn += cost.lines * hand_line_bytes;
+    if (print.style.hand > 0 || options.lesson_step) drawn += cost.lines * hand_line_bytes;
     if (options.plot) drawn += cost.lines * plot_passes(print, *options.plot) * plot_line_bytes;
     if (is_vector(options.format)) {
         cost.memory = writer_bytes + drawn;

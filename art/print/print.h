@@ -13,6 +13,15 @@
 
 namespace sikku {
 
+/// One step of a lesson that an SVG shows, and when.
+struct LessonPart {
+    int number = 0;                   ///< from 0
+    int of = 1;                       ///< number of steps, the last of which stays
+    double seconds = 3.0;             ///< display time of each
+    double drawing = 2.0;             ///< seconds in which its new lines are drawn
+    int first_new = 0, last_new = 0;  ///< indices of the colours of new lines
+};
+
 /// A print about to be made. Writers keep it by reference and must not outlive it.
 struct Print {
     Page page;
@@ -25,6 +34,7 @@ struct Print {
     std::optional<int> travel_colour;  ///< index of the colour that shows pen-up travel
     bool is_plot = false;              ///< mark layers that no pen draws
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
+    std::optional<LessonPart> lesson;  ///< of a part of an SVG: see PrintWriter::begin_part()
     Press press;                       ///< settings for the print shop
 };
 

@@ -121,6 +121,17 @@ constexpr std::string_view falling =
     "@keyframes fall { from { visibility: hidden } }\n"
     "@media (prefers-reduced-motion: reduce) { .f { animation: none } }\n";
 
+/// Shows the steps of a lesson one after the other and draws their new lines.
+constexpr std::string_view lesson_style =
+    ".s { visibility: hidden; animation: step var(--step) linear calc(var(--i) * var(--step)) }\n"
+    ".w { animation: wait calc(var(--i) * var(--step)) linear }\n"
+    ".n { animation: draw var(--drawing) linear calc(var(--i) * var(--step)) backwards }\n"
+    "@keyframes step { from, to { visibility: visible } }\n"
+    "@keyframes wait { from, to { visibility: hidden } }\n"
+    "@keyframes draw { from { stroke-dasharray: 1 2; stroke-dashoffset: 1.001 } "
+    "to { stroke-dasharray: 1 2; stroke-dashoffset: 0 } }\n"
+    "@media (prefers-reduced-motion: reduce) { .s, .w, .n { animation: none } }\n";
+
 class Writer final : public VectorWriter<Layer> {
 public:
     Writer(const Print& print, Output& file) : VectorWriter(print, file) {
@@ -135,9 +146,10 @@ public:
             fmt::format("x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", decimal(window.left, 4),
                         decimal(window.top, 4), decimal(window.width, 4), decimal(window.height, 4));
         if (window.clips) file_.write(fmt::format("<clipPath id=\"window{}\"><rect {}/></clipPath>\n", parts_, box));
-        file_.write(fmt::format(
-            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}>\n<title>{}</title>\n", xml_escaped(part.title),
-            window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "", xml_escaped(part.title)));
+        file_.write(fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}{}>\n<title>{}</title>\n",
+                                xml_escaped(part.title),
+                                window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "",
+                                step_class(part.lesson), xml_escaped(part.title)));
         write_ground(part.style.ground, box);
         take_part(part, window);
         body_begin_ = file_.size();
@@ -147,6 +159,7 @@ public:
     void finish() override {
         end_part();
         if (print_.animation) write_animation();
+        if (lesson_) write_lesson();
         file_.write("</svg>\n");
     }
 
@@ -218,6 +231,24 @@ private:
                         "@media (prefers-reduced-motion: reduce) {{ path[pathLength] {{ animation: none }} }}\n"
                         "{}</style>\n",
                         decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9), has_falling_ ? falling : ""));
+    }
+
+    /// The step that a part is, and the class of its group: `s`, seen for a while, or `w`, the last, which stays.
+    std::string step_class(const std::optional<LessonPart>& lesson) {
+        if (!lesson) return "";
+        lesson_ = lesson;
+        return fmt::format(" class=\"{}\" style=\"--i:{}\"", lesson->number + 1 < lesson->of ? 's' : 'w',
+                           lesson->number);
+    }
+
+    /// Readers that know no animation show the last step.
+    void write_lesson() {
+        file_.write(fmt::format("<style>\n:root {{ --step: {}s; --drawing: {}s }}\n{}</style>\n",
+                                decimal(lesson_->seconds, 3), decimal(lesson_->drawing, 3), lesson_style));
+    }
+
+    bool is_new_line() const {
+        return part_->lesson && slot_ >= part_->lesson->first_new && slot_ <= part_->lesson->last_new;
     }
 
     struct LayerText {
@@ -327,7 +358,7 @@ private:
 
     void write_start() override {
         if (layer_->path_open &&
-            (print_.animation || layer_->strokes < single_strokes || layer_->path_width != width_ ||
+            (print_.animation || is_new_line() || layer_->strokes < single_strokes || layer_->path_width != width_ ||
              layer_->position() - layer_->path_begin > shared_path_bytes)) {
             end_path(*layer_);
         }
@@ -402,6 +433,9 @@ private:
                                             decimal(drawn_length_, 3), decimal(piece_length_, 3)));
             layer_->path_open = false;
             drawn_length_ += piece_length_;
+        } else if (is_new_line() && layer_->path_open) {
+            layer_->text.append("\" pathLength=\"1\" class=\"n\"/>\n");
+            layer_->path_open = false;
         }
     }
 
@@ -442,9 +476,10 @@ private:
     std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
     bool streaming_ = false;
     int parts_ = 0;
-    bool has_falling_ = false;    ///< pieces of lines drawn by hand
-    double piece_length_ = 0.0;  ///< of an animated print, in millimetres
-    double drawn_length_ = 0.0;  ///< of all its pieces so far
+    std::optional<LessonPart> lesson_;  ///< the last one
+    bool has_falling_ = false;          ///< pieces of lines drawn by hand
+    double piece_length_ = 0.0;         ///< of an animated print, in millimetres
+    double drawn_length_ = 0.0;         ///< of all its pieces so far
     Micrometres piece_start_;
     PathData data_{Micrometres{}};
 };

@@ -65,6 +65,7 @@ std::vector<Feature> features() {
             {"rotation", kolam, {}, {{"rotate", "30"}}, {}},
             {"step", kolam, {}, {{"step", "3mm"}}, {}},
             {"animation", kolam, {}, {{"animate", "5"}}, {}},
+            {"lesson", kolam, {}, {{"lesson", ""}}, {}},
             {"plotter", shape, {}, {{"plotter", "true"}}, {}},
             {"hatching",
              leaf,

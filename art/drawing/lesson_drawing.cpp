@@ -1,0 +1,259 @@
+#include "art/drawing/lesson_drawing.h"
+
+#include "art/print/lettering.h"
+#include "art/print/ornaments.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr double pale_share = 0.62;                        // of the ground in earlier lines
+constexpr double arrow_loops = 3.5;                        // between two arrow heads
+constexpr double least_letters = 2.6, most_letters = 9.0;  // millimetres
+constexpr double caption_letters = 3.2;
+constexpr double stem = 0.13;  // of letters, by their height
+constexpr double halo = 0.6;   // around them, by their stem, on either side
+
+Colour mixed(Colour a, Colour b, double share) {
+    const auto channel = [&](std::uint8_t from, std::uint8_t to) {
+        return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
+    };
+    return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue), a.alpha};
+}
+
+/// Adds a colour above all others. Equal colours share a layer, so that it becomes another one that looks the same.
+void add_layer(Style& style, Colour colour) {
+    const int step = colour.blue < 128 ? 1 : -1;
+    const auto is_known = [&] {
+        return std::any_of(style.palette.begin(), style.palette.end(),
+                           [&](Colour other) { return other == colour; }) ||
+               style.line_colour({}) == colour;
+    };
+    while (is_known()) colour.blue = static_cast<std::uint8_t>(colour.blue + step);
+    style.palette.push_back(colour);
+}
+
+/// Takes points in millimetres of the page, y up from its top left corner.
+class OnPage : public PathFilter {
+public:
+    OnPage(PathSink& sink, const Print& print)
+        : Forwarding(sink),
+          back_(glm::inverse(glm::dmat2x2(print.placement.to_page[0], print.placement.to_page[1]))),
+          origin_(print.placement.to_page[2]) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(drawn(start), pen); }
+    void lines(std::span<const glm::dvec2> ends) override { sink_.lines(drawn(ends)); }
+    void curves(std::span<const glm::dvec2> controls) override { sink_.curves(drawn(controls)); }
+
+private:
+    glm::dvec2 drawn(glm::dvec2 point) const { return back_ * (glm::dvec2(point.x, -point.y) - origin_); }
+    std::span<const glm::dvec2> drawn(std::span<const glm::dvec2> points) {
+        points_.clear();
+        for (const glm::dvec2 point : points) points_.push_back(drawn(point));
+        return points_;
+    }
+
+    glm::dmat2x2 back_;
+    glm::dvec2 origin_;
+    std::vector<glm::dvec2> points_;
+};
+
+glm::dvec2 unit(glm::dvec2 way) {
+    const double length = glm::length(way);
+    return length > 0 ? way / length : glm::dvec2(1.0, 0.0);
+}
+
+/// A pen of that width in millimetres.
+Pen pen_of(const Print& print, double millimetres, int colour) {
+    const StrokeWidth& stroke = print.style.stroke;
+    return {millimetres / (stroke.in_steps ? print.placement.step : 1.0) / stroke.unit, true, colour};
+}
+
+/// The colour that stands out most from the ground and the lines.
+Colour sign_colour(const Style& style, Colour ground) {
+    constexpr std::array<Colour, 5> known = {{{0xf2, 0xb6, 0x32, 255},
+                                              {0xd5, 0x5e, 0x00, 255},
+                                              {0x00, 0x72, 0xb2, 255},
+                                              {0x56, 0xb4, 0xe9, 255},
+                                              {0xc2, 0x1e, 0x56, 255}}};
+    Colour best = known[0];
+    double most = -1;
+    for (const Colour colour : known) {
+        const double distance =
+            std::min(colour_distance(colour, ground), colour_distance(colour, style.line_colour({})));
+        if (distance > most + 1e-9) {
+            most = distance;
+            best = colour;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+struct LessonDrawing::Lesson {
+    HandStrokes strokes;
+    std::vector<LessonStep> steps;
+    bool has_dots() const { return !strokes.dots.empty(); }
+};
+
+LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOptions& options)
+    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
+    options_.placement.step = drawing_->fixed_step();
+    step_ = options.lesson_step.value_or(0);
+    const Colour white{255, 255, 255, 255};
+    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : white;
+    const int colours = static_cast<int>(drawn_.palette.size());
+    pale_begin_ = colours;
+    new_begin_ = 2 * colours;
+    halo_ = 3 * colours;
+    sign_ = halo_ + 1;
+    for (int i = 0; i < colours; ++i) add_layer(style_, mixed(drawn_.line_colour({.colour = i}), ground, pale_share));
+    for (int i = 0; i < colours; ++i) add_layer(style_, drawn_.line_colour({.colour = i}));
+    add_layer(style_, {ground.red, ground.green, ground.blue, 255});
+    add_layer(style_, sign_colour(drawn_, ground));
+}
+
+LessonDrawing::Lesson LessonDrawing::lesson(const Print& print, const Window& window, PathSink& fills) const {
+    Lesson lesson;
+    lesson.strokes = drawing_->strokes(print, window, fills, &lesson.steps);
+    return lesson;
+}
+
+std::size_t LessonDrawing::count(const Print& print) const {
+    Print small = print;
+    small.dpi = 1;
+    const auto nowhere = make_raster(small);
+    return lesson(print, whole_page(print.page), *nowhere).steps.size() + 2;
+}
+
+void LessonDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    const Lesson lesson = this->lesson(print, window, sink);
+    if (step_ > lesson.steps.size()) {
+        drawing_->read(print, window, sink);
+        return;
+    }
+    std::size_t number = 0;
+    for (const LessonStep& step : lesson.steps) {
+        if (++number > step_) break;
+        for (const Stretch& stretch : step) {
+            HandLine line = part_of(lesson.strokes.lines[stretch.line], stretch);
+            if (number == step_ && share_ < 1) line = beginning_of(line, share_);
+            draw_stretch(line, (number == step_ ? new_begin_ : pale_begin_) + drawn_.index(line.pen), sink);
+        }
+    }
+    for (const HandDot& dot : lesson.strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
+    draw_signs(print, window, lesson, sink);
+}
+
+std::unique_ptr<Rendering> LessonDrawing::rendering(const Print& print, const Window& window) const {
+    auto raster = make_raster(print);
+    if (const Lesson lesson = this->lesson(print, window, *raster); step_ > lesson.steps.size()) {
+        return drawing_->rendering(print, window);
+    }
+    return Drawing::rendering(print, window);
+}
+
+void LessonDrawing::draw_stretch(const HandLine& line, int colour, PathSink& sink) const {
+    const std::vector<glm::dvec2> controls = hand_middle(line);
+    if (controls.empty()) return;
+    Pen pen = line.pen;
+    pen.colour = colour;
+    sink.begin_stroke(line.nodes.front().at, pen);
+    sink.curves(controls);
+    sink.end_stroke(false);
+}
+
+/// Start marks, arrow heads, numbers, and the number of the step among all.
+void LessonDrawing::draw_signs(const Print& print, const Window& window, const Lesson& lesson, PathSink& sink) const {
+    const double step_length = print.placement.step;
+    OnPage page(sink, print);
+    const auto write = [&](const std::string& text, glm::dvec2 start, double height) {
+        for (const auto& [colour, more] : {std::pair(halo_, 2 * halo), std::pair(sign_, 0.0)}) {
+            write_text(text, start, height, pen_of(print, stem * height * (1 + more), colour), page);
+        }
+    };
+    if (step_ == 0) return;
+    if (numbers_pages_) {
+        const std::string caption = fmt::format("{} / {}", step_, lesson.steps.size());
+        const double height = std::min(caption_letters, 0.4 * std::max(window.margin, 5.0));
+        const double right = window.left + window.width - std::max(window.margin, 4.0);
+        write(
+            caption,
+            {right - text_width(caption, height), -(window.top + window.height - 0.6 * std::max(window.margin, 4.0))},
+            height);
+    }
+    const auto on_page = [&](glm::dvec2 at) { return glm::dvec2(print.placement.to_page * glm::dvec3(at, 1.0)); };
+    int part = 0;
+    for (const Stretch& stretch : lesson.steps[step_ - 1]) {
+        const HandLine line = part_of(lesson.strokes.lines[stretch.line], stretch);
+        const double half = line.nodes.front().half;
+        const double arm = std::max(2.4 * half, 1.5 / step_length);
+        const auto draw_head = [&](const HandNode& node, glm::dvec2 way) {
+            const glm::dvec2 side(-way.y, way.x);
+            const glm::dvec2 tip = node.at + 0.6 * arm * way;
+            const std::array<glm::dvec2, 2> ends = {tip, node.at - 0.4 * arm * way - 0.8 * arm * side};
+            for (const auto& [colour, more] : {std::pair(halo_, 1.8), std::pair(sign_, 1.0)}) {
+                sink.begin_stroke(node.at - 0.4 * arm * way + 0.8 * arm * side,
+                                  pen_of(print, 0.3 * arm * step_length * more, colour));
+                sink.lines(ends);
+                sink.end_stroke(false);
+            }
+        };
+        const double heads = std::clamp(std::floor(line.length / (arrow_loops * line.loop)), 1.0, 8.0);
+        std::size_t at = 0;
+        for (double k = 0; k < heads; ++k) {
+            const double along = line.length * (k + 0.62) / heads;
+            while (at + 1 < line.size() && line.nodes[at].along < along) ++at;
+            draw_head(line.nodes[at], unit(hand_direction(line, at)));
+        }
+        const double mark = std::max(1.25 * half, 0.8 / step_length);
+        sink.disc(line.nodes.front().at, mark, Pen{.colour = sign_});
+        // The number stands where nothing else is, as near to the start as it can.
+        const double height = std::clamp(0.5 * line.loop * step_length, least_letters, most_letters);
+        const std::string text =
+            lesson.steps[step_ - 1].size() > 1 ? fmt::format("{}.{}", step_, ++part) : std::to_string(step_);
+        const double width = text_width(text, height);
+        const glm::dvec2 start = on_page(line.nodes.front().at);
+        glm::dvec2 best = start;
+        double most = -1;
+        for (int k = 0; k < 16; ++k) {
+            for (const double far : {1.0, 1.35}) {
+                const double angle = (k + 0.5) * 3.14159265358979 / 8;
+                const double away = far * (mark * step_length + 0.75 * height);
+                const glm::dvec2 middle = start + away * glm::dvec2(std::cos(angle), std::sin(angle)) +
+                                          glm::dvec2(std::cos(angle) * (width - height) / 2, 0);
+                double room = std::min({middle.x - width / 2 - window.left, middle.y - height / 2 - window.top,
+                                        window.left + window.width - middle.x - width / 2,
+                                        window.top + window.height - middle.y - height / 2});
+                for (const HandLine& other : lesson.strokes.lines) {
+                    for (const HandNode& node : other.nodes) {
+                        const glm::dvec2 off = glm::abs(on_page(node.at) - middle) - glm::dvec2(width, height) / 2.0;
+                        room = std::min(room, std::max(off.x, off.y) - node.half * step_length);
+                    }
+                }
+                for (const HandDot& dot : lesson.strokes.dots) {
+                    const glm::dvec2 off = glm::abs(on_page(dot.at) - middle) - glm::dvec2(width, height) / 2.0;
+                    room = std::min(room, std::max(off.x, off.y) - dot.radius * step_length);
+                }
+                if (room > most + 1e-6 || most == -1) {
+                    most = room;
+                    best = middle;
+                }
+            }
+        }
+        write(text, {best.x - width / 2, -(best.y + height / 2)}, height);
+    }
+}
+
+}  // namespace sikku
