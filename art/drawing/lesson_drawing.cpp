@@ -205,7 +205,7 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
             const std::array<glm::dvec2, 2> ends = {tip, node.at - 0.4 * arm * way - 0.8 * arm * side};
             for (const auto& [colour, more] : {std::pair(halo_, 1.8), std::pair(sign_, 1.0)}) {
                 sink.begin_stroke(node.at - 0.4 * arm * way + 0.8 * arm * side,
-                                  pen_of(print, 0.3 * arm * step_length * more, colour));
+                                  pen_of(print, 0.36 * arm * step_length * more, colour));
                 sink.lines(ends);
                 sink.end_stroke(false);
             }
@@ -220,13 +220,14 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
         const double mark = std::max(1.25 * half, 0.8 / step_length);
         sink.disc(line.nodes.front().at, mark, Pen{.colour = sign_});
         // The number stands where nothing else is, as near to the start as it can.
-        const double height = std::clamp(0.5 * line.loop * step_length, least_letters, most_letters);
+        const double height = std::min(std::clamp(0.5 * line.loop * step_length, least_letters, most_letters),
+                                       0.06 * std::min(window.width, window.height));
         const std::string text =
             lesson.steps[step_ - 1].size() > 1 ? fmt::format("{}.{}", step_, ++part) : std::to_string(step_);
         const double width = text_width(text, height);
         const glm::dvec2 start = on_page(line.nodes.front().at);
         glm::dvec2 best = start;
-        double most = -1;
+        double most = -1e9;
         for (int k = 0; k < 16; ++k) {
             for (const double far : {1.0, 1.35}) {
                 const double angle = (k + 0.5) * 3.14159265358979 / 8;
@@ -236,6 +237,8 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
                 double room = std::min({middle.x - width / 2 - window.left, middle.y - height / 2 - window.top,
                                         window.left + window.width - middle.x - width / 2,
                                         window.top + window.height - middle.y - height / 2});
+                // A number may cover lines, but it stays on the page.
+                if (room < 0) room -= 1e3;
                 for (const HandLine& other : lesson.strokes.lines) {
                     for (const HandNode& node : other.nodes) {
                         const glm::dvec2 off = glm::abs(on_page(node.at) - middle) - glm::dvec2(width, height) / 2.0;
@@ -246,7 +249,7 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
                     const glm::dvec2 off = glm::abs(on_page(dot.at) - middle) - glm::dvec2(width, height) / 2.0;
                     room = std::min(room, std::max(off.x, off.y) - dot.radius * step_length);
                 }
-                if (room > most + 1e-6 || most == -1) {
+                if (room > most + 1e-6) {
                     most = room;
                     best = middle;
                 }

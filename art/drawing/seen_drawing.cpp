@@ -126,8 +126,9 @@ double most_nodes(PixelSize size, double budget) {
 
 /// True if more is to be drawn than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
-    return style.dots || style.hand > 0 || options.lesson_step || options.border || options.colours_strokes || options.plot || options.tiles ||
-           options.format == PrintFormat::hpgl || options.format == PrintFormat::gcode;
+    return style.dots || style.hand > 0 || options.lesson_step || options.border || options.colours_strokes ||
+           options.plot || options.tiles || options.format == PrintFormat::hpgl ||
+           options.format == PrintFormat::gcode;
 }
 
 double longest_step(const Grammar& grammar) {
