@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr double nodes_of_curve = 20;      // memory and time of a curve that is kept, in derivation nodes
+constexpr double nodes_of_curve = 400;     // memory and time of a curve that is kept, in derivation nodes
 constexpr double grain_share = 0.07;       // of a line's width
 constexpr double least_powder_pixels = 3;  // narrower lines show no grain
 constexpr double crossing_height = 1.5, dot_height = 1.3;

@@ -37,7 +37,7 @@ constexpr double picture_bytes = 6e6;    // of the library, for a file
 constexpr double writer_bytes = 5e6;
 constexpr double scene_line_bytes = 60;      // memory of a line in space
 constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
-constexpr double hand_line_bytes = 2000;     // memory of a line that is drawn by hand
+constexpr double hand_line_bytes = 3200;     // memory of a line that is drawn by hand
 constexpr double plot_line_bytes = 400;
 constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
 

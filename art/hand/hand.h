@@ -34,7 +34,7 @@ struct HandCrossing {
 /// - Neighbouring lines keep their distance: of the gap between two lines that run side by side, sway, swell and
 ///   drift take together less than the whole, so that lines that do not touch never do. Lines that cross still cross.
 ///
-/// Cost: about 2 µs a node. Memory: 150 bytes a node. @throws what the monitor throws
+/// Cost: about 2 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
 void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, const HandOptions& options);
 
 /// Finds where lines cross. Cost: O(n).

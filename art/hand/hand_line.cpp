@@ -192,7 +192,7 @@ void HandGatherer::finish(bool closed) {
     for (const Piece& piece : bent) {
         const int parts = static_cast<int>(std::clamp(std::ceil(piece.length * nodes_of_loop / line.loop), 1.0, 1e5));
         count_ += parts;
-        if (count_ > 4 * most_) throw BudgetError("lines drawn by hand are kept whole, and this drawing is too long");
+        if (count_ > 8 * most_) throw BudgetError("lines drawn by hand are kept whole, and this drawing is too long");
         glm::dvec2 from = piece.curve[0];
         for (int k = 0; k < parts; ++k) {
             line.nodes.push_back({from, along, piece.half});
