@@ -3,6 +3,7 @@
 #include "art/kolam/kolam_text.h"
 #include "cli/command.h"
 #include "cli/kolam_grid.h"
+#include "cli/kolam_read.h"
 #include "cli/mistakes.h"
 #include "engine/base/text.h"
 
@@ -11,17 +12,24 @@
 namespace sikku {
 
 void add_kolam(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("kolam", "Examine a drawing as a kolam, or make a kolam on a grid of dots");
+    auto* command = app.add_subcommand("kolam",
+                                       "Examine a drawing as a kolam, make one on a grid of dots, or read one from a "
+                                       "photograph or another format");
     auto options = std::make_shared<PatternOptions>();
     auto grid = std::make_shared<KolamGridOptions>();
+    auto read = std::make_shared<KolamReadOptions>();
     auto as_json = std::make_shared<bool>(false);
     auto budget = std::make_shared<double>(200e6);
     add_pattern_options(*command, *options);
     command->get_option("PATTERN")->required(false);
     add_kolam_grid_options(*command, *grid);
-    command->add_option("-o,--output", grid->output, "pattern file (standard output)")
+    command
+        ->add_option("-o,--output", grid->output,
+                     "pattern file (standard output); except of --radial also .kolam.json, .csv (single lines) or "
+                     ".yaml (gestures)")
         ->type_name("FILE")
         ->group(grid_heading);
+    add_kolam_read_options(*command, *read);
     command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one for each core (0)")
         ->check(whole_number(0, 1024))
         ->type_name("N")
@@ -33,7 +41,12 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "rules and unusual features are reported. Dots are placed as tradition does: one in each loop, none in the "
         "gaps between loops. Positions are in turtle steps; the turtle starts at 0 0; the examination is exact where "
         "the angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
-        "With --grid or --radial, the command makes a kolam instead, as a pattern file.\n\n"
+        "With --grid or --radial, the command makes a kolam instead, as a pattern file. With --read, it reads one; "
+        "with PATTERN and -o, it reads the kolam that the pattern draws. The report counts dots, gaps and lines, and "
+        "lists doubtful gaps by row and number: rows of gaps count from the top, first the gaps within a row of "
+        "dots, "
+        "then those to the next row; numbers count from the left. Photographs need visible dots; doubtful gaps take "
+        "the state of their images where the certain ones have a symmetry.\n\n"
         "The exit status is 0 whether or not the drawing is a kolam. Keys of --json: title, n, kolam, faults, "
         "remarks, "
         "exact, "
@@ -44,16 +57,31 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "sixty_degrees (of these, those "
         "at 60 degrees), "
         "mid_crossings (crossings inside of segments), touchings, multiple, symmetry, rotations, mirrors, centre, "
-        "loose_dots, dots.\n\n"
+        "loose_dots, dots. With --read: grid, dots, gaps, crossed, joined, lines, symmetry, doubtful and repaired "
+        "(row, gap, state, certainty), notes, crossings.\n\n"
         "Examples:\n"
         "  sikku kolam snake-kolam\n"
         "  sikku kolam --grid 7x7 --symmetry C4 --single-line --seed 3 -o mine.lsys\n"
         "  sikku kolam --grid '15-8 idukku pulli' -o interlaced.lsys\n"
         "  sikku kolam --radial 8x5 --dots -o hridaya.lsys\n"
         "  sikku kolam --grid 3x3 --enumerate\n"
+        "  sikku kolam --read photo.jpg -o mine.lsys --overlay found.png\n"
+        "  sikku kolam --read photo.jpg -o mine.lsys --fix '3,4: cross; 5,1: turn'\n"
+        "  sikku kolam mine.lsys -o mine.kolam.json\n"
         "  sikku kolam anklets-of-krishna -n 4 --json");
-    command->callback([options, grid, as_json, budget, &quiet] {
+    command->callback([options, grid, read, as_json, budget, &quiet] {
         const bool makes = !grid->grid.empty() || !grid->radial.empty();
+        if (!read->file.empty()) {
+            if (makes || !options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
+                !options->variant.empty() || grid->colours || grid->dots) {
+                throw UsageError(
+                    "--read excludes PATTERN, -n, --set, --variant, --grid, --radial, --colours and --dots");
+            }
+            read->output = grid->output;
+            read->as_json = *as_json;
+            read->budget = *budget;
+            return kolam_read(*read, quiet);
+        }
         if (makes) {
             if (!options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
                 !options->variant.empty()) {
@@ -64,11 +92,14 @@ void add_kolam(CLI::App& app, bool& quiet) {
             grid->seed = seed_of(*options);
             return grid->radial.empty() ? kolam_grid(*grid, quiet) : kolam_radial(*grid, quiet);
         }
-        if (!grid->output.empty() || grid->colours || grid->dots) {
-            throw UsageError("-o, --colours and --dots need --grid or --radial");
+        if (grid->colours || grid->dots) throw UsageError("--colours and --dots need --grid or --radial");
+        if (options->pattern.empty()) {
+            throw UsageError(grid->output.empty() ? "expected PATTERN, --grid, --radial or --read"
+                                                  : "-o needs PATTERN, --grid, --radial or --read");
         }
-        if (options->pattern.empty()) throw UsageError("expected PATTERN, --grid or --radial");
+        if (!grid->output.empty() && *as_json) throw UsageError("--json excludes -o: it prints the examination");
         const Document loaded = load(*options, quiet);
+        if (!grid->output.empty()) return kolam_convert(loaded, grid->output, *budget, quiet);
         Progress progress(quiet);
         const KolamExamination examined = examine_kolam(loaded, *budget, progress.monitor());
         const std::string title = loaded.pattern().text("title");

@@ -5,6 +5,7 @@
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "art/kolam/radial_kolam.h"
+#include "art/reading/kolam_file.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
 #include "engine/base/text.h"
@@ -150,7 +151,9 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
-    write(options.output, kolam_pattern(grid, made.states, pattern).text);
+    const auto other =
+        kolam_file_text(extension.empty() ? "" : extension.substr(1), grid, made.states, stop_monitor());
+    write(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
 
     if (options.as_json) {
         fmt::print(

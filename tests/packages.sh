@@ -1,9 +1,9 @@
 # What Debian 12 packages the project needs; sourced by ./demo and ./check.
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
-    libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev)
+    libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev)
 # For tests: the framework, independent readers of the program's outputs, the linters, and the Python module.
-test_packages=(libgtest-dev libpugixml-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
+test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
     midicsv python3-mido clang-format clang-tidy
     pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)

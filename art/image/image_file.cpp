@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <stdexcept>
 #include <system_error>
 
@@ -88,6 +89,24 @@ std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& pat
 
 void check_cmyk_profile(const std::filesystem::path& file) {
     image_module().check_cmyk_profile(file);
+}
+
+bool is_picture(std::string_view bytes) {
+    using namespace std::string_view_literals;
+    const auto is_any_of = [](std::string_view text, std::initializer_list<std::string_view> words) {
+        return std::find(words.begin(), words.end(), text) != words.end();
+    };
+    return bytes.starts_with("\xFF\xD8\xFF"sv) || bytes.starts_with("\x89PNG\r\n\x1A\n"sv) ||
+           is_any_of(bytes.substr(0, 4), {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) ||
+           (bytes.starts_with("RIFF"sv) && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP"sv) ||
+           (bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp"sv &&
+            is_any_of(bytes.substr(8, 4), {"heic"sv, "heix"sv, "mif1"sv, "avif"sv})) ||
+           (bytes.starts_with("BM"sv) && bytes.size() >= 18 && bytes.substr(6, 4) == "\0\0\0\0"sv);
+}
+
+DecodedPicture read_picture(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
+                            const Monitor& monitor) {
+    return image_module().read(path, longest_side, most_pixels, monitor);
 }
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #include "art/image/image_module.h"
 
 #include "art/image/icc.h"
+#include "art/image/picture_reader.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -442,7 +443,18 @@ void check_cmyk_profile(const std::filesystem::path& file) {
     const InkTransform transform(file);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile};
+/// read_picture() of the module.
+DecodedPicture read(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
+                    const Monitor& monitor) {
+    {
+        const std::scoped_lock lock(opening);
+        OIIO::attribute("debug", 0);
+        set_threads(1);
+    }
+    return PictureReader(path, most_pixels).read(longest_side, monitor);
+}
+
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile, read};
 
 }  // namespace
 }  // namespace sikku

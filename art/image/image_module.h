@@ -13,13 +13,15 @@ struct ImageModule {
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
     std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height);
     void (*check_cmyk_profile)(const std::filesystem::path& file);
+    DecodedPicture (*read)(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
+                           const Monitor& monitor);
 };
 /// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).
 constexpr std::uint64_t image_module_version(std::string_view program) {
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3; };
     for (const char byte : program) add(static_cast<unsigned char>(byte));
-    for (const std::size_t size : {sizeof(ImageSpec), sizeof(ImageModule)}) add(size);
+    for (const std::size_t size : {sizeof(ImageSpec), sizeof(DecodedPicture), sizeof(ImageModule)}) add(size);
     return hash;
 }
 /// The one symbol, of type `const ImageModule* ()`, without C++ name.

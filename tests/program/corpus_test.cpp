@@ -2,6 +2,7 @@
 #include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/grid_targets.h"
+#include "tests/fuzz/reading_targets.h"
 #include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
@@ -74,6 +75,15 @@ TEST(Corpus, GridsAreReadOrRefused) {
             ASSERT_NO_THROW(try_grid(changed));
             ASSERT_NO_THROW(try_radial(changed));
         });
+    }
+}
+
+TEST(Corpus, KolamsOfOtherFormatsAreReadOrRefused) {
+    const auto list = files_of("tests/corpus/reading");
+    EXPECT_FALSE(list.empty());
+    for (const auto& file : list) {
+        SCOPED_TRACE(file.string());
+        mutate(contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_reading(changed)); });
     }
 }
 

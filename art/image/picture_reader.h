@@ -1,0 +1,28 @@
+// art/image/picture_reader.h: reads a picture through OpenImageIO. Part of the module with it.
+#pragma once
+
+#include "art/image/image_file.h"
+#include "engine/base/monitor.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace sikku {
+
+/// An opened picture, with the sizes that it claims checked.
+class PictureReader {
+public:
+    /// @throws std::runtime_error as read_picture()
+    PictureReader(const std::filesystem::path& path, std::uint64_t most_pixels);
+    DecodedPicture read(int longest_side, const Monitor& monitor);
+
+private:
+    [[noreturn]] void fail(const std::string& what);
+    std::unique_ptr<OIIO::ImageInput> input_;
+    OIIO::ImageSpec spec_;
+};
+
+}  // namespace sikku

@@ -1,0 +1,39 @@
+// art/reading/kolam_file.h: reads a kolam from a file of any format, and writes it back.
+#pragma once
+
+#include "art/reading/photograph.h"
+#include "art/reading/read_kolam.h"
+#include "engine/language/document.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+
+struct KolamFileOptions {
+    std::size_t number = 1;                  ///< of the kolam in a table
+    std::optional<DotLattice> lattice = {};  ///< of drawings and photographs; none: as it fits best
+    bool repair = true;                      ///< doubtful gaps of photographs by symmetry
+};
+
+/// Reads a text: `.kolam.json`, CSV of one-stroke kolams, SVG, or gestures, whichever it looks like.
+/// @return nullopt if it looks like none of them
+/// @throws std::runtime_error if it is damaged, or no kolam
+std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFileOptions& options = {},
+                                         const Monitor& monitor = {});
+
+/// Reads the kolam that a pattern draws, from its lines. The grid and the gaps that the program writes into patterns
+/// are used where the lines agree with them; otherwise the dots are placed as tradition does.
+/// @throws PatternError, BudgetError, WordError, Stopped; std::runtime_error if no lattice of dots fits
+ReadKolam read_kolam_document(const Document& document, double budget, const Monitor& monitor = {});
+
+/// Writes a kolam in the format of an extension: `json`, `csv`, `yaml` or `yml` (gestures).
+/// @return nullopt for other extensions
+/// @throws std::runtime_error if the format cannot hold it
+std::optional<std::string> kolam_file_text(std::string_view extension, const DotGrid& grid, const GapStates& states,
+                                           const Monitor& monitor = {});
+
+}  // namespace sikku

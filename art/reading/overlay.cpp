@@ -1,0 +1,173 @@
+// Draws what was read over a photograph.
+#include "art/reading/kolam_lines.h"
+#include "art/reading/photograph.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+constexpr glm::dvec3 dot_colour(255, 255, 255);
+constexpr std::array<glm::dvec3, 3> state_colours = {{{40, 130, 255}, {30, 200, 80}, {235, 60, 220}}};
+constexpr glm::dvec3 doubt_colour(255, 120, 0);
+constexpr glm::dvec3 repair_colour(255, 225, 0);
+
+/// Draws on a picture, with smooth edges.
+class Canvas {
+public:
+    explicit Canvas(DecodedPicture& picture) : picture_(picture) {}
+
+    void line(glm::dvec2 from, glm::dvec2 to, double width, glm::dvec3 colour, double opacity = 1) {
+        const double reach = 0.5 * width + 1;
+        each_near(
+            glm::min(from, to) - reach, glm::max(from, to) + reach,
+            [&](glm::dvec2 at) {
+                const glm::dvec2 way = to - from;
+                const double along =
+                    std::clamp(glm::dot(at - from, way) / std::max(glm::dot(way, way), 1e-9), 0.0, 1.0);
+                return opacity * std::clamp(0.5 * width + 0.5 - glm::distance(at, from + along * way), 0.0, 1.0);
+            },
+            colour);
+    }
+    void ring(glm::dvec2 centre, double radius, double width, glm::dvec3 colour) {
+        const double reach = radius + width + 1;
+        each_near(
+            centre - reach, centre + reach,
+            [&](glm::dvec2 at) {
+                return std::clamp(0.5 * width + 0.5 - std::fabs(glm::distance(at, centre) - radius), 0.0, 1.0);
+            },
+            colour);
+    }
+    /// Digits and a comma, 3 x 5 cells each, on a dark ground.
+    void number(std::string_view text, glm::dvec2 at, double cell, glm::dvec3 colour) {
+        static constexpr std::array<std::uint16_t, 10> digits = {075557, 026227, 071747, 071717, 055711,
+                                                                 074717, 074757, 071111, 075757, 075717};
+        const double width = 4 * cell * static_cast<double>(text.size());
+        box(at - glm::dvec2(cell), at + glm::dvec2(width, 6 * cell), {20, 20, 20});
+        for (const char letter : text) {
+            for (int row = 0; row < 5; ++row) {
+                for (int column = 0; column < 3; ++column) {
+                    const bool is_set =
+                        letter == ','
+                            ? (column == 1 && row >= 3)
+                            : (digits[static_cast<std::size_t>(letter - '0')] >> (3 * (4 - row) + 2 - column) & 1) !=
+                                  0;
+                    if (!is_set) continue;
+                    const glm::dvec2 corner = at + cell * glm::dvec2(column, row);
+                    box(corner, corner + glm::dvec2(cell), colour);
+                }
+            }
+            at.x += 4 * cell;
+        }
+    }
+
+private:
+    void box(glm::dvec2 low, glm::dvec2 high, glm::dvec3 colour) {
+        each_near(
+            low, high,
+            [&](glm::dvec2 at) {
+                return at.x >= low.x - 0.5 && at.x < high.x - 0.5 && at.y >= low.y - 0.5 && at.y < high.y - 0.5 ? 1.0
+                                                                                                                : 0.0;
+            },
+            colour);
+    }
+    template <class Cover>
+    void each_near(glm::dvec2 low, glm::dvec2 high, Cover&& cover, glm::dvec3 colour) {
+        if (!(std::fabs(low.x) + std::fabs(low.y) + std::fabs(high.x) + std::fabs(high.y) < 1e8)) return;
+        const int left = std::max(0, static_cast<int>(std::floor(low.x)));
+        const int right = std::min(picture_.width - 1, static_cast<int>(std::ceil(high.x)));
+        const int top = std::max(0, static_cast<int>(std::floor(low.y)));
+        const int bottom = std::min(picture_.height - 1, static_cast<int>(std::ceil(high.y)));
+        for (int y = top; y <= bottom; ++y) {
+            for (int x = left; x <= right; ++x) {
+                const double share = cover(glm::dvec2(x, y));
+                if (share <= 0) continue;
+                std::uint8_t* pixel =
+                    &picture_.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
+                                          static_cast<std::size_t>(x))];
+                for (int c = 0; c < 3; ++c) {
+                    pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] * (1 - share) + colour[c] * share));
+                }
+            }
+        }
+    }
+
+    DecodedPicture& picture_;
+};
+
+/// The strands of a gap, in the plane of the lattice.
+std::array<std::array<glm::dvec2, 2>, 2> strands(GapState state, DotLattice lattice, glm::dvec2 middle,
+                                                 glm::dvec2 along) {
+    // The faces beside a gap are smaller between interlaced dots, where strands cross more steeply.
+    const glm::dvec2 aside = glm::dvec2(-along.y, along.x) * (lattice == DotLattice::square ? 1.0 : 0.8);
+    const auto at = [&](double x, double y) { return middle + x * along + y * aside; };
+    switch (state) {
+        case GapState::crossed:
+            return {{{at(-0.14, -0.14), at(0.14, 0.14)}, {at(-0.14, 0.14), at(0.14, -0.14)}}};
+        case GapState::joined:
+            return {{{at(-0.18, 0.13), at(0.18, 0.13)}, {at(-0.18, -0.13), at(0.18, -0.13)}}};
+        case GapState::turned:
+            break;
+    }
+    return {{{at(-0.13, -0.18), at(-0.13, 0.18)}, {at(0.13, -0.18), at(0.13, 0.18)}}};
+}
+
+}  // namespace
+
+void write_overlay(const Photograph& photograph, const std::filesystem::path& path) {
+    DecodedPicture picture = photograph.picture;
+    // The picture steps back behind what is drawn.
+    for (std::uint8_t& value : picture.pixels) value = static_cast<std::uint8_t>(40 + (value * 2U) / 3U);
+    Canvas canvas(picture);
+    const ReadKolam& kolam = photograph.kolam;
+    const DotLattice lattice = kolam.grid.lattice();
+    const auto spacing_at = [&](glm::dvec2 place) {
+        const auto steps = photograph.map.derivatives(place);
+        return 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
+    };
+    for (const GridDot dot : kolam.grid.dots()) {
+        const glm::dvec2 place = lattice_point(lattice, dot);
+        const double spacing = spacing_at(place);
+        canvas.ring(photograph.map(place), 0.1 * spacing, std::max(1.0, 0.03 * spacing), dot_colour);
+    }
+    const std::vector<GapPlace> places = gap_places(kolam.grid);
+    for (std::uint32_t i = 0; i < kolam.states.size(); ++i) {
+        const GridGap& gap = kolam.grid.gaps()[i];
+        const glm::dvec2 from = lattice_point(lattice, kolam.grid.dots()[gap.from]);
+        const glm::dvec2 to = lattice_point(lattice, kolam.grid.dots()[gap.to]);
+        const glm::dvec2 middle = 0.5 * (from + to);
+        const double spacing = spacing_at(middle);
+        const double width = std::max(1.5, 0.05 * spacing);
+        for (const auto& strand : strands(kolam.states[i], lattice, middle, to - from)) {
+            canvas.line(photograph.map(strand[0]), photograph.map(strand[1]), width,
+                        state_colours[static_cast<std::size_t>(kolam.states[i])]);
+        }
+        const bool is_repaired = std::binary_search(kolam.repaired.begin(), kolam.repaired.end(), i);
+        if (!kolam.is_doubtful(i) && !is_repaired) continue;
+        const glm::dvec3 colour = is_repaired ? repair_colour : doubt_colour;
+        const glm::dvec2 at = photograph.map(middle);
+        canvas.ring(at, 0.3 * spacing, std::max(2.0, 0.05 * spacing), colour);
+        const double cell = std::clamp(std::round(spacing / 28), 1.0, 6.0);
+        canvas.number(fmt::format("{},{}", places[i].row, places[i].number),
+                      at + glm::dvec2(0.24 * spacing, 0.18 * spacing), cell, colour);
+    }
+    ImageSpec spec;
+    spec.format = "png";
+    spec.width = picture.width;
+    spec.height = picture.height;
+    spec.dpi = 96;
+    const auto writer = open_image(path, spec);
+    writer->rows(0, picture.height, picture.pixels);
+    writer->close();
+}
+
+}  // namespace sikku

@@ -1,0 +1,110 @@
+#include "art/reading/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sikku {
+namespace {
+
+/// Averages over 2 r + 1 values along rows, and turns rows into columns.
+void average_rows(const GreyPicture& from, GreyPicture& to, std::size_t r) {
+    to.width = from.height;
+    to.height = from.width;
+    to.values.resize(from.values.size());
+    const std::size_t last = from.width - 1;
+    const float share = 1.0F / static_cast<float>(2 * r + 1);
+    // Blocks of rows keep the writes to columns within the cache.
+    constexpr std::size_t block = 16;
+    std::vector<float> sums(block);
+    for (std::size_t begin = 0; begin < from.height; begin += block) {
+        const std::size_t end = std::min(begin + block, from.height);
+        for (std::size_t y = begin; y < end; ++y) {
+            const float* row = from.values.data() + y * from.width;
+            double sum = static_cast<double>(r + 1) * row[0];
+            for (std::size_t i = 1; i <= r; ++i) sum += row[std::min(i, last)];
+            sums[y - begin] = static_cast<float>(sum);
+        }
+        for (std::size_t x = 0; x < from.width; ++x) {
+            const std::size_t enters = std::min(x + r + 1, last);
+            const std::size_t leaves = x > r ? x - r : 0;
+            float* column = to.values.data() + x * to.width;
+            for (std::size_t y = begin; y < end; ++y) {
+                const float* row = from.values.data() + y * from.width;
+                column[y] = sums[y - begin] * share;
+                sums[y - begin] += row[enters] - row[leaves];
+            }
+        }
+    }
+}
+
+}  // namespace
+
+float GreyPicture::at(glm::dvec2 point) const {
+    const double x = std::clamp(point.x, 0.0, static_cast<double>(width - 1));
+    const double y = std::clamp(point.y, 0.0, static_cast<double>(height - 1));
+    const auto left = std::min(static_cast<std::size_t>(x), width - 1);
+    const auto top = std::min(static_cast<std::size_t>(y), height - 1);
+    const std::size_t right = std::min(left + 1, width - 1);
+    const std::size_t bottom = std::min(top + 1, height - 1);
+    const auto u = static_cast<float>(x - static_cast<double>(left));
+    const auto v = static_cast<float>(y - static_cast<double>(top));
+    const float above = values[top * width + left] * (1 - u) + values[top * width + right] * u;
+    const float below = values[bottom * width + left] * (1 - u) + values[bottom * width + right] * u;
+    return above * (1 - v) + below * v;
+}
+
+GreyPicture blurred(const GreyPicture& picture, double radius) {
+    GreyPicture result = picture;
+    if (picture.values.empty()) return result;
+    // Each average of 2 r + 1 values adds ((2 r + 1)^2 - 1) / 12 to the variance.
+    GreyPicture turned;
+    double missing = radius * radius;
+    for (int pass = 3; pass > 0; --pass) {
+        const auto r = static_cast<std::size_t>(std::lround((std::sqrt(12 * missing / pass + 1) - 1) / 2));
+        if (r == 0) break;
+        const double side = 2.0 * static_cast<double>(r) + 1;
+        missing = std::max(0.0, missing - (side * side - 1) / 12);
+        average_rows(result, turned, r);
+        average_rows(turned, result, r);
+    }
+    return result;
+}
+
+Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
+    GreyPicture grey(static_cast<std::size_t>(picture.width), static_cast<std::size_t>(picture.height));
+    std::array<float, 256> logarithms{};
+    for (std::size_t i = 0; i < logarithms.size(); ++i) logarithms[i] = std::log(static_cast<float>(i) + 12.0F);
+    for (std::size_t i = 0; i < grey.values.size(); ++i) {
+        // Rec. 709 weights of the values as they are.
+        const std::uint8_t* pixel = &picture.pixels[3 * i];
+        grey.values[i] = logarithms[(54U * pixel[0] + 183U * pixel[1] + 19U * pixel[2]) >> 8U];
+    }
+    monitor.check();
+    const double around = 0.06 * static_cast<double>(std::min(grey.width, grey.height));
+    const GreyPicture ground = blurred(grey, around);
+    monitor.check();
+    Ink ink;
+    ink.values = grey;
+    GreyPicture squares = ink.values;
+    double sum = 0;
+    double cubes = 0;
+    for (std::size_t i = 0; i < grey.values.size(); ++i) {
+        const float value = ground.values[i] - grey.values[i];
+        ink.values.values[i] = value;
+        squares.values[i] = value * value;
+        sum += squares.values[i];
+        cubes += static_cast<double>(value) * squares.values[i];
+    }
+    const double deviation = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, grey.values.size())));
+    ink.is_dark = cubes >= 0;
+    squares = blurred(squares, 1.5 * around);
+    monitor.check();
+    const auto floor = static_cast<float>(0.6 * deviation * deviation + 1e-6);
+    for (std::size_t i = 0; i < grey.values.size(); ++i) {
+        ink.values.values[i] /= std::sqrt(squares.values[i] + floor);
+    }
+    return ink;
+}
+
+}  // namespace sikku

@@ -1,0 +1,37 @@
+// art/reading/picture.h: grey pictures as numbers, and the ink of a drawing in them.
+#pragma once
+
+#include "art/image/image_file.h"
+#include "engine/base/monitor.h"
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace sikku {
+
+/// A picture of one number a pixel; the middle of the first pixel is at 0, 0, y points down.
+struct GreyPicture {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<float> values = {};
+
+    GreyPicture() = default;
+    GreyPicture(std::size_t columns, std::size_t rows) : width(columns), height(rows), values(columns * rows) {}
+    /// Bilinear; the border goes on outside.
+    float at(glm::dvec2 point) const;
+};
+
+/// Averages three times over squares: nearly a Gaussian of standard deviation `radius`, in pixels. Time: linear.
+GreyPicture blurred(const GreyPicture& picture, double radius);
+
+/// The logarithm of the brightness of a picture, less that of its surroundings, in units of its local deviation:
+/// uneven light drops out. Lines are above 0 in one sense of the picture (`dark` or light lines) and below in the
+/// other.
+struct Ink {
+    GreyPicture values;   ///< positive where the picture is darker than its surroundings
+    bool is_dark = true;  ///< lines are darker than the ground: the rarer side deviates more
+};
+Ink find_ink(const DecodedPicture& picture, const Monitor& monitor = {});
+
+}  // namespace sikku

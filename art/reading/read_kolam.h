@@ -1,0 +1,52 @@
+// art/reading/read_kolam.h: a kolam read from a file, with the certainty of each gap.
+#pragma once
+
+#include "art/kolam/dot_grid_lines.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A kolam that was read, and how far it can be trusted.
+struct ReadKolam {
+    DotGrid grid;
+    GapStates states;
+    /// For each gap 0 (guessed) to 1 (certain); below doubtful_below the gap is doubtful. Empty: all are certain.
+    std::vector<float> certainty = {};
+    std::vector<std::uint32_t> repaired = {};  ///< gaps changed by symmetry or by hand, ascending
+    std::vector<std::string> notes = {};       ///< what a user should know: assumptions, repairs, what was left out
+    std::string title = {};                    ///< of the file; may be empty
+
+    static constexpr float doubtful_below = 0.5F;
+    bool is_doubtful(std::uint32_t gap) const { return !certainty.empty() && certainty[gap] < doubtful_below; }
+    /// Doubtful gaps, ascending.
+    std::vector<std::uint32_t> doubtful() const;
+};
+
+/// The place of a gap for people: row and number in it, both from 1. Rows of gaps are the words of gap_states_text():
+/// from the top, the gaps within a row of dots, then those to the next row; numbers count from the left.
+struct GapPlace {
+    std::uint32_t row = 0;
+    std::uint32_t number = 0;
+    bool operator==(const GapPlace&) const = default;
+};
+/// The place of each gap, in the order of DotGrid::gaps().
+std::vector<GapPlace> gap_places(const DotGrid& grid);
+
+/// Sets the gaps that `text` names: `3,4: cross`, several of them separated by semicolons. States: cross, turn, join
+/// (or crossed, turned, joined, x, p, j). The gaps become certain and are listed as repaired.
+/// @throws std::runtime_error for anything else, and for places without a gap
+void fix_gaps(ReadKolam& kolam, std::string_view text);
+
+/// Replaces the states of doubtful gaps by those of their certain images under the symmetries of the grid that the
+/// certain gaps have without exception, at least six pairs of them. Repaired gaps stay doubtful, and are noted.
+/// @return the number of gaps that changed
+std::size_t repair_by_symmetry(ReadKolam& kolam);
+
+/// `crossed`, `turned` or `joined`.
+std::string_view gap_state_name(GapState state);
+
+}  // namespace sikku

@@ -1,0 +1,124 @@
+#include "art/reading/spots.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_spots = 20'000;
+constexpr double least_radius = 1.6;
+constexpr double scale_step = 1.35;
+constexpr std::size_t ring_points = 20;
+/// Of the points around a spot, so many may be noise.
+constexpr std::size_t noise_points = 2;
+
+}  // namespace
+
+SpotFinder::SpotFinder(const GreyPicture& ink, const Monitor& monitor) {
+    const double largest = 0.04 * static_cast<double>(std::min(ink.width, ink.height));
+    for (double radius = least_radius; radius <= std::max(largest, 2 * least_radius); radius *= scale_step) {
+        monitor.check();
+        radii_.push_back(radius);
+        blurred_.push_back(blurred(ink, 0.55 * radius));
+    }
+}
+
+double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
+    static const auto directions = [] {
+        std::array<glm::dvec2, ring_points> list{};
+        for (std::size_t i = 0; i < ring_points; ++i) {
+            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_points;
+            list[i] = {std::cos(angle), std::sin(angle)};
+        }
+        return list;
+    }();
+    const GreyPicture& picture = blurred_[scale];
+    const double ring = 1.95 * radii_[scale];
+    if (at.x < ring || at.y < ring || at.x + ring >= static_cast<double>(picture.width) ||
+        at.y + ring >= static_cast<double>(picture.height)) {
+        return 0;
+    }
+    const double middle = picture.at(at);
+    std::array<double, ring_points> around{};
+    for (std::size_t i = 0; i < ring_points; ++i) around[i] = picture.at(at + ring * directions[i]);
+    std::nth_element(around.begin(), around.begin() + noise_points, around.end(), std::greater<>());
+    // Where lines cross there is much ink in the middle, but ink around it, too.
+    return middle - around[noise_points] - 1.5 * std::max(0.0, around[noise_points]);
+}
+
+std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
+    std::vector<Spot> all;
+    for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
+        monitor.check();
+        const GreyPicture& picture = blurred_[scale];
+        const std::size_t w = picture.width;
+        for (std::size_t y = 1; y + 1 < picture.height; ++y) {
+            const float* row = &picture.values[y * w];
+            for (std::size_t x = 1; x + 1 < w; ++x) {
+                const float value = row[x];
+                if (value < 0.6F || value <= row[x - 1] || value < row[x + 1] || value <= row[x - w] ||
+                    value < row[x + w] || value <= row[x - w - 1] || value < row[x + w + 1] ||
+                    value <= row[x - w + 1] || value < row[x + w - 1]) {
+                    continue;
+                }
+                const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
+                const double found = strength(scale, at);
+                if (found < 0.4) continue;
+                // The top of a parabola through three values.
+                const auto offset = [](double before, double here, double after) {
+                    const double bend = before - 2 * here + after;
+                    return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+                };
+                all.push_back(
+                    {at + glm::dvec2(offset(row[x - 1], value, row[x + 1]), offset(row[x - w], value, row[x + w])),
+                     radii_[scale], found});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const Spot& a, const Spot& b) {
+        if (a.strength != b.strength) return a.strength > b.strength;
+        return a.at.y != b.at.y ? a.at.y < b.at.y : a.at.x < b.at.x;
+    });
+    // The strongest of those that lie within each other, by a picture of who is where.
+    const std::size_t w = blurred_[0].width;
+    const std::size_t h = blurred_[0].height;
+    std::vector<char> is_taken(w * h);
+    std::vector<Spot> spots;
+    for (const Spot& spot : all) {
+        const auto x = static_cast<std::size_t>(std::lround(spot.at.x));
+        const auto y = static_cast<std::size_t>(std::lround(spot.at.y));
+        if (is_taken[y * w + x] != 0) continue;
+        spots.push_back(spot);
+        if (spots.size() >= most_spots) break;
+        const auto reach = static_cast<std::size_t>(std::ceil(2 * spot.radius));
+        for (std::size_t j = y - std::min(y, reach); j <= std::min(y + reach, h - 1); ++j) {
+            for (std::size_t i = x - std::min(x, reach); i <= std::min(x + reach, w - 1); ++i)
+                is_taken[j * w + i] = 1;
+        }
+    }
+    return spots;
+}
+
+Spot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
+    Spot best{at, radius, 0.0};
+    for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
+        if (radii_[scale] < 0.5 * radius || radii_[scale] > 2 * radius) continue;
+        const double step = std::max(1.0, 0.4 * radii_[scale]);
+        for (double dy = -reach; dy <= reach; dy += step) {
+            for (double dx = -reach; dx <= reach; dx += step) {
+                const glm::dvec2 place = at + glm::dvec2(dx, dy);
+                const double found = strength(scale, place);
+                if (found > best.strength) best = {place, radii_[scale], found};
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace sikku

@@ -1,0 +1,301 @@
+// cli/kolam_read.cpp: `sikku kolam --read`.
+#include "cli/kolam_read.h"
+
+#include "art/image/image_file.h"
+#include "art/kolam/dot_grid_pattern.h"
+#include "art/kolam/dot_grid_symmetry.h"
+#include "art/reading/kolam_file.h"
+#include "art/reading/photograph.h"
+#include "cli/mistakes.h"
+#include "engine/base/input_file.h"
+#include "engine/base/output_file.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace sikku {
+namespace {
+
+/// Tables of a hundred large kolams have 30 MB.
+constexpr std::size_t most_text = std::size_t{64} << 20U;
+constexpr std::size_t most_listed = 20;
+
+std::string extension_of(const std::string& output) {
+    return lower_case(std::filesystem::path(output).extension().string());
+}
+
+void check_output(const std::string& output) {
+    const std::string extension = extension_of(output);
+    for (const char* known : {"", ".lsys", ".json", ".csv", ".yaml", ".yml"}) {
+        if (extension == known) return;
+    }
+    throw UsageError(
+        fmt::format("-o {}: a kolam is written as .lsys, .kolam.json, .csv or .yaml (gestures); `sikku "
+                    "draw` makes prints of .lsys",
+                    output));
+}
+
+/// The largest of the named symmetries that the kolam has.
+GridSymmetry symmetry_of(const ReadKolam& kolam) {
+    GridSymmetry best = GridSymmetry::none;
+    for (const GridSymmetry symmetry : grid_symmetry_list()) {
+        if (is_symmetric(kolam.grid, kolam.states, symmetry)) best = symmetry;
+    }
+    return best;
+}
+
+/// Text for one line of a pattern file.
+std::string for_pattern(std::string_view text) {
+    std::string result = printable(text, 200);
+    std::erase(result, '\\');
+    for (std::size_t at = result.find("//"); at != std::string::npos; at = result.find("//")) result.erase(at, 1);
+    return result;
+}
+
+struct Certificate {
+    std::size_t lines = 0;
+    std::string gaps;  ///< `12 of 20 gaps crossed`
+    GridSymmetry symmetry = GridSymmetry::none;
+};
+
+Certificate certify(const ReadKolam& kolam) {
+    Certificate certificate;
+    certificate.lines = count_lines(kolam.grid, kolam.states, stop_monitor());
+    // The second count takes seconds at most.
+    const auto dots = static_cast<double>(kolam.grid.dots().size());
+    if (dots * dots * dots < 1e10) {
+        const std::size_t again = laplacian_nullity(kolam.grid, kolam.states, stop_monitor());
+        if (again != certificate.lines) {
+            throw std::logic_error(
+                fmt::format("{} lines by following them, but {} by the Laplacian", certificate.lines, again));
+        }
+    }
+    const auto count = [&](GapState state) { return std::count(kolam.states.begin(), kolam.states.end(), state); };
+    certificate.gaps = fmt::format("{} of {} crossed", count(GapState::crossed), counted(kolam.states.size(), "gap"));
+    if (count(GapState::joined) > 0) certificate.gaps += fmt::format(" and {} joined", count(GapState::joined));
+    certificate.symmetry = symmetry_of(kolam);
+    return certificate;
+}
+
+std::string summary(const ReadKolam& kolam, const Certificate& certificate) {
+    std::string text = fmt::format("{}, {}, {}", counted(kolam.grid.dots().size(), "dot"), certificate.gaps,
+                                   counted(certificate.lines, "line"));
+    if (certificate.symmetry != GridSymmetry::none) {
+        text += fmt::format(", symmetry {}", grid_symmetry_name(certificate.symmetry));
+    }
+    return text;
+}
+
+std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, const std::string& source) {
+    KolamPatternOptions options;
+    options.title = for_pattern(kolam.title);
+    if (options.title.empty()) options.title = fmt::format("Kolam on {} dots", printable(kolam.grid.text(), 80));
+    options.description = fmt::format("{}; read from {}", summary(kolam, certificate), for_pattern(source));
+    options.monitor = stop_monitor();
+    std::string text = kolam_pattern(kolam.grid, kolam.states, options).text;
+    const std::vector<std::uint32_t> doubts = kolam.doubtful();
+    if (!doubts.empty()) {
+        text += "\n// doubtful gaps, as row,gap:";
+        const std::vector<GapPlace> places = gap_places(kolam.grid);
+        for (std::size_t i = 0; i < std::min<std::size_t>(doubts.size(), 200); ++i) {
+            if (i % 16 == 0) text += "\n//";
+            text += fmt::format(" {},{}", places[doubts[i]].row, places[doubts[i]].number);
+        }
+        text += doubts.size() > 200 ? " …\n" : "\n";
+    }
+    return text;
+}
+
+std::string json_of(const ReadKolam& kolam, const Certificate& certificate) {
+    const std::vector<GapPlace> places = gap_places(kolam.grid);
+    const auto gaps = [&](const std::vector<std::uint32_t>& list) {
+        std::string text = "[";
+        for (const std::uint32_t gap : list) {
+            text +=
+                fmt::format("{}{{\"row\": {}, \"gap\": {}, \"state\": \"{}\", \"certainty\": {:.2f}}}",
+                            text.size() > 1 ? ", " : "", places[gap].row, places[gap].number,
+                            gap_state_name(kolam.states[gap]), kolam.certainty.empty() ? 1.0F : kolam.certainty[gap]);
+        }
+        return text + "]";
+    };
+    std::string notes = "[";
+    for (const std::string& note : kolam.notes) notes += (notes.size() > 1 ? ", " : "") + json_string(note);
+    return fmt::format(
+        "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, \"symmetry\": "
+        "{}, \"doubtful\": {}, \"repaired\": {}, \"notes\": {}], \"crossings\": {}}}\n",
+        json_string(kolam.grid.text()), kolam.grid.dots().size(), kolam.states.size(),
+        std::count(kolam.states.begin(), kolam.states.end(), GapState::crossed),
+        std::count(kolam.states.begin(), kolam.states.end(), GapState::joined), certificate.lines,
+        json_string(grid_symmetry_name(certificate.symmetry)), gaps(kolam.doubtful()), gaps(kolam.repaired), notes,
+        json_string(gap_states_text(kolam.grid, kolam.states)));
+}
+
+void report(const ReadKolam& kolam, const Certificate& certificate, const std::string& source, bool quiet) {
+    tell_unless(quiet, "sikku: {}: {}: {}\n", source, printable(kolam.grid.text(), 80), summary(kolam, certificate));
+    for (const std::string& note : kolam.notes) tell_unless(quiet, "sikku: {}\n", note);
+    const std::vector<std::uint32_t> doubts = kolam.doubtful();
+    if (doubts.empty()) return;
+    tell_unless(quiet, "sikku: warning: {} of {} doubtful:\n", doubts.size(),
+                doubts.size() == 1 ? fmt::format("{} is", counted(kolam.states.size(), "gap"))
+                                   : fmt::format("{} are", counted(kolam.states.size(), "gap")));
+    const std::vector<GapPlace> places = gap_places(kolam.grid);
+    for (std::size_t i = 0; i < std::min(doubts.size(), most_listed); ++i) {
+        const std::uint32_t gap = doubts[i];
+        tell_unless(quiet, "  row {}, gap {}: {}, certainty {:.2f}\n", places[gap].row, places[gap].number,
+                    gap_state_name(kolam.states[gap]), kolam.certainty[gap]);
+    }
+    if (doubts.size() > most_listed) tell_unless(quiet, "  and {} more\n", doubts.size() - most_listed);
+}
+
+/// The kolam of a file, and the photograph if it is one.
+struct FoundKolam {
+    ReadKolam kolam;
+    std::optional<Photograph> photograph;
+};
+
+FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
+    const std::filesystem::path path = options.file;
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) throw UsageError(fmt::format("--read {}: no such file", options.file));
+    std::optional<DotLattice> lattice;
+    if (options.lattice == "square") lattice = DotLattice::square;
+    if (options.lattice == "interlaced") lattice = DotLattice::triangular;
+    Progress progress(quiet);
+    std::string start;
+    if (std::filesystem::is_regular_file(path, error)) start = InputFile(path).read(0, 64);
+    if (is_picture(start)) {
+        Photograph photograph =
+            read_photograph(path, {.lattice = lattice, .repair = !options.no_repair}, progress.monitor());
+        ReadKolam kolam = photograph.kolam;
+        return {std::move(kolam), std::move(photograph)};
+    }
+    if (!options.overlay.empty()) throw UsageError("--overlay is for photographs");
+    const std::string text = read_file(path, options.file, most_text, progress.monitor());
+    if (text.size() > most_text) {
+        throw std::runtime_error(fmt::format("larger than {} MB", most_text >> 20U));
+    }
+    if (auto kolam = read_kolam_text(text, {options.number, lattice, !options.no_repair}, progress.monitor())) {
+        return {std::move(*kolam), std::nullopt};
+    }
+    if (text.find("axiom") == std::string::npos) {
+        throw std::runtime_error(
+            "not a kolam that can be read: expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV "
+            "of one-stroke kolams, an SVG, gestures or a pattern");
+    }
+    PatternOptions pattern;
+    pattern.pattern = options.file;
+    return {read_kolam_document(load(pattern, quiet), options.budget, progress.monitor()), std::nullopt};
+}
+
+void write(const ReadKolam& kolam, const Certificate& certificate, const std::string& output,
+           const std::string& source) {
+    const std::string extension = extension_of(output);
+    const auto other =
+        kolam_file_text(extension.empty() ? "" : extension.substr(1), kolam.grid, kolam.states, stop_monitor());
+    const std::string text = other ? *other : pattern_of(kolam, certificate, source);
+    if (output.empty()) {
+        fmt::print("{}", text);
+    } else {
+        write_file(output, text);
+    }
+}
+
+}  // namespace
+
+void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
+    auto* read = command
+                     .add_option("--read", options.file,
+                                 "read a kolam from a photograph (JPEG, PNG, TIFF, WebP, HEIF), a .kolam.json, a CSV "
+                                 "of one-stroke kolams, an SVG, gestures, or a pattern")
+                     ->type_name("FILE")
+                     ->group(read_heading);
+    command.add_option("--number", options.number, "number of the kolam in a CSV, from 1 (1)")
+        ->type_name("N")
+        ->check(whole_number(1, 1'000'000))
+        ->needs(read)
+        ->group(read_heading);
+    command
+        .add_option("--lattice", options.lattice,
+                    "square or interlaced dots of a photograph or SVG (whichever fits better)")
+        ->type_name("KIND")
+        ->check(one_of({"square", "interlaced"}))
+        ->needs(read)
+        ->group(read_heading);
+    command
+        .add_option("--fix", options.fixes,
+                    "set gaps by hand: 'ROW,GAP: STATE', with the row and the number that the report and the overlay "
+                    "show, and cross, turn or join; several separated by semicolons; may be repeated")
+        ->type_name("GAPS")
+        ->allow_extra_args(false)
+        ->needs(read)
+        ->group(read_heading);
+    command
+        .add_option(
+            "--overlay", options.overlay,
+            "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
+            "doubtful ones ringed")
+        ->type_name("FILE")
+        ->needs(read)
+        ->group(read_heading);
+    command
+        .add_flag("--no-repair", options.no_repair,
+                  "do not replace doubtful gaps of a photograph by their images under its symmetry")
+        ->needs(read)
+        ->group(read_heading);
+}
+
+void kolam_read(const KolamReadOptions& options, bool quiet) {
+    check_output(options.output);
+    if (options.as_json && options.output.empty()) {
+        throw UsageError("--json: standard output is the pattern's; give its file with -o");
+    }
+    if (!options.overlay.empty() && extension_of(options.overlay) != ".png") {
+        throw UsageError(fmt::format("--overlay {}: the overlay is a PNG, NAME.png", options.overlay));
+    }
+    FoundKolam found = [&] {
+        try {
+            return read_file_as_kolam(options, quiet);
+        } catch (const UsageError&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            const std::string message = error.what();
+            throw std::runtime_error(
+                message.starts_with(options.file) ? message : fmt::format("{}: {}", options.file, message));
+        }
+    }();
+    for (const std::string& fix : options.fixes) {
+        try {
+            fix_gaps(found.kolam, fix);
+        } catch (const std::runtime_error& error) {
+            throw UsageError(fmt::format("--fix {}", error.what()));
+        }
+    }
+    const std::string source = std::filesystem::path(options.file).filename().string();
+    const Certificate certificate = certify(found.kolam);
+    write(found.kolam, certificate, options.output, source);
+    if (!options.overlay.empty() && found.photograph) {
+        found.photograph->kolam = found.kolam;
+        OutputFile file(options.overlay);
+        write_overlay(*found.photograph, file.temporary());
+        file.commit();
+    }
+    if (options.as_json) fmt::print("{}", json_of(found.kolam, certificate));
+    if (!options.as_json) report(found.kolam, certificate, source, quiet);
+}
+
+void kolam_convert(const Document& document, const std::string& output, double budget, bool quiet) {
+    check_output(output);
+    Progress progress(quiet);
+    const ReadKolam kolam = read_kolam_document(document, budget, progress.monitor());
+    const Certificate certificate = certify(kolam);
+    const std::string name = document.pattern().text("title");
+    write(kolam, certificate, output, name.empty() ? "a pattern" : name);
+    report(kolam, certificate, output, quiet);
+}
+
+}  // namespace sikku

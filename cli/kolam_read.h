@@ -1,0 +1,39 @@
+// cli/kolam_read.h: `sikku kolam --read`, and a pattern's kolam in other formats.
+#pragma once
+
+#include "cli/command.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Heading of these options in help.
+inline constexpr const char* read_heading = "Kolams from drawings, tables, gestures and photographs";
+
+/// Every option, as it was given.
+struct KolamReadOptions {
+    std::string file;
+    std::size_t number = 1;
+    std::string lattice;
+    std::vector<std::string> fixes;
+    std::string overlay;
+    bool no_repair = false;
+    bool as_json = false;
+    std::string output;  ///< empty: the pattern, on standard output
+    double budget = 200e6;
+};
+
+/// `--read` and all that belongs to it alone; `-o` and `--json` are for the command to add.
+void add_kolam_read_options(CLI::App& command, KolamReadOptions& options);
+
+/// Reads a kolam and writes it; tells what was found, with doubtful gaps.
+/// @throws UsageError; std::runtime_error if no kolam is found, or a file cannot be written
+void kolam_read(const KolamReadOptions& options, bool quiet);
+
+/// Writes the kolam that a pattern draws in the format of `output`. @throws as kolam_read()
+void kolam_convert(const Document& document, const std::string& output, double budget, bool quiet);
+
+}  // namespace sikku

@@ -1,0 +1,214 @@
+// tests/art/photograph_test.cpp: kolams read from pictures that look like photographs, of which the truth is known.
+#include "art/reading/photograph.h"
+
+#include "art/kolam/dot_grid_symmetry.h"
+#include "art/reading/kolam_lines.h"
+#include "tests/files.h"
+#include "tests/photograph_maker.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// A picture of one of eight grids, in all ways that the seed chooses.
+MadePhotograph made_photograph(std::uint32_t number, double level) {
+    static const std::vector<std::string> grids = {"7x7",         "1-3-5-7-5-3-1", "7-4 idukku",
+                                                   "9-5 idukku",  "5x9",           "oo.oo/ooooo/.ooo./ooooo/oo.oo",
+                                                   "15-8 idukku", "11x11"};
+    DotGrid grid = parse_dot_grid(grids[number % grids.size()]);
+    const bool is_square = grid.lattice() == DotLattice::square;
+    RandomKolam random{.seed = 100 + number, .joined = number % 3 == 1 ? 0.3 : 0.0};
+    if (number % 2 == 0) random.symmetry = usual_symmetries(grid, false).front();
+    GapStates states = random_states(grid, random);
+    MadePhotograph made{std::move(grid), std::move(states)};
+    made.light_lines = number % 2 == 1;
+    made.line_width = is_square ? 0.07 + 0.02 * (number % 4) : 0.055 + 0.012 * (number % 4);
+    made.dot_radius = 0.05 + 0.015 * (number % 4);
+    made.turn = is_square ? static_cast<double>(number * 37 % 31) - 15 : static_cast<double>(number * 37 % 21) - 10;
+    made.seed = 1000 + number;
+    made.distortion = {level, level, level, level, level, level, level};
+    return made;
+}
+
+struct Score {
+    std::size_t pictures = 0;
+    std::size_t grids = 0;  ///< read as they are
+    std::size_t gaps = 0;
+    std::size_t right = 0;
+    std::size_t doubtful = 0;
+    std::size_t silent = 0;  ///< wrong without a doubt
+};
+
+Score read_pictures(std::uint32_t first, std::uint32_t count, std::uint32_t step, double level) {
+    Score score;
+    const ScratchFolder folder;
+    for (std::uint32_t number = first; number < first + count * step; number += step) {
+        const MadePhotograph made = made_photograph(number, level);
+        const auto path = folder.path() / "photo.jpg";
+        write_photograph(made, path);
+        ++score.pictures;
+        SCOPED_TRACE(fmt::format("picture {} of {}", number, made.grid.text()));
+        try {
+            const Photograph photograph = read_photograph(path);
+            const ReadKolam& kolam = photograph.kolam;
+            if (kolam.grid.text() != made.grid.text()) {
+                // A grid that is read otherwise has to be noticed by its gaps.
+                if (level <= 1) ADD_FAILURE() << "read as " << kolam.grid.text();
+                continue;
+            }
+            ++score.grids;
+            score.gaps += made.states.size();
+            score.doubtful += kolam.doubtful().size();
+            for (std::uint32_t gap = 0; gap < made.states.size(); ++gap) {
+                const bool is_right = kolam.states[gap] == made.states[gap];
+                score.right += is_right;
+                if (!is_right && !kolam.is_doubtful(gap)) {
+                    ++score.silent;
+                    if (level <= 1)
+                        ADD_FAILURE() << "gap " << gap << " is wrong, with the certainty " << kolam.certainty[gap];
+                }
+            }
+        } catch (const std::runtime_error& error) {
+            if (level <= 1) ADD_FAILURE() << error.what();
+        }
+    }
+    return score;
+}
+
+void expect_good(const Score& score) {
+    EXPECT_EQ(score.grids, score.pictures);
+    EXPECT_GE(static_cast<double>(score.right), 0.98 * static_cast<double>(score.gaps));
+    EXPECT_EQ(score.silent, 0U);
+    // A reader that doubts everything is of no use.
+    EXPECT_LE(static_cast<double>(score.doubtful), 0.25 * static_cast<double>(score.gaps));
+    fmt::print("{} pictures, {} gaps: {:.2f} % right, {:.2f} % doubtful\n", score.pictures, score.gaps,
+               100.0 * static_cast<double>(score.right) / static_cast<double>(score.gaps),
+               100.0 * static_cast<double>(score.doubtful) / static_cast<double>(score.gaps));
+}
+
+TEST(Photograph, ReadsKolamsAtModerateDistortion) {
+    expect_good(read_pictures(0, 6, 1, 1));
+}
+
+TEST(Photograph, ReadsManyKolamsInTheFullCheck) {
+    if (!std::getenv("SIKKU_FULL")) GTEST_SKIP() << "a minute; SIKKU_FULL=1 runs it";
+    expect_good(read_pictures(0, 64, 1, 1));
+}
+
+/// Strong distortion may hide a kolam, or a part of it; wrong gaps without a doubt stay below one in 200.
+TEST(Photograph, DoubtsWhatIsWrongAtStrongDistortion) {
+    const bool full = std::getenv("SIKKU_FULL") != nullptr;
+    const Score score = read_pictures(full ? 0 : 8, full ? 24 : 2, 1, 1.5);
+    EXPECT_LE(200 * score.silent, score.gaps);
+    EXPECT_GE(3 * score.grids, 2 * score.pictures);
+}
+
+TEST(Photograph, IsUprightWhateverTheCamera) {
+    const ScratchFolder folder;
+    MadePhotograph made = made_photograph(4, 0.5);
+    made.width = 700;
+    made.height = 500;
+    const auto path = folder.path() / "photo.jpg";
+    write_photograph(made, path);
+    const DecodedPicture plain = read_picture(path, 1500, 1'000'000);
+    EXPECT_EQ(plain.width, 700);
+    EXPECT_EQ(plain.file_height, 500);
+    const DecodedPicture smaller = read_picture(path, 300, 1'000'000);
+    EXPECT_EQ(smaller.width, 233);
+    EXPECT_EQ(smaller.height, 166);
+}
+
+TEST(Photograph, OverlayShowsDotsAndDoubts) {
+    const ScratchFolder folder;
+    MadePhotograph made = made_photograph(0, 0.5);
+    const auto path = folder.path() / "photo.jpg";
+    write_photograph(made, path);
+    Photograph photograph = read_photograph(path);
+    photograph.kolam.certainty[3] = 0;
+    write_overlay(photograph, folder.path() / "overlay.png");
+    const DecodedPicture overlay = read_picture(folder.path() / "overlay.png", 4000, 10'000'000);
+    ASSERT_EQ(overlay.width, photograph.picture.width);
+    const auto colour_near = [&](glm::dvec2 at, int reach, auto&& is_wanted) {
+        for (int y = static_cast<int>(at.y) - reach; y <= static_cast<int>(at.y) + reach; ++y) {
+            for (int x = static_cast<int>(at.x) - reach; x <= static_cast<int>(at.x) + reach; ++x) {
+                const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(overlay.width) +
+                                    static_cast<std::size_t>(x));
+                if (is_wanted(overlay.pixels[i], overlay.pixels[i + 1], overlay.pixels[i + 2])) return true;
+            }
+        }
+        return false;
+    };
+    const auto is_orange = [](int r, int g, int b) { return r > 240 && g > 100 && g < 140 && b < 20; };
+    const GridGap& gap = made.grid.gaps()[3];
+    const glm::dvec2 middle = 0.5 * (lattice_point(DotLattice::square, made.grid.dots()[gap.from]) +
+                                     lattice_point(DotLattice::square, made.grid.dots()[gap.to]));
+    EXPECT_TRUE(colour_near(photograph.map(middle), 40, is_orange));
+    const glm::dvec2 dot = lattice_point(DotLattice::square, made.grid.dots()[0]);
+    EXPECT_TRUE(colour_near(photograph.map(dot), 20, [](int r, int g, int b) { return r + g + b > 740; }));
+}
+
+std::string error_of(const std::filesystem::path& path, std::uint64_t most = 100'000'000) {
+    try {
+        read_photograph(path, {.most_pixels = most});
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Photograph, RefusesWhatIsNone) {
+    const ScratchFolder folder;
+    const auto path = folder.path() / "photo.jpg";
+    const auto write = [&](const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; };
+    EXPECT_NE(error_of(folder.path() / "none.jpg").find("not a file"), std::string::npos);
+    EXPECT_NE(error_of(folder.path()).find("not a file"), std::string::npos);
+    write("axiom: F\n");
+    EXPECT_NE(error_of(path).find("not a picture"), std::string::npos);
+    write("\xFF\xD8\xFFnothing");
+    EXPECT_NE(error_of(path).find("cannot be opened"), std::string::npos);
+
+    MadePhotograph made = made_photograph(0, 1);
+    write_photograph(made, path);
+    EXPECT_NE(error_of(path, 1000).find("at most"), std::string::npos);
+    std::string bytes(std::filesystem::file_size(path), '\0');
+    std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    // The first tenth of a photograph: an error, or at least no kolam that is certain.
+    write(bytes.substr(0, bytes.size() / 10));
+    EXPECT_NE(error_of(path), "no error");
+
+    // Noise, and nothing at all.
+    for (const double noise : {0.0, 60.0}) {
+        PictureChance chance(3);
+        ImageSpec spec;
+        spec.format = "png";
+        spec.width = spec.height = 300;
+        std::vector<std::uint8_t> pixels(3 * 300 * 300);
+        for (auto& value : pixels) value = static_cast<std::uint8_t>(128 + noise * chance.uniform(-1, 1));
+        const auto writer = open_image(folder.path() / "noise.png", spec);
+        writer->rows(0, 300, pixels);
+        writer->close();
+        const std::string error = error_of(folder.path() / "noise.png");
+        EXPECT_NE(error, "no error") << noise;
+    }
+}
+
+/// Pictures that claim sizes of gigabytes, from the corpus of files that the program reads elsewhere.
+TEST(Photograph, ChecksSizesBeforePixels) {
+    const std::filesystem::path corpus = std::filesystem::path(SIKKU_SOURCE_DIR) / "tests/corpus/show";
+    for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
+        const std::string extension = entry.path().extension();
+        if (extension != ".png" && extension != ".jpg" && extension != ".tif") continue;
+        EXPECT_NE(error_of(entry.path(), 20'000'000), "no error") << entry.path();
+    }
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,131 @@
+// tests/program/kolam_read_test.cpp: runs the program to read kolams, and to write them in other formats.
+#include "tests/files.h"
+#include "tests/photograph_maker.h"
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+class KolamRead : public ::testing::Test {
+protected:
+    Outcome kolam(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "kolam");
+        Surroundings here;
+        here.folder = folder_.path();
+        return run(arguments, here);
+    }
+    /// The comment of a pattern that lists its gaps.
+    std::string gaps(const std::string& file) {
+        const std::string text = contents(folder_ / file);
+        const std::size_t at = text.find("// grid: ");
+        return at == std::string::npos ? "" : text.substr(at, text.find("\n\n", at) - at);
+    }
+    void write_photo(const std::string& name, const std::string& grid, const std::string& states) {
+        DotGrid dots = parse_dot_grid(grid);
+        GapStates gap_states = parse_gap_states(dots, states);
+        MadePhotograph made{std::move(dots), std::move(gap_states)};
+        made.width = 800;
+        made.height = 600;
+        write_photograph(made, folder_ / name);
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(KolamRead, FormatsComeBack) {
+    for (const char* grid : {"5x5", "1-3-5-3-1", "oo.oo/ooooo/.ooo./ooooo/oo.oo"}) {
+        ASSERT_EQ(kolam({"--grid", grid, "--single-line", "-o", "a.lsys"}).status, 0);
+        for (const std::string other : {"b.kolam.json", "b.csv", "b.yaml"}) {
+            SCOPED_TRACE(grid + (" as " + other));
+            const Outcome written = kolam({"a.lsys", "-o", other});
+            ASSERT_EQ(written.status, 0) << written.errors;
+            const Outcome read = kolam({"--read", other, "-o", "c.lsys"});
+            ASSERT_EQ(read.status, 0) << read.errors;
+            EXPECT_TRUE(has(read.errors, ", 1 line")) << read.errors;
+            EXPECT_EQ(gaps("c.lsys"), gaps("a.lsys"));
+            ASSERT_EQ(kolam({"c.lsys", "-o", "again" + other}).status, 0);
+            EXPECT_EQ(contents(folder_ / ("again" + other)), contents(folder_ / other));
+            ASSERT_EQ(kolam({"--grid", grid, "--single-line", "-o", "made" + other}).status, 0);
+            EXPECT_EQ(contents(folder_ / ("made" + other)), contents(folder_ / other));
+        }
+    }
+}
+
+TEST_F(KolamRead, DrawingsComeBack) {
+    for (const char* grid : {"5x5", "5-3 idukku"}) {
+        ASSERT_EQ(kolam({"--grid", grid, "--joined", "0.3", "-o", "a.lsys"}).status, 0);
+        Surroundings here;
+        here.folder = folder_.path();
+        ASSERT_EQ(run({"draw", "a.lsys", "--dots", "-o", "a.svg"}, here).status, 0);
+        const Outcome read = kolam({"--read", "a.svg", "-o", "b.lsys"});
+        ASSERT_EQ(read.status, 0) << read.errors;
+        EXPECT_FALSE(has(read.errors, "doubtful")) << read.errors;
+        EXPECT_EQ(gaps("b.lsys"), gaps("a.lsys")) << grid;
+        // The pattern without its comments.
+        std::string text = contents(folder_ / "a.lsys");
+        for (std::size_t at = text.find("// g"); at != std::string::npos; at = text.find("// g")) {
+            text.erase(at, text.find('\n', at) + 1 - at);
+        }
+        folder_.write("plain.lsys", text);
+        ASSERT_EQ(kolam({"plain.lsys", "-o", "c.lsys"}).status, 0);
+        EXPECT_EQ(gaps("c.lsys"), gaps("a.lsys")) << grid;
+    }
+}
+
+TEST_F(KolamRead, PhotographsGiveAPatternAnOverlayAndAReport) {
+    write_photo("photo.jpg", "4x4", "101 1111 010 1001 111 1111 101");
+    const Outcome read =
+        kolam({"--read", "photo.jpg", "-o", "a.lsys", "--overlay", "found.png", "--json", "--fix", "1,2: join"});
+    ASSERT_EQ(read.status, 0) << read.errors;
+    EXPECT_TRUE(has(read.output, "\"grid\": \"4x4\", \"dots\": 16, \"gaps\": 24")) << read.output;
+    EXPECT_TRUE(has(read.output, "\"repaired\": [{\"row\": 1, \"gap\": 2, \"state\": \"joined\"")) << read.output;
+    EXPECT_TRUE(has(gaps("a.lsys"), "// gaps: 121 1111 010 1001 111 1111 101")) << gaps("a.lsys");
+    EXPECT_GT(std::filesystem::file_size(folder_ / "found.png"), 10'000U);
+    // The same picture makes the same files.
+    const std::string overlay = contents(folder_ / "found.png");
+    ASSERT_EQ(kolam({"--read", "photo.jpg", "-o", "b.lsys", "--overlay", "found.png", "--fix", "1,2: join"}).status,
+              0);
+    EXPECT_EQ(contents(folder_ / "b.lsys"), contents(folder_ / "a.lsys"));
+    EXPECT_EQ(contents(folder_ / "found.png"), overlay);
+    // And the pattern is a kolam.
+    EXPECT_TRUE(has(kolam({"a.lsys"}).output, "kolam      yes"));
+}
+
+TEST_F(KolamRead, MistakesAreNamed) {
+    folder_.write("text.txt", "a text\n");
+    folder_.write("broken.json", "{\"format\": \"kolam\"");
+    folder_.write("broken.csv", "x-kolam 1,y-kolam 1\n1,2\n1,a\n");
+    folder_.write("fake.jpg", "\xFF\xD8\xFF is no JPEG");
+    folder_.write("ring.json",
+                  R"({"format":"kolam","version":1,"design":{"rows":1,"cols":2,"mask":["11"],"h":["j"],"v":[]}})");
+    const auto expect = [&](std::vector<std::string> arguments, int status, const std::string& message) {
+        const Outcome outcome = kolam(std::move(arguments));
+        EXPECT_EQ(outcome.status, status) << message << "\n" << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, message)) << outcome.errors;
+        EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "a.lsys"));
+    };
+    expect({"--read", "none.jpg", "-o", "a.lsys"}, 2, "no such file");
+    expect({"--read", "text.txt", "-o", "a.lsys"}, 1, "text.txt: not a kolam that can be read");
+    expect({"--read", "broken.json", "-o", "a.lsys"}, 1, "broken.json: not a .kolam.json file");
+    expect({"--read", "broken.csv", "-o", "a.lsys"}, 1, "broken.csv: row 3: expected two numbers");
+    expect({"--read", "fake.jpg", "-o", "a.lsys"}, 1, "fake.jpg: the picture cannot be opened");
+    expect({"--read", "ring.json", "-o", "a.svg"}, 2, "a kolam is written as .lsys");
+    expect({"--read", "ring.json", "-o", "a.yaml"}, 1, "joined gaps, as in row 1, gap 1");
+    expect({"--read", "ring.json", "--overlay", "a.png"}, 2, "--overlay is for photographs");
+    expect({"--read", "ring.json", "--overlay", "a.jpg"}, 2, "the overlay is a PNG");
+    expect({"--read", "ring.json", "--fix", "2,1: cross"}, 2, "numbered 1 to 1");
+    expect({"--read", "ring.json", "--json"}, 2, "give its file with -o");
+    expect({"--read", "ring.json", "--grid", "3x3"}, 2, "--read excludes");
+    expect({"--fix", "1,1: cross", "snake-kolam"}, 2, "--read");
+    expect({"-o", "a.lsys"}, 2, "-o needs PATTERN");
+}
+
+}  // namespace
+}  // namespace sikku
