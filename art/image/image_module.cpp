@@ -442,7 +442,28 @@ void check_cmyk_profile(const std::filesystem::path& file) {
     const InkTransform transform(file);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile};
+class Inks final : public InkProfile {
+public:
+    explicit Inks(const std::filesystem::path& file) : transform_(file) {
+        if (transform_.is_of_output()) return;
+        throw std::runtime_error("the ICC profile '" + file.string() + "': it is not that of an output device");
+    }
+    const std::vector<std::uint8_t>& bytes() const override { return transform_.profile(); }
+    std::string name() const override { return transform_.name().empty() ? "CMYK" : transform_.name(); }
+    std::array<double, 4> convert(std::array<std::uint8_t, 3> colour) const override {
+        return transform_.convert(colour);
+    }
+
+private:
+    InkTransform transform_;
+};
+
+std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
+    return std::make_unique<Inks>(file);
+}
+
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile,
+                                open_inks};
 
 }  // namespace
 }  // namespace sikku

@@ -13,6 +13,7 @@ struct ImageModule {
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
     std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height);
     void (*check_cmyk_profile)(const std::filesystem::path& file);
+    std::unique_ptr<InkProfile> (*open_inks)(const std::filesystem::path& file);
 };
 /// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).
 constexpr std::uint64_t image_module_version(std::string_view program) {
