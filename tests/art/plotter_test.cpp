@@ -215,6 +215,35 @@ TEST_F(Plotter, ErrorsOfAProfileHaveTheirPlaces) {
               glm::dvec2(10, -20));
 }
 
+TEST_F(Plotter, DamagedProfilesAreErrorsAndNothingElse) {
+    std::mt19937 random(5);
+    for (const BundledProfile& known : bundled_profiles()) {
+        for (int round = 0; round < 300; ++round) {
+            std::string text(known.text);
+            for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+                const std::size_t at = random() % text.size();
+                switch (random() % 3) {
+                    case 0:
+                        text[at] = static_cast<char>(random() % 256);
+                        break;
+                    case 1:
+                        text.erase(at, 1 + random() % 5);
+                        break;
+                    default:
+                        text.insert(at, text.substr(random() % text.size(), 1 + random() % 9));
+                        break;
+                }
+            }
+            try {
+                const PlotterProfile profile = parse_profile("damaged", text);
+                EXPECT_TRUE(std::isfinite(profile.speeds.drawing) && profile.speeds.drawing > 0);
+            } catch (const PatternError& error) {
+                EXPECT_FALSE(error.diagnostics().empty());
+            }
+        }
+    }
+}
+
 TEST_F(Plotter, PensHaveTheirOwnSpeedHeightsAndPauses) {
     const PlotterProfile profile = bundled_profile("z").value();
     PlotOptions options;
@@ -368,7 +397,9 @@ TEST_F(Plotter, HpglParksDipsAndSetsSpeeds) {
     const auto plan = arranged(print_, draw_lines, options);
     MemoryDestination memory;
     const auto output = memory.open("plot.hpgl");
-    const HpglOptions hpgl{.park = options.park, .rules = options.rules, .speed = 40};
+    HpglOptions hpgl;
+    hpgl.park = options.park;
+    hpgl.rules = options.rules;
     const auto writer = write_hpgl(print_, hpgl, *output);
     plan->draw(*writer, [&](glm::dvec2 place, const Pen& pen) { writer->dip(place, pen); });
     writer->finish();
@@ -415,7 +446,7 @@ TEST_F(Plotter, ArrangingNeverMakesAPlotWorse) {
     const std::array<PlotSpeeds, 4> machines = {{{40, 80, 0.3}, {40, 80, 0.0}, {300, 5, 0.01}, {10, 1000, 5}}};
     int improved = 0;
     for (int round = 0; round < 400; ++round) {
-        const unsigned seed = random();
+        const auto seed = static_cast<unsigned>(random());
         PlotOptions options;
         options.speeds = machines[static_cast<std::size_t>(round) % machines.size()];
         if (round % 3 == 0) options.home = glm::dvec2(0, 0);
