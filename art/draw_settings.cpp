@@ -614,6 +614,31 @@ DrawingOptions drawing_options(const DrawSettings& settings) {
     return options;
 }
 
+PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
+    const std::optional<PlotterProfile>& profile = settings.profile;
+    PlotSetup setup;
+    PlotOptions& plot = setup.plot;
+    plot.split = settings.split;
+    plot.hatch = settings.hatch;
+    plot.pen_width = settings.pen_width;
+    plot.pens = settings.pens == 0 && profile ? profile->pens : settings.pens;
+    plot.speeds = settings.speeds;
+    if (profile) plot.rules = profile->rules;
+    plot.rules.insert(plot.rules.end(), settings.pen_rules.begin(), settings.pen_rules.end());
+    plot.refill = settings.refill;
+    plot.resume = settings.resume;
+    plot.park = settings.park;
+    if (!plot.park && profile && is_for_plotters(format)) plot.park = profile->park;
+    setup.gcode = settings.gcode;
+    setup.gcode.rules = plot.rules;
+    setup.gcode.park = plot.park;
+    setup.hpgl = {settings.paper, plot.park, plot.rules, settings.speeds.drawing};
+    if (!profile) return setup;
+    if (!settings.paper && profile->paper) setup.hpgl.paper = paper_for(*profile->paper, settings.page);
+    setup.layer_codes = profile->layers;
+    return setup;
+}
+
 Style read_print_style(const Document& document, const DrawSettings& settings) {
     Document drawn = document;
     const auto set = [&](const char* key, const std::string& value) {

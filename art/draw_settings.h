@@ -91,6 +91,16 @@ DrawingOptions drawing_options(const DrawSettings& settings);
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
 
+/// How a drawing or a sheet is arranged for a plotter, and what its writers need to know of the machine.
+struct PlotSetup {
+    PlotOptions plot;
+    GcodeOptions gcode;
+    HpglOptions hpgl;
+    LayerCodes layer_codes;
+};
+/// Combines the settings with those of the plotter's profile.
+PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);
+
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);
 

@@ -108,29 +108,12 @@ private:
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
         if (!settings_.plotter && !is_for_plotters(format_)) return;
-        PlotOptions& plot = drawing_.plot.emplace();
-        plot.split = settings_.split;
-        plot.hatch = settings_.hatch;
-        plot.pen_width = settings_.pen_width;
-        plot.pens = settings_.pens;
-        plot.speeds = settings_.speeds;
-        if (settings_.profile) plot.rules = settings_.profile->rules;
-        plot.rules.insert(plot.rules.end(), settings_.pen_rules.begin(), settings_.pen_rules.end());
-        plot.refill = settings_.refill;
-        plot.park = settings_.park || !is_for_plotters(format_) || !settings_.profile ? settings_.park
-                                                                                      : settings_.profile->park;
-        plot.resume = settings_.resume;
+        PlotSetup setup = plot_setup(settings_, format_);
+        drawing_.plot = std::move(setup.plot);
         drawing_.shows_travel = settings_.travel;
-        drawing_.hpgl = {settings_.paper, plot.park, plot.rules, settings_.speeds.drawing};
-        drawing_.gcode = settings_.gcode;
-        drawing_.gcode.rules = plot.rules;
-        drawing_.gcode.park = plot.park;
-        if (!settings_.profile) return;
-        if (plot.pens == 0) plot.pens = settings_.profile->pens;
-        if (!drawing_.hpgl.paper && settings_.profile->paper) {
-            drawing_.hpgl.paper = paper_for(*settings_.profile->paper, settings_.page);
-        }
-        drawing_.layer_codes = settings_.profile->layers;
+        drawing_.gcode = std::move(setup.gcode);
+        drawing_.hpgl = std::move(setup.hpgl);
+        drawing_.layer_codes = setup.layer_codes;
     }
 
     /// Checks that the settings apply to this drawing. @throws SettingError, PatternError

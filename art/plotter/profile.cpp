@@ -1,10 +1,11 @@
 #include "art/plotter/profile.h"
 
 #include "art/style/length.h"
-#include "embedded/plotter_profiles.h"
 #include "engine/base/input_file.h"
 #include "engine/base/text.h"
 #include "engine/language/pattern.h"
+
+#include <embedded/plotter_profiles.h>
 
 #include <fmt/format.h>
 

@@ -244,7 +244,7 @@ TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
         {{"--profile", "grlb", "--plotter"}, "unknown plotter; did you mean 'grbl'?"},
         {{"--profile", "roland", "--plotter"}, "or a file with a dot or a slash in its name"},
         {{"--profile", "axidraw"}, "--profile: needs --plotter"},
-        {{"--pen", "2 speed=20", "--plotter"}, "'profile' axidraw writes them"},
+        {{"--pen", "2 speed=20", "--plotter"}, "--profile axidraw writes them"},
         {{"--pen", "2 speed=20"}, "--pen: needs --plotter"},
         {{"--refill", "5m@1,1"}, "--refill: needs --plotter"},
         {{"--refill", "5m", "--plotter"}, "such as 5m@10,10"},
