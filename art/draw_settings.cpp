@@ -170,6 +170,7 @@ void set_profile(DrawSettings& settings, const std::string& text) {
     auto profile = bundled_profile(text);
     if (!profile) {
         std::vector<std::string_view> names;
+        names.reserve(bundled_profiles().size());
         for (const BundledProfile& known : bundled_profiles()) names.push_back(known.name);
         const std::string_view near = nearest(text, names);
         refuse_option("profile", text,

@@ -19,6 +19,7 @@ void list() {
 
 void show(const std::string& name) {
     std::vector<std::string_view> names;
+    names.reserve(bundled_profiles().size());
     for (const BundledProfile& known : bundled_profiles()) {
         if (known.name == name) return fmt::print("{}", known.text);
         names.push_back(known.name);

@@ -137,6 +137,7 @@ std::vector<ProfileLine> lines_of(const SourcePointer& source, Diagnostics& diag
                                       [&](const ProfileKey& known) { return known.name == lower_case(name.view()); });
         if (key == profile_keys.end()) {
             std::vector<std::string_view> names;
+            names.reserve(profile_keys.size());
             for (const ProfileKey& known : profile_keys) names.push_back(known.name);
             diagnostics.error(name, fmt::format("unknown key '{}' of a plotter{}", printable(name.view(), 40),
                                                 did_you_mean(nearest(name.view(), names))));
