@@ -4,6 +4,7 @@
 #include "art/style/length.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
+#include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 
 #include <fmt/format.h>
@@ -157,15 +158,32 @@ void set_tile(DrawSettings& settings, const std::string& text) {
     if (settings.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
 }
 
+void use_profile(DrawSettings& settings, PlotterProfile profile) {
+    settings.speeds = profile.speeds;
+    settings.gcode = profile.gcode;
+    settings.profile = std::move(profile);
+}
+
+/// Takes a bundled profile. Files are read by read_draw_settings().
 void set_profile(DrawSettings& settings, const std::string& text) {
-    const auto profile = gcode_profile(text);
-    if (!profile) refuse_option("profile", text, "expected grbl or z");
-    settings.gcode = *profile;
+    if (is_profile_file(text)) return;
+    auto profile = bundled_profile(text);
+    if (!profile) {
+        std::vector<std::string_view> names;
+        names.reserve(bundled_profiles().size());
+        for (const BundledProfile& known : bundled_profiles()) names.push_back(known.name);
+        const std::string_view near = nearest(text, names);
+        refuse_option("profile", text,
+                      near.empty() ? fmt::format("expected {}, or a file with a dot or a slash in its name",
+                                                 alternatives(names))
+                                   : "unknown plotter" + did_you_mean(near));
+    }
+    use_profile(settings, std::move(*profile));
 }
 
 /// Runs a parser and reports its errors as errors of the option.
 template <typename Parse>
-void parse_press(const char* option, const std::string& text, const Parse& parse) {
+void read_as(const char* option, const std::string& text, const Parse& parse) {
     try {
         parse();
     } catch (const SettingError&) {
@@ -178,6 +196,18 @@ void parse_press(const char* option, const std::string& text, const Parse& parse
 void set_word(const char* option, std::string_view word, const std::string& text, bool& value) {
     if (text != word) refuse_option(option, text, fmt::format("expected {}", word));
     value = true;
+}
+
+void set_overprint(DrawSettings& settings, const std::string& text) {
+    if (text == "black") {
+        settings.press.overprint = Overprint::black;
+    } else if (text == "spots") {
+        settings.press.overprint = Overprint::spots;
+    } else if (text == "all") {
+        settings.press.overprint = Overprint::all;
+    } else {
+        refuse_option("overprint", text, "expected black, spots or all");
+    }
 }
 
 using S = DrawSettings;
@@ -320,6 +350,12 @@ const std::array own_rows = {
                .group = plotters,
                .kind = flag},
               [](S& s, Text t) { s.plotter = is_true(t); }},
+    // Before the options that replace what it sets.
+    Option<S>{{.name = "profile",
+               .help = "plotter: axidraw, grbl, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
+               .value = "NAME|FILE",
+               .group = plotters},
+              set_profile},
     Option<S>{{.name = "split",
                .help = "maximum length of a stroke, for controllers that stutter",
                .value = "LENGTH",
@@ -348,6 +384,45 @@ const std::array own_rows = {
                .least = 1,
                .most = 256},
               [](S& s, Text t) { s.pens = to_int(t); }},
+    Option<S>{{.name = "pen",
+               .help = "settings of a pen, by number or colour: speed, lift and down (heights, or power), pause, "
+                       "refill, such as '2 speed=20mm/s pause=0.5s'; may be repeated",
+               .value = "PEN SETTINGS",
+               .group = plotters,
+               .is_list = true},
+              [](S& s, Text t) { read_as("pen", t, [&] { s.pen_rules.push_back(parse_pen_rule(t, s.dpi)); }); }},
+    Option<S>{{.name = "park",
+               .help = "place of the pen while it is changed, from the bottom left corner of the page; HP-GL, G-code",
+               .value = "X,Y",
+               .group = plotters},
+              [](S& s, Text t) { read_as("park", t, [&] { s.park = parse_place(t, s.dpi); }); }},
+    Option<S>{{.name = "refill",
+               .help = "dip the pen at a place before it draws, and again after each LENGTH, such as 5m@10,10",
+               .value = "LENGTH@X,Y",
+               .group = plotters},
+              [](S& s, Text t) { read_as("refill", t, [&] { s.refill = parse_refill(t, s.dpi); }); }},
+    Option<S>{{.name = "resume",
+               .help = "begin where an interrupted plot had drawn this length, such as 12.5m",
+               .value = "LENGTH",
+               .group = plotters},
+              [](S& s, Text t) {
+                  s.resume = length("resume", t, s.dpi);
+                  if (!(s.resume > 0)) refuse_option("resume", t, "expected a length above 0");
+              }},
+    Option<S>{{.name = "arcs",
+               .help = "follow curves by arcs where they fit (default); G-code",
+               .group = plotters,
+               .kind = flag,
+               .is_on = true},
+              [](S& s, Text t) { s.gcode.arcs = is_true(t); }},
+    Option<S>{{.name = "min-arc",
+               .help = "minimum length of an arc; shorter ones become lines; G-code (0mm)",
+               .value = "LENGTH",
+               .group = plotters},
+              [](S& s, Text t) {
+                  s.gcode.least_arc = length("min-arc", t, s.dpi);
+                  if (!(s.gcode.least_arc >= 0)) refuse_option("min-arc", t, "expected a length of 0 or more");
+              }},
     Option<S>{{.name = "hpgl-paper",
                .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "
                        ",centre if its origin is in the middle (the page from its corner)",
@@ -383,11 +458,6 @@ const std::array own_rows = {
                .least = 0,
                .most = 3600},
               [](S& s, Text t) { s.speeds.lift = to_number(t); }},
-    Option<S>{{.name = "profile",
-               .help = "kind of G-code machine: grbl (M3 and M5 move the pen) or z (grbl)",
-               .value = "grbl|z",
-               .group = plotters},
-              set_profile},
     Option<S>{
         {.name = "gcode-start", .help = "G-code lines before the first stroke", .value = "LINES", .group = plotters},
         [](S& s, Text t) { s.gcode.start = t; }},
@@ -406,9 +476,17 @@ const std::array own_rows = {
                .value = "NAME=COLOUR",
                .group = presses,
                .is_list = true},
-              [](S& s, Text t) { parse_press("spot", t, [&] { add_spot(s.press.spots, parse_spot(t)); }); }},
+              [](S& s, Text t) { read_as("spot", t, [&] { add_spot(s.press.spots, parse_spot(t)); }); }},
+    Option<S>{
+        {.name = "registration", .help = "registration marks outside the bleed; PDF", .group = presses, .kind = flag},
+        [](S& s, Text t) { s.press.registration = is_true(t); }},
+    Option<S>{{.name = "overprint",
+               .help = "print black lines, areas in spot colours, or both, over the inks beneath them; PDF",
+               .value = "black|spots|all",
+               .group = presses},
+              set_overprint},
     Option<S>{{.name = "cmyk",
-               .help = "convert pixels to the inks of this ICC profile; TIFF",
+               .help = "convert colours to the inks of this ICC profile; TIFF, and PDF, which becomes PDF/X-4",
                .value = "FILE.icc",
                .group = presses},
               [](S& s, Text t) { s.press.cmyk = t; }},
@@ -428,7 +506,7 @@ const std::array own_rows = {
          .value = "threshold|diffusion|halftone[,LPI]",
          .group = presses},
         [](S& s, Text t) {
-            parse_press("screen", t, [&] {
+            read_as("screen", t, [&] {
                 s.press.screen = parse_screen(t);
                 if (s.press.screen.kind == Screen::Kind::halftone) Screener(s.press.screen, 1, s.dpi);
             });
@@ -495,8 +573,13 @@ std::span<const Option<DrawSettings>> draw_options() {
     return table;
 }
 
-DrawSettings read_draw_settings(const OptionValues& values) {
+DrawSettings read_draw_settings(const OptionValues& values, const std::filesystem::path* folder) {
     DrawSettings settings;
+    for (const OptionValue& value : values) {
+        if (folder && value.name == "profile" && is_profile_file(value.text)) {
+            use_profile(settings, read_profile(*folder / value.text));
+        }
+    }
     // The resolution comes first: lengths in px and halftone screens depend on it.
     for (const OptionValue& value : values) {
         if (value.name == "dpi") apply_options(draw_options(), {value}, settings);
@@ -532,6 +615,31 @@ DrawingOptions drawing_options(const DrawSettings& settings) {
     return options;
 }
 
+PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
+    const std::optional<PlotterProfile>& profile = settings.profile;
+    PlotSetup setup;
+    PlotOptions& plot = setup.plot;
+    plot.split = settings.split;
+    plot.hatch = settings.hatch;
+    plot.pen_width = settings.pen_width;
+    plot.pens = settings.pens == 0 && profile ? profile->pens : settings.pens;
+    plot.speeds = settings.speeds;
+    if (profile) plot.rules = profile->rules;
+    plot.rules.insert(plot.rules.end(), settings.pen_rules.begin(), settings.pen_rules.end());
+    plot.refill = settings.refill;
+    plot.resume = settings.resume;
+    plot.park = settings.park;
+    if (!plot.park && profile && is_for_plotters(format)) plot.park = profile->park;
+    setup.gcode = settings.gcode;
+    setup.gcode.rules = plot.rules;
+    setup.gcode.park = plot.park;
+    setup.hpgl = {settings.paper, plot.park, plot.rules, settings.speeds.drawing};
+    if (!profile) return setup;
+    if (!settings.paper && profile->paper) setup.hpgl.paper = paper_for(*profile->paper, settings.page);
+    setup.layer_codes = profile->layers;
+    return setup;
+}
+
 Style read_print_style(const Document& document, const DrawSettings& settings) {
     Document drawn = document;
     const auto set = [&](const char* key, const std::string& value) {
@@ -549,167 +657,6 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     diagnostics.throw_if_errors();
     if ((settings.dots || settings.dot_spacing || settings.lesson) && !style.dots) style.dots.emplace();
     return style;
-}
-
-namespace {
-
-/// Reason why an option cannot be combined with others.
-struct Conflict {
-    bool is_given;
-    const char* option;
-    const char* reason;
-};
-
-void refuse_first(std::initializer_list<Conflict> conflicts) {
-    for (const Conflict& conflict : conflicts) {
-        if (conflict.is_given) refuse_option(conflict.option, "", conflict.reason);
-    }
-}
-
-void check_model(const DrawSettings& settings) {
-    constexpr const char* reason = "a model has no page and no camera; this option is for prints";
-    refuse_first({{settings.window.has_value(), "window", reason},
-                  {!settings.view.empty(), "view", reason},
-                  {settings.plotter, "plotter", reason},
-                  {settings.hatch.has_value(), "hatch", reason},
-                  {settings.pen_width > 0, "pen-width", reason},
-                  {settings.pens > 0, "pens", reason},
-                  {settings.paper.has_value(), "hpgl-paper", reason},
-                  {settings.tile.has_value(), "tile", reason},
-                  {settings.dots.has_value(), "dots", reason},
-                  {settings.dot_spacing.has_value(), "dot-spacing", reason},
-                  {settings.animation.has_value(), "animate", reason},
-                  {settings.generations.has_value(), "generations", reason},
-                  {settings.frames, "frames", reason},
-                  {settings.frame_time.has_value(), "frame-time", reason},
-                  {settings.hold.has_value(), "hold", reason},
-                  {settings.fit_frames, "fit-frames", reason},
-                  {settings.lesson.has_value(), "lesson", reason},
-                  {settings.border, "border", reason},
-                  {settings.colours_strokes, "colour-by", reason},
-                  {settings.press.marks, "marks", reason},
-                  {!settings.press.spots.empty(), "spot", reason},
-                  {settings.press.bleed != 0, "bleed", reason},
-                  {!settings.press.cmyk.empty(), "cmyk", reason},
-                  {settings.press.bits != 8, "bits", reason},
-                  {settings.press.screen != Screen{}, "screen", reason},
-                  {settings.step.has_value(), "step", "a model has one unit for each turtle step"},
-                  {settings.rotate != 0, "rotate", "a model can be rotated in the program that uses it"},
-                  {settings.mirror, "mirror", "a model can be mirrored in the program that uses it"}});
-}
-
-void check_placement(const DrawSettings& settings) {
-    constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
-    refuse_first({{settings.fit && settings.step, "step", both},
-                  {settings.fit && settings.window, "window", both},
-                  {settings.fit && settings.dot_spacing, "dot-spacing", both},
-                  {settings.step && settings.dot_spacing, "dot-spacing",
-                   "cannot be combined with 'step': both set the step length"}});
-}
-
-void check_plot(const DrawSettings& settings, PrintFormat format) {
-    const bool is_plot = settings.plotter || is_for_plotters(format);
-    const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
-    refuse_first({{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
-                  {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
-                  {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
-                  {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
-                  {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
-                  {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
-                  {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
-                  {settings.tile && is_plot, "tile", "tiles would cut the strokes of a plot"},
-                  {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
-                  {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
-}
-
-void check_gif(const DrawSettings& settings) {
-    constexpr const char* screen = "does not apply to a .gif, which is shown on screens";
-    refuse_first({{settings.press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
-    const PixelSize size = pixel_size(settings.page, settings.dpi);
-    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
-        refuse_option(
-            "dpi", fmt::format("{:g}", settings.dpi),
-            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
-    }
-}
-
-void check_lesson(const DrawSettings& settings, PrintFormat format) {
-    if (!settings.lesson) return;
-    constexpr const char* alone = "cannot be combined with 'lesson', which has its own pages and order";
-    refuse_first({{settings.plotter || is_for_plotters(format), "lesson",
-                   "a lesson has colours, numbers and several steps; a plot is one drawing"},
-                  {settings.generations.has_value(), "generations", alone},
-                  {settings.tile.has_value(), "tile", alone},
-                  {settings.window.has_value(), "window", alone},
-                  {settings.animation.has_value(), "animate", alone},
-                  {settings.only_dots, "dots", alone},
-                  {settings.border, "border", "a lesson teaches the lines of the kolam; a border is not one of them"},
-                  {settings.press.bleed > 0, "bleed", "the pages of a lesson are not trimmed"},
-                  {settings.press.marks, "marks", "the pages of a lesson are not trimmed"}});
-    if (is_vector(format) || format == PrintFormat::gif) return;
-    constexpr const char* filled = "each step of a lesson is scaled to fill its cell of the picture";
-    refuse_first(
-        {{settings.step.has_value(), "step", filled}, {settings.dot_spacing.has_value(), "dot-spacing", filled}});
-}
-
-void check_growth(const DrawSettings& settings, PrintFormat format) {
-    const bool is_gif = format == PrintFormat::gif;
-    const bool is_sheet = settings.generations && !is_gif && !settings.frames;
-    refuse_first(
-        {{is_gif && !settings.generations && !settings.lesson, "generations",
-          "needed for a .gif, an animation of growth: A:B"},
-         {settings.frames && !settings.generations, "frames", "needs 'generations'"},
-         {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
-         {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
-         {settings.frame_time && !is_gif, "frame-time", "applies only to a .gif"},
-         {settings.hold && !is_gif, "hold", "applies only to a .gif"},
-         {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
-    if (is_gif) check_gif(settings);
-    if (!settings.generations) return;
-    const auto [first, last] = *settings.generations;
-    const std::int64_t most = is_sheet ? 100 : most_frames;
-    if (last < first || last - first >= most) {
-        refuse_option("generations", fmt::format("{}:{}", first, last),
-                      fmt::format("expected up to {} derivation lengths, the lowest first", most));
-    }
-    if (is_sheet) {
-        constexpr const char* filled = "each drawing of a sheet of generations is scaled to fill its cell";
-        refuse_first(
-            {{settings.plotter || is_for_plotters(format), "generations",
-              "a plot cannot contain the grounds and captions of a sheet of generations; 'frames' makes a plot "
-              "of each"},
-             {settings.tile.has_value(), "tile",
-              "a sheet of generations cannot be cut into tiles; 'frames' cuts each generation"},
-             {settings.step.has_value(), "step", filled},
-             {settings.dot_spacing.has_value(), "dot-spacing", filled}});
-    }
-}
-
-}  // namespace
-
-void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
-    if (info(format).kind == FormatKind::model) return check_model(settings);
-    check_placement(settings);
-    if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
-        refuse_option("dpi", fmt::format("{:g}", settings.dpi),
-                      "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
-    }
-    try {
-        if (settings.tile) tiling_of(settings.page, tile_options(settings));
-    } catch (const std::runtime_error& error) {
-        refuse_option("tile", "", error.what());
-    }
-    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
-    check_plot(settings, format);
-    constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
-    const bool is_untrimmed = settings.plotter || settings.tile;
-    refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
-                  {is_untrimmed && settings.press.marks, "marks", trimmed},
-                  {settings.window && settings.border, "border",
-                   "a border frames the whole drawing; a window shows only part of it"},
-                  {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
-    check_lesson(settings, format);
-    check_growth(settings, format);
 }
 
 }  // namespace sikku

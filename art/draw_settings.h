@@ -7,6 +7,7 @@
 #include "art/plotter/gcode.h"
 #include "art/plotter/hpgl.h"
 #include "art/plotter/plot.h"
+#include "art/plotter/profile.h"
 #include "art/print/format.h"
 #include "art/print/page.h"
 #include "art/print/press.h"
@@ -16,6 +17,7 @@
 #include "engine/language/document.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,12 +54,17 @@ struct DrawSettings {
     std::optional<Page> tile;          ///< sheet of a tiled print
     std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
     bool plotter = false;
-    double split = 0.0;              ///< maximum length of a stroke; 0: no limit
-    std::optional<Hatch> hatch;      ///< hatching of filled shapes
-    double pen_width = 0.0;          ///< width of the plotter's pen; 0: the width of each stroke
-    int pens = 0;                    ///< maximum number of pens; 0: no limit
-    std::optional<HpglPaper> paper;  ///< sheet or limits of an HP-GL plotter
-    bool travel = false;             ///< show pen-up travel
+    double split = 0.0;                     ///< maximum length of a stroke; 0: no limit
+    std::optional<Hatch> hatch;             ///< hatching of filled shapes
+    double pen_width = 0.0;                 ///< width of the plotter's pen; 0: the width of each stroke
+    int pens = 0;                           ///< maximum number of pens; 0: no limit
+    std::optional<HpglPaper> paper;         ///< sheet or limits of an HP-GL plotter
+    bool travel = false;                    ///< show pen-up travel
+    std::optional<PlotterProfile> profile;  ///< of the plotter, with which speeds and G-code begin
+    std::vector<PenRule> pen_rules;         ///< settings of single pens, which replace those of the profile
+    std::optional<Refill> refill;           ///< of pens without a rule of their own
+    std::optional<glm::dvec2> park;         ///< place of the pen while it is changed
+    double resume = 0.0;                    ///< length that was drawn before the plot was interrupted
     PlotSpeeds speeds;
     GcodeOptions gcode;
     Press press;
@@ -70,7 +77,9 @@ struct DrawSettings {
 std::span<const Option<DrawSettings>> draw_options();
 
 /// Reads options. @throws SettingError for unknown names and values that cannot be read
-DrawSettings read_draw_settings(const OptionValues& values);
+/// @param folder  folder of the file that describes a plotter, if any; null: that file is not read.
+///                @throws PatternError for that file, std::runtime_error if it cannot be read
+DrawSettings read_draw_settings(const OptionValues& values, const std::filesystem::path* folder = nullptr);
 
 /// Reads the style of a document, with `dots` and `view` as the settings override them. @throws SettingError,
 /// PatternError
@@ -81,6 +90,16 @@ DrawingOptions drawing_options(const DrawSettings& settings);
 
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
+
+/// How a drawing or a sheet is arranged for a plotter, and what its writers need to know of the machine.
+struct PlotSetup {
+    PlotOptions plot;
+    GcodeOptions gcode;
+    HpglOptions hpgl;
+    LayerCodes layer_codes;
+};
+/// Combines the settings with those of the plotter's profile.
+PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);
 
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);

@@ -23,13 +23,15 @@ namespace sikku {
 namespace {
 
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
-    const auto line = [&](const PlotTally& tally) {
+    const auto line = [&](const PlotTally& tally, double seconds) {
         return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,
                            tally.travelled / 1000, plot.returns ? ", return included" : "",
-                           counted(tally.lifts, "lift"), time_text(plot_seconds(tally, speeds)));
+                           counted(tally.lifts, "lift"), time_text(seconds));
     };
-    made.fact("before: " + line(plot.before));
-    made.fact("plot:   " + line(plot.after));
+    // Pens have the same speeds and pauses in both.
+    const double of_pens = plot_seconds(plot, speeds) - plot_seconds(plot.after, speeds);
+    made.fact("before: " + line(plot.before, plot_seconds(plot.before, speeds) + of_pens));
+    made.fact("plot:   " + line(plot.after, plot_seconds(plot, speeds)));
     if (plot.duplicates > 0) {
         made.fact(fmt::format("{} drawn twice in the pattern, once here", counted(plot.duplicates, "segment")));
     }
@@ -106,14 +108,12 @@ private:
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
         if (!settings_.plotter && !is_for_plotters(format_)) return;
-        PlotOptions& plot = drawing_.plot.emplace();
-        plot.split = settings_.split;
-        plot.hatch = settings_.hatch;
-        plot.pen_width = settings_.pen_width;
-        plot.pens = settings_.pens;
-        drawing_.hpgl.paper = settings_.paper;
+        PlotSetup setup = plot_setup(settings_, format_);
+        drawing_.plot = std::move(setup.plot);
         drawing_.shows_travel = settings_.travel;
-        drawing_.gcode = settings_.gcode;
+        drawing_.gcode = std::move(setup.gcode);
+        drawing_.hpgl = std::move(setup.hpgl);
+        drawing_.layer_codes = setup.layer_codes;
     }
 
     /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
@@ -403,7 +403,7 @@ Cost PrintWork::forecast(const Grammar& given) const {
 /// @throws SettingError, PatternError
 std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
                                       const std::filesystem::path& folder = {}) {
-    DrawSettings settings = read_draw_settings(values);
+    DrawSettings settings = read_draw_settings(values, &folder);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
     return std::make_unique<PrintWork>(document, format, std::move(settings));

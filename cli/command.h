@@ -134,6 +134,7 @@ void add_gallery(CLI::App& app, bool& quiet);
 void add_scales(CLI::App& app);
 void add_import(CLI::App& app, bool& quiet);
 void add_patterns(CLI::App& app);
+void add_plotters(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);
 void add_studio(CLI::App& app, bool& quiet);

@@ -90,6 +90,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw bush-3d -o bush.glb\n"
         "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
+        "  sikku draw snake-kolam --cmyk press.icc --bleed 3mm --marks -o press.pdf\n"
         "  sikku draw 'https://…/sikku-studio.html#sikku1.…' -o print.pdf\n"
         "  sikku draw my.lsys --step 5mm --stroke '0.7mm navy' -o my.png --dpi 600");
     command->callback([options, &quiet] { run(*options, quiet); });

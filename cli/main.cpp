@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     add_derive(app, quiet);
     add_measure(app, quiet);
     add_patterns(app);
+    add_plotters(app);
     add_import(app, quiet);
     add_scales(app);
     add_show(app, quiet);

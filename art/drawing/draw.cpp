@@ -2,6 +2,7 @@
 
 #include "art/drawing/drawing.h"
 #include "art/drawing/picture.h"
+#include "art/drawing/press_inks.h"
 #include "art/drawing/tiled_print.h"
 #include "art/drawing/word_drawing.h"
 #include "art/image/image_file.h"
@@ -55,16 +56,31 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     if (is_for_plotters(options.format)) {
         const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, options.hpgl, output)
                                                                 : write_gcode(plotted, options.gcode, output);
-        plan.draw(*writer);
+        std::vector<Pen> pens;
+        for (const PlotPlan::PlottedPen& plotted_pen : plan.pens()) pens.push_back(plotted_pen.pen);
+        writer->number_pens(pens);
+        plan.draw(*writer, [&](glm::dvec2 place, const Pen& pen) { writer->dip(place, pen); });
         writer->finish();
         return;
+    }
+    if (options.format == PrintFormat::svg && options.layer_codes.full_speed > 0) {
+        for (const auto& [pen, number, settings] : plan.pens()) {
+            plotted.layer_names[plotted.style.index(pen)] =
+                layer_name(number, plotted.style.line_colour(pen), settings, options.layer_codes);
+        }
     }
     if (options.shows_travel) {
         plotted.travel_colour = static_cast<int>(plotted.style.palette.size());
         plotted.style.palette.push_back({0x88, 0x88, 0x88, 255});
     }
     const auto writer = options.format == PrintFormat::svg ? write_svg(plotted, output) : write_pdf(plotted, output);
-    plan.draw(*writer);
+    // A dip is a dot beside the drawing.
+    plan.draw(*writer, [&](glm::dvec2 place, const Pen& pen) {
+        const glm::dvec2 dot = plan.drawn_at(place);
+        writer->begin_stroke(dot, pen);
+        writer->lines(std::span(&dot, 1));
+        writer->end_stroke(false);
+    });
     if (options.shows_travel) draw_travels(plan, plotted, *writer);
     writer->finish();
 }
@@ -95,6 +111,7 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
     if (grammar.is_spatial() && print.animation) {
         throw std::runtime_error("animations apply only to drawings in the plane");
     }
+    load_inks(print.press, options.format);  // before the drawing, which may take long
     const auto drawing = make_drawing(grammar, print.style, options);
     if (options.tiles) return draw_tiles(*drawing, std::move(print), options, file, destination);
     DrawReport report = drawing->place(print);

@@ -47,6 +47,7 @@ struct DrawOptions : DrawingOptions {
     bool shows_travel = false;  ///< draw pen-up travel of the plot in a separate layer
     GcodeOptions gcode;
     HpglOptions hpgl;
+    LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.
     std::optional<TileOptions> tiles;

@@ -2,6 +2,7 @@
 
 #include "art/drawing/gif_file.h"
 #include "art/drawing/lesson_drawing.h"
+#include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
@@ -95,6 +96,7 @@ DrawReport draw_lesson(const Grammar& grammar, Print print, const DrawOptions& g
                        const std::filesystem::path& file, Destination& destination) {
     const DrawOptions drawing = with_locked_watch(given);
     if (!is_vector(drawing.format)) prepare_images(drawing.threads);
+    load_inks(print.press, drawing.format);
     const auto lesson = make_lesson(grammar, print.style, drawing);
     lesson->number_pages();
     DrawReport report = lesson->place(print);

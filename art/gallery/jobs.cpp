@@ -1,5 +1,6 @@
 #include "art/gallery/jobs.h"
 
+#include "art/draw_settings.h"
 #include "art/gallery/items.h"
 #include "art/gallery/patterns.h"
 #include "art/gallery/summary.h"
@@ -539,6 +540,9 @@ std::string GalleryJob::hash() const {
     }
     // The contents of the file may change.
     if (keys.contains("cmyk")) hash.add_piece(works->digits_of(folder / keys.at("cmyk")));
+    if (const auto found = keys.find("profile"); found != keys.end() && is_profile_file(found->second)) {
+        hash.add_piece(works->digits_of(folder / found->second));
+    }
     if (pattern->text) {
         // Search for scales and key maps instead of compiling, which would take long for every job of a finished
         // gallery.

@@ -142,12 +142,31 @@ std::vector<std::uint8_t> grey_profile() {
     return saved(profile.get());
 }
 
+namespace {
+
+/// The description of a profile in printable ASCII, at most 200 characters.
+std::string description(cmsHPROFILE profile) {
+    char text[200] = {};
+    cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text, sizeof text);
+    std::string result;
+    for (std::size_t i = 0; i + 1 < std::size(text) && text[i] != 0; ++i) {
+        if (text[i] >= 0x20 && text[i] < 0x7F) result += text[i];
+    }
+    return result;
+}
+
+}  // namespace
+
 struct InkTransform::Handles {
     Context context;
     std::vector<std::uint8_t> bytes;
     cmsHTRANSFORM transform = nullptr;
+    cmsHTRANSFORM exact = nullptr;  // into 16 bits
+    std::string name;
+    bool is_of_output = false;
     ~Handles() {
         if (transform) cmsDeleteTransform(transform);
+        if (exact) cmsDeleteTransform(exact);
     }
 };
 
@@ -163,13 +182,36 @@ InkTransform::InkTransform(const std::filesystem::path& file) : handles_(std::ma
     handles_->transform =
         cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_8, inks.get(), TYPE_CMYK_8,
                               INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
-    if (!handles_->transform) refuse(file, "it is damaged or cannot convert colours to inks");
+    handles_->exact =
+        cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_16, inks.get(), TYPE_CMYK_16,
+                              INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
+    if (!handles_->transform || !handles_->exact) refuse(file, "it is damaged or cannot convert colours to inks");
+    handles_->is_of_output = cmsGetDeviceClass(inks.get()) == cmsSigOutputClass;
+    handles_->name = description(inks.get());
 }
 
 InkTransform::~InkTransform() = default;
 
 const std::vector<std::uint8_t>& InkTransform::profile() const {
     return handles_->bytes;
+}
+
+std::string InkTransform::name() const {
+    return handles_->name;
+}
+
+bool InkTransform::is_of_output() const {
+    return handles_->is_of_output;
+}
+
+std::array<double, 4> InkTransform::convert(std::array<std::uint8_t, 3> rgb) const {
+    std::array<std::uint16_t, 3> from{};
+    std::array<std::uint16_t, 4> to{};
+    for (std::size_t i = 0; i < 3; ++i) from[i] = static_cast<std::uint16_t>(257 * rgb[i]);
+    cmsDoTransform(handles_->exact, from.data(), to.data(), 1);
+    std::array<double, 4> inks{};
+    for (std::size_t i = 0; i < 4; ++i) inks[i] = to[i] / 65535.0;
+    return inks;
 }
 
 void InkTransform::convert(std::span<const std::uint8_t> rgb, std::span<std::uint8_t> inks) const {

@@ -1,10 +1,12 @@
 // art/image/icc.h: converts colours by ICC profiles with lcms2. Part of the module with OpenImageIO.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -26,9 +28,15 @@ public:
 
     /// The bytes of the file.
     const std::vector<std::uint8_t>& profile() const;
+    /// Description of the profile in ASCII; empty if it has none.
+    std::string name() const;
+    /// True for a profile of an output device, such as a press.
+    bool is_of_output() const;
     /// 3 bytes a pixel into 4, 255 for full ink. May be called from several threads at a time. Runs of one colour
     /// cost little more than to be copied.
     void convert(std::span<const std::uint8_t> rgb, std::span<std::uint8_t> inks) const;
+    /// One colour, its inks from 0 to 1.
+    std::array<double, 4> convert(std::array<std::uint8_t, 3> rgb) const;
 
 private:
     struct Handles;

@@ -87,6 +87,10 @@ std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& pat
     return image_module().open_animation(path, width, height);
 }
 
+std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
+    return image_module().open_inks(file);
+}
+
 void check_cmyk_profile(const std::filesystem::path& file) {
     image_module().check_cmyk_profile(file);
 }

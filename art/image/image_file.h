@@ -3,6 +3,7 @@
 
 #include "engine/base/monitor.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -74,6 +75,22 @@ std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& pat
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
 /// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);
+
+/// The inks of a CMYK profile for output devices.
+class InkProfile {
+public:
+    virtual ~InkProfile() = default;
+    /// The bytes of the file.
+    virtual const std::vector<std::uint8_t>& bytes() const = 0;
+    /// Its description in ASCII; `CMYK` if it has none.
+    virtual std::string name() const = 0;
+    /// Cyan, magenta, yellow and black of an sRGB colour, 0 to 1: relative colorimetric with black point
+    /// compensation.
+    virtual std::array<double, 4> convert(std::array<std::uint8_t, 3> colour) const = 0;
+};
+/// Loads the module, too. @throws std::runtime_error, which names the file, as check_cmyk_profile(), and if the
+/// profile is not one of an output device
+std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file);
 
 /// @throws std::runtime_error, which names the file, if it is no ICC profile that turns colours into CMYK. Loads the
 /// module, too.

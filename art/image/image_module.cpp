@@ -454,7 +454,29 @@ DecodedPicture read(const std::filesystem::path& path, int longest_side, std::ui
     return PictureReader(path, most_pixels).read(longest_side, monitor);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile, read};
+
+class Inks final : public InkProfile {
+public:
+    explicit Inks(const std::filesystem::path& file) : transform_(file) {
+        if (transform_.is_of_output()) return;
+        throw std::runtime_error("the ICC profile '" + file.string() + "': it is not that of an output device");
+    }
+    const std::vector<std::uint8_t>& bytes() const override { return transform_.profile(); }
+    std::string name() const override { return transform_.name().empty() ? "CMYK" : transform_.name(); }
+    std::array<double, 4> convert(std::array<std::uint8_t, 3> colour) const override {
+        return transform_.convert(colour);
+    }
+
+private:
+    InkTransform transform_;
+};
+
+std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
+    return std::make_unique<Inks>(file);
+}
+
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile,
+                                read, open_inks};
 
 }  // namespace
 }  // namespace sikku

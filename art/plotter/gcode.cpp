@@ -3,6 +3,7 @@
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 #include "engine/base/decimal.h"
+#include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -107,29 +108,26 @@ class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const GcodeOptions& options, Output& file)
         : PlotWriter(print), options_(options), file_(file) {
-        for (const double feed : {options.drawing_feed, options.travel_feed, options.z_feed}) {
+        for (const double feed : {options.drawing_feed, options.travel_feed}) {
             require(std::isfinite(feed) && feed > 0, "a feed is finite and above 0 mm/min");
         }
-        require(std::isfinite(options.z_up) && std::isfinite(options.z_down), "a height is finite");
-        require(std::isfinite(options.power) && options.power >= 0, "the power is finite and at least 0");
+        require(std::isfinite(options.lift) && std::isfinite(options.down), "a height is finite");
         require(std::isfinite(options.pause) && options.pause >= 0, "the pause is finite and at least 0 s");
-        if (!print.title.empty()) file_.write(gcode_comment("title", print.title) + "\n");
-        for (const std::string& piece : recipe_comments(print.pattern, print.made)) {
-            file_.write(gcode_comment("recipe", piece) + "\n");
+        require(std::isfinite(options.least_arc) && options.least_arc >= 0,
+                "the least arc is finite and at least 0 mm");
+        for (const std::string* command : {&options.pen_up, &options.pen_down, &options.pen_change, &options.dwell}) {
+            fill(*command);
         }
-        file_.write("G21 G90 G17\n");
+        if (!print.title.empty()) write_comment("title", print.title);
+        for (const std::string& piece : recipe_comments(print.pattern, print.made)) write_comment("recipe", piece);
+        write_text(options.setup);
         write_text(options.start);
         lift();
     }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
-        if (const int next = number(pen); next != pen_) {
-            const std::string colour = colour_name(print_.style.line_colour(pen));
-            file_.write(gcode_comment(fmt::format("pen {}", next), colour) + "\n");
-            if (pen_ != 0) file_.write(fmt::format("T{}\nM0\n", next));
-            pen_ = next;
-        }
+        if (const int next = number(pen); next != pen_) take_pen(next, print_.style.line_colour(pen));
         started_ = false;
     }
     void lines(std::span<const glm::dvec2> ends) override {
@@ -162,6 +160,12 @@ public:
         started_ = false;
         lift();
     }
+    void dip(glm::dvec2 place, const Pen& pen) override {
+        if (const int next = number(pen); next != pen_) take_pen(next, print_.style.line_colour(pen));
+        travel(place);
+        lower();
+        lift();
+    }
     void finish() override { write_text(options_.end); }
 
 private:
@@ -171,29 +175,75 @@ private:
         started_ = true;
         points_ = {on_page(here_)};
         require_on_page(points_.front());
-        at_ = rounded(points_.front());
+        travel(points_.front());
+        lower();
+        feed_ = fmt::format(" F{}", decimal(settings_.speed ? 60 * *settings_.speed : options_.drawing_feed, 3));
+    }
+
+    void travel(glm::dvec2 place) {
+        at_ = rounded(place);
         file_.write(
             fmt::format("G0 X{} Y{} F{}\n", decimal(at_.x, 3), decimal(at_.y, 3), decimal(options_.travel_feed, 3)));
-        if (options_.lifts_by_z) {
-            file_.write(fmt::format("G1 Z{} F{}\n", decimal(options_.z_down, 3), decimal(options_.z_feed, 3)));
-        } else {
-            file_.write(fmt::format("M3 S{}\n", decimal(options_.power, 3)));
-            pause();
-        }
-        feed_ = fmt::format(" F{}", decimal(options_.drawing_feed, 3));
     }
 
+    /// Stops the machine for the pen of that number, unless it is the first, which is in place.
+    void take_pen(int next, Colour colour) {
+        colour_ = colour;
+        write_comment(fmt::format("pen {}", next), colour_name(colour));
+        if (pen_ != 0 && options_.park) travel(*options_.park);
+        const bool is_first = pen_ == 0;
+        pen_ = next;
+        settings_ = pen_settings(options_.rules, next, colour);
+        if (!is_first) write_text(fill(options_.pen_change));
+        // A brush may have to be lifted higher than the pen before it.
+        if (settings_.lift.value_or(options_.lift) != lifted_to_) lift();
+    }
+
+    void lower() {
+        write_text(fill(options_.pen_down));
+        pause();
+    }
     void lift() {
-        if (options_.lifts_by_z) {
-            file_.write(fmt::format("G0 Z{}\n", decimal(options_.z_up, 3)));
-        } else {
-            file_.write("M5\n");
-            pause();
-        }
+        lifted_to_ = settings_.lift.value_or(options_.lift);
+        write_text(fill(options_.pen_up));
+        pause();
+    }
+    void pause() {
+        if (settings_.pause.value_or(options_.pause) > 0) write_text(fill(options_.dwell));
     }
 
-    void pause() {
-        if (options_.pause > 0) file_.write(fmt::format("G4 P{}\n", decimal(options_.pause, 3)));
+    /// Replaces the placeholders of commands.
+    std::string fill(const std::string& commands) const {
+        const double pause = settings_.pause.value_or(options_.pause);
+        std::string text;
+        for (std::size_t at = 0; at < commands.size();) {
+            const std::size_t open = std::min(commands.find('{', at), commands.size());
+            text.append(commands, at, open - at);
+            if (open == commands.size()) break;
+            const std::size_t close = std::min(commands.find('}', open), commands.size());
+            const std::string_view name = std::string_view(commands).substr(open + 1, close - open - 1);
+            if (name == "lift") {
+                text += decimal(settings_.lift.value_or(options_.lift), 3);
+            } else if (name == "down") {
+                text += decimal(settings_.down.value_or(options_.down), 3);
+            } else if (name == "pen") {
+                text += std::to_string(pen_);
+            } else if (name == "colour") {
+                text += colour_name(colour_);
+            } else if (name == "seconds") {
+                text += decimal(pause, 3);
+            } else if (name == "milliseconds") {
+                text += std::to_string(std::lround(1000 * pause));
+            } else {
+                throw std::runtime_error(fmt::format("G-code: unknown placeholder {{{}}}", printable(name, 40)));
+            }
+            at = close + 1;
+        }
+        return text;
+    }
+
+    void write_comment(std::string_view label, std::string_view text) {
+        file_.write(gcode_comment(label, text, options_.comment) + "\n");
     }
 
     /// Lines and arcs along the points that wait; the last of them is kept if more may come.
@@ -205,18 +255,30 @@ private:
             const std::size_t line =
                 longest(1, rest.size(), 1, [&](std::size_t last) { return line_fits(rest.first(last + 1)); });
             // Where it is almost straight no short arc fits.
-            const std::size_t last = longest(line, rest.size(), (line + 1) / 2, [&](std::size_t end) {
-                return fitting_arc(rest.first(end + 1)).has_value();
-            });
+            const std::size_t last =
+                !options_.arcs ? line : longest(line, rest.size(), (line + 1) / 2, [&](std::size_t end) {
+                    return fitting_arc(rest.first(end + 1)).has_value();
+                });
             if (!is_all && done > 0 && last + 1 == rest.size()) break;
-            if (last > line) {
+            if (last > line && !is_short(rest.first(last + 1))) {
                 arc_to(*fitting_arc(rest.first(last + 1)), rest[last]);
             } else {
-                line_to(rest[last]);
+                line_to(rest[line]);
+                done += line;
+                continue;
             }
             done += last;
         }
         points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(done));
+    }
+
+    /// True for arcs that are to become lines.
+    bool is_short(std::span<const glm::dvec2> points) const {
+        double length = 0;
+        for (std::size_t i = 1; i < points.size() && length < options_.least_arc; ++i) {
+            length += glm::distance(points[i - 1], points[i]);
+        }
+        return length < options_.least_arc;
     }
 
     void line_to(glm::dvec2 end) {
@@ -247,6 +309,9 @@ private:
     GcodeOptions options_;
     Output& file_;
     int pen_ = 0;
+    Colour colour_;
+    PenSettings settings_;            // of the pen in hand
+    double lifted_to_ = 0;            // height of the raised pen
     bool started_ = false;            // the pen is down
     glm::dvec2 at_{0.0};              // where it is, as it was written
     std::vector<glm::dvec2> points_;  // of curves, from the last command's end
@@ -255,8 +320,8 @@ private:
 
 }  // namespace
 
-std::string gcode_comment(std::string_view label, std::string_view text) {
-    std::string comment = fmt::format("({}: ", label);
+std::string gcode_comment(std::string_view label, std::string_view text, char mark) {
+    std::string comment = fmt::format("{}{}: ", mark == ';' ? "; " : "(", label);
     const std::size_t most = comment.size() + longest_comment;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
@@ -266,7 +331,7 @@ std::string gcode_comment(std::string_view label, std::string_view text) {
         if (comment.size() == most) break;
         comment += byte < 0x80 ? c : '_';
     }
-    return comment + ")";
+    return mark == ';' ? comment : comment + ")";
 }
 
 std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
@@ -290,12 +355,6 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
     }
     if (!at[0] || !at[1]) return std::nullopt;
     return glm::dvec2(*at[0], *at[1]);
-}
-
-std::optional<GcodeOptions> gcode_profile(std::string_view name) {
-    GcodeOptions options;
-    options.lifts_by_z = name == "z";
-    return name == "grbl" || name == "z" ? std::optional(options) : std::nullopt;
 }
 
 std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file) {

@@ -1,7 +1,8 @@
 // art/plotter/gcode.h: writes strokes as G-code, for plotters with grbl and similar controllers.
 #pragma once
 
-#include "art/plotter/plot.h"
+#include "art/plotter/pen_rules.h"
+#include "art/plotter/plot_writer.h"
 #include "art/print/print.h"
 #include "engine/base/output.h"
 
@@ -9,24 +10,31 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
+/// Commands of a machine and what they take. Commands are lines; in them `{lift}` and `{down}` stand for the heights
+/// of the pen, `{pen}` for its number, `{colour}` for its colour, `{seconds}` and `{milliseconds}` for a pause.
 struct GcodeOptions {
-    bool lifts_by_z = false;       ///< the pen is lifted along Z; else by M5 and lowered by M3, as a servo or a laser
-    double z_up = 5.0;             ///< mm
-    double z_down = 0.0;           ///< mm
-    double z_feed = 600.0;         ///< mm/min
-    double power = 1000.0;         ///< S of M3
-    double pause = 0.2;            ///< seconds that a servo takes; 0: no pause
-    double drawing_feed = 2400.0;  ///< mm/min, pen down
-    double travel_feed = 4800.0;   ///< mm/min, pen up
-    std::string start;             ///< lines before the first stroke, after the units are set
+    std::string setup = "G21 G90 G17";  ///< units and modes: absolute millimetres, arcs in the plane of X and Y
+    std::string pen_up = "M5";
+    std::string pen_down = "M3 S{down}";
+    std::string pen_change = "T{pen}\nM0";  ///< between two pens, pen up
+    std::string dwell = "G4 P{seconds}";    ///< after lifting and lowering the pen, unless the pause is 0
+    char comment = '(';                ///< `(` for comments in parentheses, `;` for comments up to the line's end
+    double lift = 5.0;                 ///< height of the raised pen, in the measure of the machine
+    double down = 1000.0;              ///< height of the lowered pen, or the power that lowers it
+    double pause = 0.2;                ///< seconds that the pen takes to move; 0: no pause
+    double drawing_feed = 2400.0;      ///< mm/min, pen down
+    double travel_feed = 4800.0;       ///< mm/min, pen up
+    bool arcs = true;                  ///< follow curves by arcs as well as lines
+    double least_arc = 0.0;            ///< millimetres; shorter arcs become lines
+    std::optional<glm::dvec2> park{};  ///< place of the pen while it is changed, as in write_gcode()
+    std::vector<PenRule> rules{};      ///< settings of single pens
+    std::string start{};               ///< lines before the first stroke, after `setup`
     std::string end = "G0 X0 Y0\nM2";  ///< lines after the last stroke, pen up
 };
-
-/// The options of a kind of machine: `grbl` (M3 and M5) or `z`; nullopt for another name.
-std::optional<GcodeOptions> gcode_profile(std::string_view name);
 
 /// Position of the pen after the closing G-code lines, in millimetres from the bottom left corner of the page: the
 /// last X and Y of their G0 and G1 moves (in absolute coordinates); nullopt if there are none, as after homing.
@@ -38,16 +46,17 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options);
 /// are also Grbl commands, with `_`. Keeps 60 characters of the text: Grbl reads lines of 80.
 /// @param label  of letters, digits and blanks
 /// Source: Grbl 1.1, real-time commands; LinuxCNC, G code reference, comments.
-std::string gcode_comment(std::string_view label, std::string_view text);
+/// @param mark  `(`, or `;` for `; label: text`
+std::string gcode_comment(std::string_view label, std::string_view text, char mark = '(');
 
-/// Begins the file. Absolute millimetres (G21 G90 G17) with 3 decimals, from the bottom left corner of the page, y
-/// up. Straight lines are G1; curves are followed within 0.01 mm by as few arcs (G2 and G3 with I J, below 270
-/// degrees, radius up to 1 m) and lines as a greedy search finds. Between two pens the machine stops (T n, M0). The
-/// title and the pens' colours are the only comments. `print` and `file` are kept by reference. After finish() the
-/// file is complete, but not committed.
-/// @throws std::runtime_error for feeds that are not finite and above 0, heights that are not finite, power and pause
-/// that are not finite and at least 0; from here and from every call of the writer if the file cannot be written; and
-/// for what lies off the page
+/// Begins the file. Absolute millimetres with 3 decimals, from the bottom left corner of the page, y up. Straight
+/// lines are G1; curves are followed within 0.01 mm by as few arcs (G2 and G3 with I J, below 270 degrees, radius up
+/// to 1 m) and lines as a greedy search finds. Between two pens the machine parks and stops. Title, recipe and the
+/// pens' colours are the only comments. `print` and `file` are kept by reference. After finish() the file is
+/// complete, but not committed.
+/// @throws std::runtime_error for feeds that are not finite and above 0, heights that are not finite, a pause or a
+/// least arc that is not finite and at least 0, and commands with unknown placeholders; from here and from every call
+/// of the writer if the file cannot be written; and for what lies off the page
 /// Source: NIST RS274/NGC Interpreter, version 3, 2000; grbl 1.1.
 std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file);
 

@@ -53,15 +53,14 @@ class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const HpglOptions& options, Output& file)
         : PlotWriter(print), options_(options), file_(file) {
+        has_speeds_ = std::any_of(options.rules.begin(), options.rules.end(),
+                                  [](const PenRule& rule) { return rule.settings.speed.has_value(); });
         file_.write("IN;\n");
     }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         here_ = start;
-        if (number(pen) != pen_) {
-            pen_ = number(pen);
-            file_.write(fmt::format("PU;SP{};\n", pen_));
-        }
+        if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
         started_ = false;
     }
     void lines(std::span<const glm::dvec2> ends) override {
@@ -79,6 +78,10 @@ public:
             here_ = controls[i + 2];
         }
     }
+    void dip(glm::dvec2 place, const Pen& pen) override {
+        if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
+        file_.write(fmt::format("{}PD;PU;\n", move(place)));
+    }
     void end_stroke(bool) override {
         if (!started_) return;
         if (!moved_) put(at_);  // a dot
@@ -94,6 +97,21 @@ public:
     }
 
 private:
+    void take_pen(int next, Colour colour) {
+        const bool parks = options_.park && pen_ != 0;
+        file_.write(fmt::format("{}SP{};\n", parks ? "PU;" + move(*options_.park) : "PU;", next));
+        pen_ = next;
+        if (!has_speeds_) return;
+        const double speed = pen_settings(options_.rules, next, colour).speed.value_or(options_.speed);
+        file_.write(fmt::format("VS{};\n", decimal(speed / 10, 2)));
+    }
+
+    /// Moves the lifted pen to a place that may lie off the page.
+    std::string move(glm::dvec2 place) const {
+        const Units at = to_units(place);
+        return fmt::format("PU{},{};", at.x, at.y);
+    }
+
     /// Only when something is drawn: a stroke may change its pen before.
     void start() {
         if (started_) return;
@@ -105,6 +123,10 @@ private:
 
     Units rounded(glm::dvec2 millimetres) const {
         require_on_page(millimetres);
+        return to_units(millimetres);
+    }
+
+    Units to_units(glm::dvec2 millimetres) const {
         const glm::dvec2 at = on_plotter(millimetres, print_.page, options_);
         if (options_.paper) require_in_reach(at);
         return {to_whole(at.x * units_of_millimetre), to_whole(at.y * units_of_millimetre)};
@@ -152,6 +174,7 @@ private:
 
     const HpglOptions& options_;
     Output& file_;
+    bool has_speeds_ = false;
     int pen_ = 0;
     bool started_ = false;  // the pen is down
     bool moved_ = false;    // and has drawn something
@@ -182,6 +205,20 @@ std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi) {
         paper.low = -paper.high;
     } else {
         paper.centre = 0.5 * paper.high;
+    }
+    return paper;
+}
+
+HpglPaper paper_for(const HpglPaper& paper, const Page& page) {
+    if (!paper.is_hp7475a) return paper;
+    for (const char* name : {"A4", "A3", "letter", "tabloid"}) {
+        const auto size = parse_size(name, 96);
+        constexpr double slack = 0.1;  // millimetres
+        const auto same = [](double a, double b) { return std::fabs(a - b) < slack; };
+        if (size && same(std::max(page.width, page.height), std::max(size->x, size->y)) &&
+            same(std::min(page.width, page.height), std::min(size->x, size->y))) {
+            return parse_hpgl_paper(name, 96).value_or(paper);
+        }
     }
     return paper;
 }

@@ -1,7 +1,8 @@
 // art/plotter/hpgl.h: writes strokes as HP-GL, for pen plotters and vinyl cutters.
 #pragma once
 
-#include "art/plotter/plot.h"
+#include "art/plotter/pen_rules.h"
+#include "art/plotter/plot_writer.h"
 #include "art/print/print.h"
 #include "engine/base/output.h"
 
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -31,8 +33,14 @@ struct HpglPaper {
 /// scaling points P1 and P2, which is centred on the sheet.
 std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi);
 
+/// The sheet of the HP 7475A that has the size of the page, if `paper` is one of its sheets; else `paper`.
+HpglPaper paper_for(const HpglPaper& paper, const Page& page);
+
 struct HpglOptions {
-    std::optional<HpglPaper> paper;  ///< absent: the page itself, with the origin in its corner
+    std::optional<HpglPaper> paper;    ///< absent: the page itself, with the origin in its corner
+    std::optional<glm::dvec2> park{};  ///< place of the pen before it is changed, in mm of the page, y up
+    std::vector<PenRule> rules{};      ///< speeds of single pens
+    double speed = 40.0;               ///< mm/s of the pens without a rule, if any pen has one
 };
 
 /// Initial position of the pen: the plotter's origin, in millimetres from the bottom left corner of the page, y up.
@@ -49,9 +57,10 @@ std::string describe_hpgl(const Page& page, const HpglOptions& options);
 /// not support the instruction `RO90`. Without a paper, the origin is the bottom left corner of the sheet, which
 /// suits cutters and plotters whose origin is set by hand; with one, the page is centred on the sheet or, if only
 /// limits are known, within them. Scaling is left off (no IP and SC), so that lengths are true.
-/// Only IN, SP, PU and PD are used, which every device of the family supports; devices older than HP-GL/2 accept at
-/// most 32767 units, 819 mm. At the end SP0 returns the pen to its stall, near the origin. `print`, `options` and
-/// `file` are kept by reference. After finish() the file is complete, but not committed.
+/// If pens have their own speeds, VS sets that of each, in cm/s.
+/// Otherwise only IN, SP, PU and PD are used, which every device of the family supports; devices older than HP-GL/2
+/// accept at most 32767 units, 819 mm. At the end SP0 returns the pen to its stall, near the origin. `print`,
+/// `options` and `file` are kept by reference. After finish() the file is complete, but not committed.
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, or if the
 /// drawing lies off the page or beyond the limits of the paper
 /// Source: Hewlett-Packard, HP-GL/2 and HP RTL Reference Guide, 1997.

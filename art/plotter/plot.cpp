@@ -1,10 +1,15 @@
 #include "art/plotter/plot.h"
 
 #include "art/plotter/pens.h"
+#include "art/plotter/plot_course.h"
 #include "art/plotter/plot_join.h"
+#include "art/plotter/plot_layer.h"
 #include "art/plotter/plot_route.h"
+#include "engine/base/option.h"
 #include "engine/geometry/bezier.h"
 #include "engine/geometry/lattice.h"
+
+#include <fmt/format.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -23,107 +28,9 @@ namespace sikku {
 namespace {
 
 using Index = std::uint32_t;
-constexpr Index none = PlotSegment::none;
 constexpr std::size_t most_points = 1'000'000'000;
 constexpr std::size_t points_in_block = 1024;
 constexpr double thinnest = 0.05;  // millimetres; least pen width for fills
-
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
-    std::uint64_t hash = (a * 0x9e3779b97f4a7c15U) ^ (b + 0x632be59bd9b4e019U);
-    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9U;
-    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebU;
-    return hash ^ (hash >> 31);
-}
-
-std::size_t table_size(std::size_t entries) {
-    std::size_t size = 16;
-    while (size < 2 * entries) size *= 2;
-    return size;
-}
-
-/// Numbers for points; those less than `tolerance` apart along both axes have the same.
-class Nodes {
-public:
-    explicit Nodes(double tolerance) : tolerance_(tolerance), table_(table_size(0), none) {}
-
-    Index at(glm::dvec2 point) {
-        // Most points lie far enough inside their cell for no other to count.
-        const glm::dvec2 cell = cell_of(point);
-        const glm::dvec2 inside = point / cell_size() - cell;
-        const auto other = [](double share) { return share < 1 / cells ? -1.0 : share > 1 - 1 / cells ? 1.0 : 0.0; };
-        const glm::dvec2 beside(other(inside.x), other(inside.y));
-        std::size_t free = 0;
-        Index found = find(point, cell, free);
-        if (found == none && beside.x != 0) found = find(point, cell + glm::dvec2(beside.x, 0), free);
-        if (found == none && beside.y != 0) found = find(point, cell + glm::dvec2(0, beside.y), free);
-        if (found == none && beside.x != 0 && beside.y != 0) found = find(point, cell + beside, free);
-        if (found != none) return found;
-        found = static_cast<Index>(points.size());
-        points.push_back(point);
-        if (2 * points.size() > table_.size()) {
-            table_.assign(2 * table_.size(), none);
-            for (Index i = 0; i < points.size(); ++i) enter(i);
-        } else {
-            enter(found);
-        }
-        return found;
-    }
-
-    std::vector<glm::dvec2> points;
-
-private:
-    static constexpr double cells = 16.0;  // side of a cell, in tolerances
-
-    double cell_size() const { return cells * tolerance_; }
-    glm::dvec2 cell_of(glm::dvec2 point) const {
-        return {std::floor(point.x / cell_size()), std::floor(point.y / cell_size())};
-    }
-    std::size_t slot(glm::dvec2 cell) const {
-        return mixed(static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.x)),
-                     static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.y))) &
-               (table_.size() - 1);
-    }
-    /// A node near `point` among those of a cell, and of cells that share its place in the table.
-    Index find(glm::dvec2 point, glm::dvec2 cell, std::size_t& free) const {
-        for (free = slot(cell); table_[free] != none; free = (free + 1) & (table_.size() - 1)) {
-            const glm::dvec2 gap = points[table_[free]] - point;
-            if (std::fabs(gap.x) < tolerance_ && std::fabs(gap.y) < tolerance_) return table_[free];
-        }
-        return none;
-    }
-    void enter(Index node) {
-        std::size_t at = slot(cell_of(points[node]));
-        while (table_[at] != none) at = (at + 1) & (table_.size() - 1);
-        table_[at] = node;
-    }
-
-    double tolerance_;
-    std::vector<Index> table_;
-};
-
-/// A set of segments without duplicates.
-class SegmentSet {
-public:
-    SegmentSet(std::vector<PlotSegment>& segments, std::size_t most)
-        : segments_(segments), table_(table_size(most), none) {}
-
-    bool add(const PlotSegment& segment) {
-        const auto key = [](const PlotSegment& s) { return mixed(mixed(s.from, s.to), mixed(s.first, s.second)); };
-        const PlotSegment back = segment.backwards();
-        std::size_t at = (key(segment) + key(back)) & (table_.size() - 1);
-        for (; table_[at] != none; at = (at + 1) & (table_.size() - 1)) {
-            const PlotSegment& other = segments_[table_[at]];
-            if (other == segment || other == back) return false;
-        }
-        table_[at] = static_cast<Index>(segments_.size());
-        segments_.push_back(segment);
-        return true;
-    }
-
-private:
-    std::vector<PlotSegment>& segments_;
-    std::vector<Index> table_;
-};
 
 }  // namespace
 
@@ -183,49 +90,123 @@ struct PlotPlan::Gathered {
     std::vector<Run> runs;
 };
 
-/// What one pen draws.
-struct PlotPlan::Layer {
-    Pen pen;
-    PlotGraph graph;
-    PlotStrokes strokes;
-    std::vector<PlotSegment> repeated;  // while it is being arranged: what was drawn again
+namespace {
 
-    void read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres,
-              const Monitor& monitor);
+/// Calls `visit(from, points)` for a line or a curve, cut into parts of at most `longest`.
+template <class Visit>
+void cut(glm::dvec2 from, std::span<const glm::dvec2> points, double longest, Visit&& visit) {
+    if (points.size() == 1) {
+        const double count = std::ceil(glm::distance(from, points[0]) / longest);
+        if (!(count > 1)) return visit(from, points);
+        glm::dvec2 at = from;
+        for (double i = 1; i <= count; ++i) {
+            const glm::dvec2 end = i < count ? from + (points[0] - from) * (i / count) : points[0];
+            visit(at, std::span(&end, 1));
+            at = end;
+        }
+        return;
+    }
+    const CubicBezier whole = {from, points[0], points[1], points[2]};
+    const double count = std::ceil(bezier_length(whole) / longest);
+    if (!(count > 1)) return visit(from, points);
+    // Parts of equal steps of the parameter differ in length.
+    const CubicBezier first = part_of(whole, 0, 0.5), second = part_of(whole, 0.5, 1);
+    cut(from, std::span(first).subspan(1), longest, visit);
+    cut(first[3], std::span(second).subspan(1), longest, visit);
+}
+
+/// The pen-up travel and the lifts of strokes in their order, and their end.
+struct PlotWay {
+    PlotTally tally;
+    glm::dvec2 end{0.0};
 };
+PlotWay way_of(const PlotGraph& graph, const PlotStrokes& strokes, glm::dvec2 from, double millimetres,
+               const Monitor& monitor) {
+    PlotWay way{{}, from};
+    Pulse pulse(monitor);
+    for (const PlotStroke& stroke : strokes.strokes) {
+        const auto ends = strokes.ends(stroke);
+        way.tally.travelled += millimetres * glm::distance(way.end, graph.point(ends.front()));
+        ++way.tally.lifts;
+        for (const PlotEnd end : ends) {
+            pulse();
+            way.tally.drawn += millimetres * graph.length(end);
+        }
+        way.end = graph.point(ends.back() ^ 1U);
+    }
+    return way;
+}
+
+/// True if the plot takes longer or lifts the pen more often than another. Points that were merged move lines by less
+/// than a billionth.
+bool is_worse(const PlotTally& plot, const PlotTally& other, const PlotSpeeds& speeds) {
+    constexpr double slack = 1 + 1e-6;
+    return plot.lifts > other.lifts || plot_seconds(plot, speeds) > slack * plot_seconds(other, speeds);
+}
+
+}  // namespace
 
 /// Numbers the points and leaves out what is drawn twice. `at` is where the last pen was lifted.
-void PlotPlan::Layer::read(Gathered& from, double tolerance, glm::dvec2& at, PlotReport& report, double millimetres,
-                           const Monitor& monitor) {
-    pen = from.pen;
-    const std::size_t count = from.segments();
-    Nodes table(tolerance);
-    SegmentSet set(graph.segments, count);
-    Pulse pulse(monitor);
+void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, PlotLayer& layer) {
+    const double millimetres = print_.placement.step;
+    const std::optional<Refill>& refill = layer.settings.refill ? layer.settings.refill : options_.refill;
+    const double longest = refill ? refill->length / millimetres : std::numeric_limits<double>::infinity();
+    std::size_t count = 0;
+    from.for_each([&](Gathered::Kind kind, glm::dvec2 begin, std::span<const glm::dvec2> next) {
+        if (kind != Gathered::Kind::start) cut(begin, next, longest, [&](auto, auto) { ++count; });
+        if (count > most_points) throw std::runtime_error("the drawing is too long to be cut for refilling the pen");
+    });
+    PlotNodes table(tolerance);
+    PlotSegmentSet set(layer.graph.segments, count);
+    PlotStrokes& drawn = layer.as_drawn;
+    drawn.order.reserve(count);
+    Pulse pulse(options_.monitor);
     Index here = 0;
-    from.for_each([&](Gathered::Kind kind, glm::dvec2, std::span<const glm::dvec2> next) {
-        pulse();
+    const auto add = [&](glm::dvec2 begin, std::span<const glm::dvec2> next) {
         const Index end = table.at(next.back());
-        if (kind == Gathered::Kind::start) {
-            report.before.travelled += millimetres * glm::distance(at, next[0]);
-            ++report.before.lifts;
+        PlotSegment segment{here, end};
+        if (next.size() == 3) {
+            segment.first = table.at(next[0]);
+            segment.second = table.at(next[1]);
+            report_.before.drawn += millimetres * bezier_length({begin, next[0], next[1], next[2]});
         } else {
-            PlotSegment segment{here, end};
-            if (kind == Gathered::Kind::curves) {
-                segment.first = table.at(next[0]);
-                segment.second = table.at(next[1]);
-                report.before.drawn += millimetres * bezier_length({at, next[0], next[1], next[2]});
-            } else {
-                report.before.drawn += millimetres * glm::distance(at, next[0]);
-            }
-            if (!set.add(segment)) repeated.push_back(segment);
+            report_.before.drawn += millimetres * glm::distance(begin, next[0]);
         }
+        const auto [entered, is_new] = set.add_or_find(segment);
+        if (!is_new) layer.repeated.push_back(segment);
+        drawn.order.push_back(entered);
+        ++drawn.strokes.back().count;
         here = end;
+    };
+    from.for_each([&](Gathered::Kind kind, glm::dvec2 begin, std::span<const glm::dvec2> next) {
+        pulse();
+        if (kind == Gathered::Kind::start) {
+            report_.before.travelled += millimetres * glm::distance(at, next[0]);
+            ++report_.before.lifts;
+            here = table.at(next[0]);
+            drawn.strokes.push_back({static_cast<Index>(drawn.order.size()), 0, false});
+        } else {
+            cut(begin, next, longest, add);
+        }
         at = next.back();
     });
-    report.segments += count;
-    graph.points = std::move(table.points);
+    report_.segments += count;
+    layer.graph.points = std::move(table.points);
+    for (PlotStroke& stroke : drawn.strokes) {
+        const auto ends = drawn.ends(stroke);
+        stroke.closed = layer.graph.point(ends.front()) == layer.graph.point(ends.back() ^ 1U);
+    }
     from = {};
+}
+
+double plot_seconds(const PlotReport& report, const PlotSpeeds& speeds) {
+    double seconds = plot_seconds(report.after, speeds);
+    for (const PenTally& pen : report.pens) {
+        if (pen.speed) seconds += pen.drawn / *pen.speed - pen.drawn / speeds.drawing;
+        // Lifting and lowering, each with its pause.
+        if (pen.pause) seconds += 2 * static_cast<double>(pen.lifts) * *pen.pause;
+    }
+    return seconds;
 }
 
 double plot_seconds(const PlotTally& tally, const PlotSpeeds& speeds) {
@@ -281,6 +262,9 @@ PlotPlan::PlotPlan(const Print& print, const PlotOptions& options)
     }
     if (options.hatch && !(std::isfinite(options.hatch->spacing) && options.hatch->spacing >= 0)) {
         throw std::runtime_error("the spacing of hatching must be finite and at least 0 mm");
+    }
+    if (!(std::isfinite(options.resume) && options.resume >= 0)) {
+        throw std::runtime_error("the length after which a plot resumes must be finite and at least 0 mm");
     }
     for (const int pen : fill_pens(print.style)) {
         fill_slots_.push_back(slots_[static_cast<std::size_t>(pen)]);
@@ -460,7 +444,6 @@ void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     into.add(Gathered::Kind::curves, std::span(path).subspan(1));
 }
 
-/// Converts a position on the page into drawing coordinates.
 glm::dvec2 PlotPlan::drawn_at(glm::dvec2 millimetres) const {
     const glm::dmat3x2& matrix = print_.placement.to_page;
     const glm::dmat2 turned(matrix[0], matrix[1]);
@@ -491,9 +474,9 @@ void PlotPlan::add_outlines(double tolerance) {
     for (const auto* list : {&gathered_, &outlines_}) {
         for (const auto& [slot, pen] : *list) count += pen->segments();
     }
-    Nodes nodes(tolerance);
+    PlotNodes nodes(tolerance);
     std::vector<PlotSegment> segments;
-    SegmentSet set(segments, count);
+    PlotSegmentSet set(segments, count);
     Pulse pulse(options_.monitor);
     const auto is_new = [&](Gathered::Kind kind, glm::dvec2 from, std::span<const glm::dvec2> points) {
         pulse();
@@ -567,75 +550,107 @@ void PlotPlan::arrange() {
     glm::dvec2 last = start;
     glm::dvec2 at = start;
     for (auto& [slot, pen] : gathered_) {
-        Layer& layer = *layers_.emplace_back(std::make_unique<Layer>());
-        const PlotTally before = report_.before;
-        layer.read(*pen, tolerance, last, report_, step, options_.monitor);
-        PlotStrokes joined = join_segments(layer.graph, options_.monitor);
-        if (joined.strokes.size() > report_.before.lifts - before.lifts) {
-            // What was left out had led from one stroke to the next.
-            auto& segments = layer.graph.segments;
-            segments.insert(segments.end(), layer.repeated.begin(), layer.repeated.end());
-            joined = join_segments(layer.graph, options_.monitor);
-        } else {
-            report_.duplicates += layer.repeated.size();
+        if (!layers_.empty() && options_.park) {
+            const glm::dvec2 park = drawn_at(*options_.park);
+            report_.before.travelled += step * glm::distance(last, park);
+            last = at = park;
         }
-        layer.repeated = {};
-        layer.strokes = sort_strokes(layer.graph, joined, at, (report_.before.travelled - before.travelled) / step,
-                                     options_.monitor);
+        PlotLayer& layer = *layers_.emplace_back(std::make_unique<PlotLayer>());
+        layer.pen = pen->pen;
+        layer.number = static_cast<int>(layers_.size());
+        layer.settings = pen_settings(options_.rules, layer.number, print_.style.line_colour(layer.pen));
+        const PlotTally before = report_.before;
+        read_layer(*pen, tolerance, last, layer);
+        arrange_layer(layer, at, (report_.before.travelled - before.travelled) / step);
         at = layer.graph.point(layer.strokes.order.back() ^ 1U);
     }
     gathered_.clear();
     into_ = nullptr;
     report_.returns = options_.home.has_value();
     if (options_.home) report_.before.travelled += step * glm::distance(last, drawn_at(*options_.home));
-    Pulse pulse(options_.monitor);
-    for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool) {
-        for (const PlotEnd end : ends) {
-            pulse();
-            report_.after.drawn += step * layer.graph.length(end);
-        }
-        ++report_.after.lifts;
-    });
-    for (const PlotTravel& travel : travels()) {
-        report_.after.travelled += step * glm::distance(travel.from, travel.to);
+    if (is_worse(tally({.step = step}), report_.before, options_.speeds)) {
+        report_.duplicates = 0;
+        for (const auto& layer : layers_) layer->strokes = layer->as_drawn;
+    }
+    for (const auto& layer : layers_) layer->as_drawn = {};
+    report_.after = tally(course());
+    const double whole = tally({.step = step}).drawn;
+    if (options_.resume > 0 && report_.after.lifts == 0 && !layers_.empty()) {
+        refuse_option("resume", fmt::format("{:g}mm", options_.resume),
+                      fmt::format("the whole plot draws only {:.2f} m", whole / 1000));
     }
 }
 
-template <class Visit>
-void PlotPlan::for_each_stroke(Visit&& visit) const {
-    Pulse pulse(options_.monitor);
+/// Joins and orders the strokes of a pen, or leaves them as they were drawn if that is better. `drawn` is the pen-up
+/// travel as drawn, in turtle steps.
+void PlotPlan::arrange_layer(PlotLayer& layer, glm::dvec2 start, double drawn) {
+    const double step = print_.placement.step;
+    std::uint64_t duplicates = layer.repeated.size();
+    PlotStrokes joined = join_segments(layer.graph, options_.monitor);
+    if (joined.strokes.size() > layer.as_drawn.strokes.size()) {
+        // What was left out had led from one stroke to the next.
+        auto& segments = layer.graph.segments;
+        segments.insert(segments.end(), layer.repeated.begin(), layer.repeated.end());
+        duplicates = 0;
+        joined = join_segments(layer.graph, options_.monitor);
+    }
+    layer.repeated = {};
+    layer.strokes = sort_strokes(layer.graph, joined, start, drawn, options_.monitor);
+    const PlotWay way = way_of(layer.graph, layer.strokes, start, step, options_.monitor);
+    const PlotWay as_drawn = way_of(layer.graph, layer.as_drawn, start, step, options_.monitor);
+    if (is_worse(way.tally, as_drawn.tally, options_.speeds)) {
+        layer.strokes = layer.as_drawn;
+        duplicates = 0;
+    }
+    report_.duplicates += duplicates;
+}
+
+PlotCourse PlotPlan::course() const {
+    return {print_.placement.step, options_.split, options_.resume, options_.refill};
+}
+
+/// Lengths and lifts along a course, as travels() counts them. Also sets the tallies of single pens.
+PlotTally PlotPlan::tally(const PlotCourse& course) {
+    PlotTally result;
+    report_.pens.clear();
     for (const auto& layer : layers_) {
-        for (const PlotStroke& stroke : layer->strokes.strokes) {
-            pulse();
-            const auto ends = layer->strokes.ends(stroke);
-            std::size_t begin = 0;
-            double length = 0;
-            for (std::size_t i = 0; i < ends.size() && options_.split > 0; ++i) {
-                pulse();
-                const double more = print_.placement.step * layer->graph.length(ends[i]);
-                if (i > begin && length + more > options_.split) {
-                    visit(*layer, ends.subspan(begin, i - begin), false);
-                    begin = i;
-                    length = 0;
-                }
-                length += more;
-            }
-            visit(*layer, ends.subspan(begin), stroke.closed && begin == 0);
-        }
+        report_.pens.push_back({layer->number, print_.style.line_colour(layer->pen), 0.0, 0, layer->settings.speed,
+                                layer->settings.pause});
     }
+    Pulse pulse(options_.monitor);
+    follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
+        PenTally& pen = report_.pens[static_cast<std::size_t>(piece.layer.number - 1)];
+        for (const PlotEnd end : piece.ends) {
+            pulse();
+            const double length = course.step * piece.layer.graph.length(end);
+            result.drawn += length;
+            pen.drawn += length;
+        }
+        ++result.lifts;
+        ++pen.lifts;
+    });
+    for (const PlotTravel& travel : travels(course)) {
+        result.travelled += course.step * glm::distance(travel.from, travel.to);
+    }
+    return result;
 }
 
-void PlotPlan::draw(PathSink& sink) const {
+void PlotPlan::draw(PathSink& sink, const std::function<void(glm::dvec2, const Pen&)>& dip) const {
     std::vector<glm::dvec2> points;
-    for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool closed) {
+    follow_course(layers_, course(), options_.monitor, [&](const PlotPiece& piece) {
+        const PlotLayer& layer = piece.layer;
+        if (piece.dip) {
+            if (dip) dip(*piece.dip, layer.pen);
+            return;
+        }
         bool curves = false;
         const auto flush = [&] {
             options_.monitor.check();
             if (!points.empty()) curves ? sink.curves(points) : sink.lines(points);
             points.clear();
         };
-        sink.begin_stroke(layer.graph.point(ends.front()), layer.pen);
-        for (const PlotEnd end : ends) {
+        sink.begin_stroke(layer.graph.point(piece.ends.front()), layer.pen);
+        for (const PlotEnd end : piece.ends) {
             const bool is_curve = layer.graph.segments[end / 2].is_curve();
             if (is_curve != curves || points.size() >= points_in_block) flush();
             curves = is_curve;
@@ -647,55 +662,37 @@ void PlotPlan::draw(PathSink& sink) const {
             }
         }
         flush();
-        sink.end_stroke(closed);
+        sink.end_stroke(piece.closed);
     });
+}
+
+std::vector<PlotPlan::PlottedPen> PlotPlan::pens() const {
+    std::vector<PlottedPen> pens;
+    for (const auto& layer : layers_) pens.push_back({layer->pen, layer->number, layer->settings});
+    return pens;
 }
 
 std::vector<PlotTravel> PlotPlan::travels() const {
+    return travels(course());
+}
+
+std::vector<PlotTravel> PlotPlan::travels(const PlotCourse& course) const {
     std::vector<PlotTravel> list;
     glm::dvec2 at = drawn_at(options_.start);
-    for_each_stroke([&](const Layer& layer, std::span<const PlotEnd> ends, bool) {
-        const glm::dvec2 start = layer.graph.point(ends.front());
-        if (start != at) list.push_back({at, start});
-        at = layer.graph.point(ends.back() ^ 1U);
+    const auto travel = [&](glm::dvec2 to) {
+        if (to != at) list.push_back({at, to});
+        at = to;
+    };
+    const PlotLayer* pen = nullptr;
+    follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
+        if (pen && pen != &piece.layer && options_.park) travel(drawn_at(*options_.park));
+        pen = &piece.layer;
+        if (piece.dip) return travel(drawn_at(*piece.dip));
+        travel(piece.layer.graph.point(piece.ends.front()));
+        at = piece.layer.graph.point(piece.ends.back() ^ 1U);
     });
-    if (options_.home && at != drawn_at(*options_.home)) list.push_back({at, drawn_at(*options_.home)});
+    if (options_.home) travel(drawn_at(*options_.home));
     return list;
-}
-
-void PlotWriter::change_pen(const Pen& pen) {
-    // The stroke ends and goes on as another one.
-    end_stroke(false);
-    begin_stroke(here_, pen);
-}
-
-int PlotWriter::number(const Pen& pen) {
-    const int next = static_cast<int>(numbers_.size()) + 1;
-    return numbers_.try_emplace(print_.style.index(pen), next).first->second;
-}
-
-glm::dvec2 PlotWriter::on_page(glm::dvec2 point) const {
-    const glm::dvec2 down = print_.placement.to_page * glm::dvec3(point, 1.0);
-    return {down.x, print_.page.height - down.y};
-}
-
-int PlotWriter::chords(const Bezier& b, double tolerance) {
-    const double bend = std::max(glm::length(b[0] - 2.0 * b[1] + b[2]), glm::length(b[1] - 2.0 * b[2] + b[3]));
-    const double count = std::ceil(std::sqrt(0.75 * bend / tolerance));
-    return static_cast<int>(std::clamp(count, 1.0, 1e6));
-}
-
-glm::dvec2 PlotWriter::at(const Bezier& b, double t) {
-    const double s = 1 - t;
-    return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
-}
-
-void PlotWriter::require_on_page(glm::dvec2 millimetres) const {
-    constexpr double slack = 1e-6;
-    const auto inside = [](double value, double most) { return value >= -slack && value <= most + slack; };
-    if (!inside(millimetres.x, print_.page.width) || !inside(millimetres.y, print_.page.height)) {
-        throw std::runtime_error("the drawing is larger than the page: a plotter does not cut off what lies outside");
-    }
 }
 
 }  // namespace sikku

@@ -99,7 +99,13 @@ void check_press(const Press& press, PrintFormat format) {
     refuse_if(press.bits != 1 && press.bits != 8, "bits", "expected 1 or 8");
     refuse_if(format != PrintFormat::pdf && press.marks, "marks", "only a PDF has crop marks");
     refuse_if(format != PrintFormat::pdf && !press.spots.empty(), "spot", "only a PDF has spot colours");
-    refuse_if(format != PrintFormat::tiff && !press.cmyk.empty(), "cmyk", "only a TIFF is made in CMYK");
+    const bool is_pdf = format == PrintFormat::pdf;
+    refuse_if(!is_pdf && press.registration, "registration", "only a PDF has registration marks");
+    refuse_if(!is_pdf && press.overprint != Overprint::none, "overprint", "only a PDF has inks that overprint");
+    refuse_if(press.overprint != Overprint::none && press.cmyk.empty() && press.spots.empty(), "overprint",
+              "needs 'cmyk' or 'spot': colours that are not inks cannot overprint");
+    refuse_if(format != PrintFormat::tiff && !is_pdf && !press.cmyk.empty(), "cmyk",
+              "only TIFF and PDF are made in CMYK");
     refuse_if(format != PrintFormat::tiff && press.bits == 1, "bits", "only a TIFF is made in one bit");
     refuse_if(press.bits != 1 && press.screen != Screen{}, "screen", "applies only to pictures of one bit");
     refuse_if(press.bits == 1 && !press.cmyk.empty(), "cmyk", "a picture in CMYK has 8 bits a channel");
@@ -132,7 +138,7 @@ void check_spots(const Press& press, const Style& style) {
 }
 
 double press_edge(const Press& press) {
-    return press.marks ? mark_offset(press) + mark_length : press.bleed;
+    return press.marks || press.registration ? mark_offset(press) + mark_length : press.bleed;
 }
 
 std::array<CropMark, 8> crop_marks(const Page& page, const Press& press) {
@@ -149,6 +155,12 @@ std::array<CropMark, 8> crop_marks(const Page& page, const Press& press) {
         }
     }
     return marks;
+}
+
+std::array<glm::dvec2, 4> registration_marks(const Page& page, const Press& press) {
+    const double out = mark_offset(press) + mark_length / 2;
+    const glm::dvec2 middle(page.width / 2, page.height / 2);
+    return {{{middle.x, -out}, {page.width + out, middle.y}, {middle.x, page.height + out}, {-out, middle.y}}};
 }
 
 Print as_picture(Print print) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -28,11 +29,12 @@ struct Print {
     Style style;
     Placement placement;
     double dpi = 300.0;
-    std::string title;                 ///< title of the pattern, UTF-8
-    std::string pattern;               ///< the text of the pattern file, so that the print can be made again
-    std::string made;                  ///< the recipe: `sikku 0.1.0, -n 4`
-    std::optional<int> travel_colour;  ///< index of the colour that shows pen-up travel
-    bool is_plot = false;              ///< mark layers that no pen draws
+    std::string title;                         ///< title of the pattern, UTF-8
+    std::string pattern;                       ///< the text of the pattern file, so that the print can be made again
+    std::string made;                          ///< the recipe: `sikku 0.1.0, -n 4`
+    std::optional<int> travel_colour;          ///< index of the colour that shows pen-up travel
+    bool is_plot = false;                      ///< mark layers that no pen draws
+    std::map<int, std::string> layer_names{};  ///< of lines, by index of their colour, instead of number and colour
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
     std::optional<LessonPart> lesson;  ///< of a part of an SVG: see PrintWriter::begin_part()
     Press press;                       ///< settings for the print shop

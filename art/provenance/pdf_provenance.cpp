@@ -181,7 +181,17 @@ bool skip_text(InputStream& in) {
     return read_string(in, [&count](unsigned char) { require_length(++count); });
 }
 
-/// The texts of the object in the writer's layout: a dictionary of strings.
+/// Moves behind the name that comes next. False if none comes next.
+bool skip_name(InputStream& in) {
+    if (!in.skip_text("/")) return false;
+    const auto is_letter = [](char byte) { return (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z'); };
+    for (std::string_view bytes = in.ahead(); !bytes.empty() && is_letter(bytes.front()); bytes = in.ahead()) {
+        in.skip(1);
+    }
+    return true;
+}
+
+/// The texts of the object in the writer's layout: a dictionary of strings and names.
 std::optional<Provenance> read_dictionary(InputStream& in) {
     constexpr std::string_view head = " 0 obj\n<< ";
     const std::size_t at = in.ahead(64).find(head);
@@ -204,7 +214,7 @@ std::optional<Provenance> read_dictionary(InputStream& in) {
                 (name == "Subject" ? found.made : found.pattern) = std::move(*text);
                 limit_made(found.made);
             }
-        } else if (!skip_text(in)) {
+        } else if (!skip_text(in) && !skip_name(in)) {
             return std::nullopt;
         }
         in.skip_text("\n") || in.skip_text(" ");

@@ -2,6 +2,7 @@
 
 #include "art/drawing/drawing.h"
 #include "art/drawing/picture.h"
+#include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
 #include "art/print/lettering.h"
 #include "art/raster/raster.h"
@@ -704,8 +705,10 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
 
 }  // namespace
 
-SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
+SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& given,
                        const std::filesystem::path& file, Destination& destination) {
+    SheetOptions options = given;
+    load_inks(options.press, options.format);
     if (!is_vector(options.format)) prepare_images(options.threads);
     return on_threads(options.threads, [&] {
         Sheet sheet(cells, options);

@@ -1,7 +1,9 @@
 #include "art/vector/pdf.h"
 
+#include "art/vector/pdf_x.h"
 #include "art/vector/vector_writer.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/hash.h"
 
 #include <zlib.h>
 
@@ -100,11 +102,6 @@ std::string text_string(std::string_view text) {
     return result + '>';
 }
 
-std::string channels(Colour colour) {
-    return fmt::format("{} {} {}", decimal(colour.red / 255.0, 4), decimal(colour.green / 255.0, 4),
-                       decimal(colour.blue / 255.0, 4));
-}
-
 /// Bytes that end or escape a name are written as #xx.
 std::string name_object(std::string_view name) {
     std::string result = "/";
@@ -166,7 +163,7 @@ void end_packed(Layer& layer) {
 class Writer final : public VectorWriter<Layer, PagesWriter> {
 public:
     Writer(const Print& print, Output& file)
-        : VectorWriter(print, file), size_(print.page), edge_(press_edge(print.press)) {
+        : VectorWriter(print, file), colours_(print.press), size_(print.page), edge_(press_edge(print.press)) {
         const double longest =
             (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
@@ -237,8 +234,8 @@ private:
             write_group(group, "ground");
             fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
-            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group, ink(*ground, false),
-                                                 set_alpha(ground->alpha), area)));
+            paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group,
+                                                 ink(*ground, false, false), set_alpha(ground->alpha), area)));
         }
         for (auto& [order, layer] : layers_) {
             if (!layer.to_file) {
@@ -282,18 +279,37 @@ private:
 
     /// What leaves the bleed would run into the marks.
     void begin_art() {
-        if (!print_.press.marks) return;
+        if (!has_marks()) return;
         const Window sheet{0.0, 0.0, print_.page.width, print_.page.height, true};
         paint(write_plain_stream(fmt::format("q {} W n\n", rectangle(sheet, print_.press.bleed))));
     }
 
+    bool has_marks() const { return print_.press.marks || print_.press.registration; }
+
     /// In all inks, so that every plate shows them.
     void write_marks() {
-        if (!print_.press.marks) return;
+        if (!has_marks()) return;
         std::string text = fmt::format("{} w", decimal(mark_width / unit_, 4));
-        for (const CropMark& mark : crop_marks(print_.page, print_.press)) {
-            fmt::format_to(std::back_inserter(text), " {} {} m {} {} l", user_x(mark.from.x), user_y(mark.from.y),
-                           user_x(mark.to.x), user_y(mark.to.y));
+        const auto line = [&](glm::dvec2 from, glm::dvec2 to) {
+            fmt::format_to(std::back_inserter(text), " {} {} m {} {} l", user_x(from.x), user_y(from.y), user_x(to.x),
+                           user_y(to.y));
+        };
+        if (print_.press.marks) {
+            for (const CropMark& mark : crop_marks(print_.page, print_.press)) line(mark.from, mark.to);
+        }
+        if (print_.press.registration) {
+            for (const glm::dvec2 centre : registration_marks(print_.page, print_.press)) {
+                line(centre - glm::dvec2(registration_arm, 0), centre + glm::dvec2(registration_arm, 0));
+                line(centre - glm::dvec2(0, registration_arm), centre + glm::dvec2(0, registration_arm));
+                const auto at = [&](double x, double y) {
+                    const glm::dvec2 point = centre + registration_radius * glm::dvec2(x, y);
+                    return user_x(point.x) + " " + user_y(point.y);
+                };
+                constexpr double k = quarter_circle;
+                fmt::format_to(std::back_inserter(text), " {} m {} {} {} c {} {} {} c {} {} {} c {} {} {} c h",
+                               at(1, 0), at(1, k), at(k, 1), at(0, 1), at(-k, 1), at(-1, k), at(-1, 0), at(-1, -k),
+                               at(-k, -1), at(0, -1), at(k, -1), at(1, -k), at(1, 0));
+            }
         }
         const int group = new_object();
         write_group(group, "marks");
@@ -304,7 +320,15 @@ private:
     }
 
     void paint(int stream) { fmt::format_to(std::back_inserter(contents_), " {} 0 R", stream); }
-    void write(std::string_view text) { file_.write(text); }
+    void write(std::string_view text) {
+        if (print_.press.inks) {
+            for (std::size_t at = 0; at < text.size(); at += std::size_t{1} << 30) {
+                const std::string_view part = text.substr(at, std::size_t{1} << 30);
+                content_ = crc32_z(content_, reinterpret_cast<const Bytef*>(part.data()), part.size());
+            }
+        }
+        file_.write(text);
+    }
 
     int new_object() {
         offsets_.push_back(0);
@@ -335,22 +359,32 @@ private:
     }
 
     /// The operators that set the colour of lines or of areas; a spot colour that is named is remembered.
-    std::string ink(Colour colour, bool of_lines) {
+    /// @param is_drawn  of lines or dots, not of areas
+    std::string ink(Colour colour, bool of_lines, bool is_drawn) {
         const std::vector<Spot>& spots = print_.press.spots;
         for (std::size_t i = 0; i < spots.size(); ++i) {
             const Colour& spot = spots[i].colour;
             if (spot.red != colour.red || spot.green != colour.green || spot.blue != colour.blue) continue;
             spots_.insert(i);
-            return fmt::format("/S{} {}", i, of_lines ? "CS 1 SCN" : "cs 1 scn");
+            return fmt::format("{}/S{} {}", overprint(true, Overprint::spots), i, of_lines ? "CS 1 SCN" : "cs 1 scn");
         }
-        return channels(colour) + (of_lines ? " RG" : " rg");
+        const bool is_black = is_black_ink(print_.press, colour, is_drawn);
+        return fmt::format("{}{}{}", overprint(is_black, Overprint::black), colours_.channels(colour, is_drawn),
+                           colours_.set(of_lines));
     }
 
-    /// A tint of none is white; who has no such ink mixes it from red, green and blue.
+    /// The operator that selects whether what follows overprints, if anything in the document does.
+    std::string overprint(bool may, Overprint kind) const {
+        const Overprint chosen = print_.press.overprint;
+        if (chosen == Overprint::none) return "";
+        return may && (chosen == kind || chosen == Overprint::all) ? "/Over gs " : "/Under gs ";
+    }
+
+    /// A tint of none is white; who has no such ink mixes it from the others.
     void write_colour_spaces() {
-        if (spots_.empty() && !print_.press.marks) return;
-        const auto separation = [](const std::string& name, std::string_view space, const std::string& none,
-                                   const std::string& full) {
+        if (spots_.empty() && !has_marks()) return;
+        const auto separation = [](const std::string& name, std::string_view space, std::string_view none,
+                                   std::string_view full) {
             return fmt::format("[/Separation {} /{} << /FunctionType 2 /Domain [0 1] /C0 [{}] /C1 [{}] /N 1 >>]\n",
                                name, space, none, full);
         };
@@ -358,9 +392,10 @@ private:
         for (const std::size_t i : spots_) {
             const Spot& spot = print_.press.spots[i];
             write(fmt::format("/S{} {}", i,
-                              separation(name_object(spot.name), "DeviceRGB", "1 1 1", channels(spot.colour))));
+                              separation(name_object(spot.name), colours_.space(), colours_.none(),
+                                         colours_.channels(spot.colour, false))));
         }
-        if (print_.press.marks) write("/Registration " + separation("/All", "DeviceGray", "1", "0"));
+        if (has_marks()) write("/Registration " + separation("/All", "DeviceGray", "1", "0"));
         write(">>\n");
     }
 
@@ -378,12 +413,13 @@ private:
     }
 
     std::string stream_head(const Layer& layer, const std::string& length) const {
-        const std::string form = layer.translucent
-                                     ? fmt::format(
-                                           "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
-                                           "/Group << /S /Transparency /CS /DeviceRGB >> ",
-                                           user(2 * edge_ + size_.width), user(2 * edge_ + size_.height))
-                                     : "";
+        const std::string form =
+            layer.translucent ? fmt::format(
+                                    "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
+                                    "/Group << /S /Transparency /CS /{} >> {}",
+                                    user(2 * edge_ + size_.width), user(2 * edge_ + size_.height), colours_.space(),
+                                    print_.press.inks ? fmt::format("/Resources {} 0 R ", resources_) : "")
+                              : "";
         return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
     }
 
@@ -416,7 +452,7 @@ private:
     Layer& polygon_layer(Colour colour) {
         Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
         if (layer.run != colour) {
-            layer.text.append(fmt::format("{} {}\n", ink(colour, false), set_alpha(colour.alpha)));
+            layer.text.append(fmt::format("{} {}\n", ink(colour, false, false), set_alpha(colour.alpha)));
             layer.run = colour;
         }
         return layer;
@@ -462,7 +498,7 @@ private:
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
         Layer& layer = open_layer({LayerKind::discs, slot}, colour,
                                   [&] { return fmt::format("discs {}", colour_name(colour)); });
-        if (!layer.run) layer.text.append(ink(colour, false) + "\n");
+        if (!layer.run) layer.text.append(ink(colour, false, true) + "\n");
         layer.run = colour;
         const auto at = [&](double x, double y) {
             return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
@@ -490,7 +526,7 @@ private:
     void write_start() override {
         if (layer_->width != width_) {
             end_path(*layer_);
-            if (layer_->width.empty()) layer_->text.append(ink(colour_, true) + "\n");
+            if (layer_->width.empty()) layer_->text.append(ink(colour_, true, true) + "\n");
             layer_->text.append(fmt::format("{} w\n", width_));
             layer_->width = width_;
         }
@@ -586,8 +622,14 @@ private:
         if (!properties_.empty()) write(fmt::format("/Properties <<\n{}>>\n", properties_));
         write_colour_spaces();
         if (!forms_.empty()) write(fmt::format("/XObject <<\n{}>>\n", forms_));
-        if (!alphas_.empty()) {
+        const bool overprints = print_.press.overprint != Overprint::none;
+        if (!alphas_.empty() || overprints) {
             write("/ExtGState <<\n");
+            if (overprints) {
+                write(
+                    "/Over << /Type /ExtGState /OP true /op true /OPM 1 >>\n"
+                    "/Under << /Type /ExtGState /OP false /op false /OPM 0 >>\n");
+            }
             for (const int alpha : alphas_) {
                 const std::string value = decimal(alpha / 255.0, 4);
                 write(fmt::format("/A{} << /Type /ExtGState /CA {} /ca {} >>\n", alpha, value, value));
@@ -597,28 +639,34 @@ private:
         write(">>\nendobj\n");
 
         // Plates are mixed as inks, each for itself, which a page mixed in RGB would not have.
-        const bool has_group = !alphas_.empty() && spots_.empty() && !print_.press.marks;
+        const bool has_group = !alphas_.empty() && spots_.empty() && !has_marks();
         std::string kids;
         for (const PageEntry& page : entries_) {
             begin_object(page.object);
-            write(fmt::format("<< /Type /Page /Parent {} 0 R\n{}{}{}/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
-                              pages_, page.boxes, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
-                              has_group ? "/Group << /S /Transparency /CS /DeviceRGB >>\n" : "", resources_,
-                              page.contents));
+            write(
+                fmt::format("<< /Type /Page /Parent {} 0 R\n{}{}{}/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
+                            pages_, page.boxes, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+                            has_group ? fmt::format("/Group << /S /Transparency /CS /{} >>\n", colours_.space()) : "",
+                            resources_, page.contents));
             fmt::format_to(std::back_inserter(kids), "{}{} 0 R", kids.empty() ? "" : " ", page.object);
         }
         begin_object(pages_);
         write(fmt::format("<< /Type /Pages /Kids [{}] /Count {} >>\nendobj\n", kids, entries_.size()));
+        const std::string title = print_.title.empty() && print_.press.inks ? "Sikku" : print_.title;
+        const std::string id = print_.press.inks ? identifier() : "";
+        const std::string press = print_.press.inks ? write_press(title, id) : "";
         begin_object(catalog_);
-        write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n", pages_));
+        write(fmt::format("<< /Type /Catalog /Pages {} 0 R\n{}", pages_, press));
         if (!groups_.empty()) {
-            write(fmt::format("/OCProperties << /OCGs [{} ] /D << /Order [{} ] >> >>\n", groups_, order_));
+            write(fmt::format("/OCProperties << /OCGs [{} ] /D << {}/Order [{} ] >> >>\n", groups_,
+                              print_.press.inks ? "/Name (Layers) " : "", order_));
         }
         write(">>\nendobj\n");
         const int info = new_object();
         begin_object(info);
         write("<< ");
-        if (!print_.title.empty()) write(fmt::format("/Title {}\n", text_string(print_.title)));
+        if (!title.empty()) write(fmt::format("/Title {}\n", text_string(title)));
+        if (print_.press.inks) write(pdf_x_information());
         if (!print_.made.empty()) write(fmt::format("/Subject {}\n", text_string(print_.made)));
         // A key of our own beside those of the standard, which allows it: the print can be made again from it.
         if (!print_.pattern.empty()) write(fmt::format("/SikkuPattern {}\n", text_string(print_.pattern)));
@@ -627,11 +675,50 @@ private:
         const std::uint64_t table = file_.size();
         write(fmt::format("xref\n0 {}\n0000000000 65535 f \n", offsets_.size() + 1));
         for (const std::uint64_t offset : offsets_) write(fmt::format("{:010} 00000 n \n", offset));
-        write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R >>\nstartxref\n{}\n%%EOF\n",
-                          offsets_.size() + 1, catalog_, info, table));
+        write(fmt::format("trailer\n<< /Size {} /Root {} 0 R /Info {} 0 R{} >>\nstartxref\n{}\n%%EOF\n",
+                          offsets_.size() + 1, catalog_, info,
+                          id.empty() ? "" : fmt::format(" /ID [<{}> <{}>]", id, id), table));
+    }
+
+    /// 32 hexadecimal digits that depend on everything written so far, and on the texts of the print.
+    std::string identifier() const {
+        TextHash hash;
+        hash.add_piece(fmt::format("{} {}", content_, file_.size()));
+        for (const std::string* text : {&print_.title, &print_.made, &print_.pattern}) hash.add_piece(*text);
+        return hash.digits();
+    }
+
+    /// Writes the output intent and the metadata of PDF/X-4; returns their entries in the catalogue.
+    std::string write_press(const std::string& title, const std::string& id) {
+        const PressInks& inks = *print_.press.inks;
+        uLongf size = compressBound(static_cast<uLong>(inks.profile.size()));
+        std::string packed(size, '\0');
+        if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, inks.profile.data(),
+                      static_cast<uLong>(inks.profile.size()), 9) != Z_OK) {
+            throw std::runtime_error("zlib: no memory");
+        }
+        const int profile = new_object();
+        begin_object(profile);
+        write(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", size));
+        write(std::string_view(packed).substr(0, size));
+        write("\nendstream\nendobj\n");
+        const int intent = new_object();
+        begin_object(intent);
+        write(
+            fmt::format("<< /Type /OutputIntent /S /GTS_PDFX /OutputConditionIdentifier {} /Info {} "
+                        "/DestOutputProfile {} 0 R >>\nendobj\n",
+                        text_string(inks.name), text_string(inks.name), profile));
+        const std::string packet = pdf_x_metadata(title, id);
+        const int metadata = new_object();
+        begin_object(metadata);
+        write(fmt::format("<< /Type /Metadata /Subtype /XML /Length {} >>\nstream\n{}endstream\nendobj\n",
+                          packet.size(), packet));
+        return fmt::format("/Metadata {} 0 R\n/OutputIntents [{} 0 R]\n", metadata, intent);
     }
 
     Deflater deflater_;
+    PdfColours colours_;
+    uLong content_ = 0;                   ///< CRC-32 of what was written, for the identifier
     std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
     std::set<int> alphas_;
     std::set<std::size_t> spots_;  ///< that were used

@@ -8,8 +8,9 @@
 
 namespace sikku {
 
-/// Begins the document in `file`. `print` and `file` are kept by reference and must outlive the writer. After
-/// finish() the file is complete, but not committed.
+/// Begins the document in `file`. With inks of a press it is a PDF/X-4 (ISO 15930-7:2010) in CMYK and spot colours.
+/// `print` and `file` are kept by reference and must outlive the writer. After finish() the file is complete, but not
+/// committed.
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written or memory
 /// is short
 std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file);

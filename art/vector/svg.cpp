@@ -346,8 +346,11 @@ private:
     Layer& stroke_layer() override {
         // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
         Layer& layer = open_layer({LayerKind::strokes, slot_}, [&] {
+            const auto name = print_.layer_names.find(slot_);
             return LayerText{slot_ == print_.travel_colour ? std::string("% travel")
-                                                           : fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
+                             : name != print_.layer_names.end()
+                                 ? name->second
+                                 : fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
                              fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
                                          "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
                                          hex(colour_), opacity("opacity", colour_), width_)};

@@ -147,6 +147,10 @@ std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& /*p
     refuse();
 }
 
+std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& /*file*/) {
+    refuse();
+}
+
 void check_cmyk_profile(const std::filesystem::path& /*file*/) {
     refuse();
 }

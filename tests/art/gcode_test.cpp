@@ -1,5 +1,7 @@
 #include "art/plotter/gcode.h"
 
+#include "art/plotter/profile.h"
+
 #include "tests/plot_tools.h"
 
 #include <charconv>
@@ -16,6 +18,7 @@ struct Plot {
     std::vector<std::vector<glm::dvec2>> strokes;  ///< points `spacing` apart, in millimetres
     std::map<int, std::size_t> moves;              ///< of each kind: 0 to 3
     std::vector<double> feeds;                     ///< of each move that draws
+    std::vector<double> arcs;                      ///< lengths
     int stops = 0;
 };
 Plot read_gcode(const std::string& text, const Page& page, bool by_z) {
@@ -71,7 +74,13 @@ Plot read_gcode(const std::string& text, const Page& page, bool by_z) {
             const glm::dvec2 centre = at + glm::dvec2(words.at('I'), words.at('J'));
             EXPECT_NEAR(glm::distance(at, centre), glm::distance(end, centre), 0.004) << line;
             EXPECT_NE(end, at) << line;
+            const std::size_t first = samples.points.size() - 1;
             samples.arc(centre, end, motion == 3);
+            double length = 0;
+            for (std::size_t k = first + 1; k < samples.points.size(); ++k) {
+                length += glm::distance(samples.points[k - 1], samples.points[k]);
+            }
+            plot.arcs.push_back(length);
         }
         at = end;
     }
@@ -93,7 +102,7 @@ protected:
         return whole;
     }
     Plot expect_faithful(const Print& print, const PlotPlan& plan) {
-        Plot plot = read_gcode(text(plan, print), print.page, options_.lifts_by_z);
+        Plot plot = read_gcode(text(plan, print), print.page, by_z_);
         const auto lines = true_lines(plan, print, spacing);
         EXPECT_EQ(plot.strokes.size(), lines.size());
         for (std::size_t i = 0; i < std::min(lines.size(), plot.strokes.size()); ++i) {
@@ -103,7 +112,13 @@ protected:
         return plot;
     }
     ScratchFolder folder_;
+    /// Lifts along Z.
+    void use_z() {
+        options_ = bundled_profile("z").value().gcode;
+        by_z_ = true;
+    }
     GcodeOptions options_;
+    bool by_z_ = false;
 };
 
 TEST_F(Gcode, IsWhatAMachineTakes) {
@@ -124,7 +139,7 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
         "G1 X90 Y50.013\nM5\nG4 P0.2\n(pen 2: blue)\nT2\nM0\nG0 X20 Y30 F4800\nM3 S1000\nG4 P0.2\nG1 X20 Y20 "
         "F2400\nM5\n"
         "G4 P0.2\nG0 X0 Y0\nM2\n");
-    options_ = gcode_profile("z").value();
+    use_z();
     options_.start = "$H";
     options_.end = "M30\n";
     print.title.clear();
@@ -136,7 +151,6 @@ TEST_F(Gcode, IsWhatAMachineTakes) {
                              }),
                    print),
               "G21 G90 G17\n$H\nG0 Z5\n(pen 1: black)\nG0 X10 Y10 F4800\nG1 Z0 F600\nG1 X20 Y10 F2400\nG0 Z5\nM30\n");
-    EXPECT_FALSE(gcode_profile("marlin"));
 }
 
 TEST_F(Gcode, TheEndMayReturnThePen) {
@@ -155,8 +169,29 @@ TEST_F(Gcode, TheEndMayReturnThePen) {
 TEST_F(Gcode, CurvesAreWithinAHundredthOfAMillimetre) {
     const Print print = plain_print();
     EXPECT_EQ(expect_faithful(print, *arranged(print, draw_curves)).stops, 2);
-    options_ = gcode_profile("z").value();
+    use_z();
     expect_faithful(print, *arranged(print, draw_sampler));
+}
+
+TEST_F(Gcode, ArcsCanBeLeftOutOrHaveAMinimumLength) {
+    const Print print = plain_print();
+    const auto plan = arranged(print, draw_curves);
+    const Plot all = expect_faithful(print, *plan);
+    options_.arcs = false;
+    const Plot none = expect_faithful(print, *plan);
+    EXPECT_FALSE(none.moves.contains(2) || none.moves.contains(3));
+    EXPECT_GT(none.moves.at(1), all.moves.at(1));
+    options_.arcs = true;
+    options_.least_arc = 5;
+    const Plot long_ones = expect_faithful(print, *plan);
+    const auto arcs = [](const Plot& plot) {
+        return (plot.moves.contains(2) ? plot.moves.at(2) : 0) + (plot.moves.contains(3) ? plot.moves.at(3) : 0);
+    };
+    EXPECT_LT(arcs(long_ones), arcs(all));
+    EXPECT_GT(arcs(long_ones), 0u);
+    for (const double length : all.arcs) EXPECT_GT(length, 0);
+    EXPECT_LT(*std::min_element(all.arcs.begin(), all.arcs.end()), 5);
+    for (const double length : long_ones.arcs) EXPECT_GE(length, 4.999);
 }
 
 TEST_F(Gcode, DiscsAreSpiralsOfArcs) {
@@ -213,11 +248,15 @@ TEST_F(Gcode, OptionsAreChecked) {
     for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
         refused(&GcodeOptions::drawing_feed, bad);
         refused(&GcodeOptions::travel_feed, bad);
-        refused(&GcodeOptions::z_feed, bad);
     }
-    refused(&GcodeOptions::power, -1);
     refused(&GcodeOptions::pause, std::nan(""));
-    refused(&GcodeOptions::z_up, std::nan(""));
+    refused(&GcodeOptions::pause, -1);
+    refused(&GcodeOptions::least_arc, -1);
+    refused(&GcodeOptions::lift, std::nan(""));
+    refused(&GcodeOptions::down, std::nan(""));
+    options_ = {};
+    options_.pen_up = "M5 {heigth}";
+    EXPECT_THROW(text(*plan, print), std::runtime_error);
     options_ = {};
     const auto outside = arranged(print, [](PathSink& sink) { sink.disc({50, 30}, 33, Pen{}); });
     EXPECT_THROW(text(*outside, print), std::runtime_error);

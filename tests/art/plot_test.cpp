@@ -530,7 +530,7 @@ TEST(Plot, TimeIsCountedFromSpeeds) {
     const PlotTally tally{1000.0, 500.0, 20};
     EXPECT_DOUBLE_EQ(plot_seconds(tally, {50.0, 100.0, 0.25}), 20 + 5 + 5);
     EXPECT_DOUBLE_EQ(plot_seconds(tally, {50.0, 100.0, 0.0}), 25);
-    EXPECT_DOUBLE_EQ(plot_seconds({}, {}), 0);
+    EXPECT_DOUBLE_EQ(plot_seconds(PlotTally{}, {}), 0);
     for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(plot_seconds(tally, {bad, 100.0, 0.25}), std::runtime_error) << bad;
         EXPECT_THROW(plot_seconds(tally, {50.0, bad, 0.25}), std::runtime_error) << bad;

@@ -107,10 +107,14 @@ TEST(Press, RefusesWhatAFormatDoesNotHave) {
         EXPECT_TRUE(says(check({.marks = true}, format), "only a PDF has crop marks"));
         EXPECT_TRUE(says(check(spots, format), "only a PDF has spot colours"));
         if (format == PrintFormat::tiff) continue;
-        EXPECT_TRUE(says(check({.cmyk = "a.icc"}, format), "only a TIFF"));
+        EXPECT_TRUE(says(check({.cmyk = "a.icc"}, format), "only TIFF and PDF"));
+        EXPECT_TRUE(says(check({.registration = true}, format), "only a PDF has registration marks"));
+        EXPECT_TRUE(says(check({.overprint = Overprint::black}, format), "only a PDF has inks"));
         EXPECT_TRUE(says(check({.bits = 1}, format), "only a TIFF"));
     }
-    EXPECT_TRUE(says(check({.cmyk = "a.icc"}, PrintFormat::pdf), "only a TIFF"));
+    EXPECT_EQ(check({.cmyk = "a.icc"}, PrintFormat::pdf), "");
+    EXPECT_EQ(check({.cmyk = "a.icc", .overprint = Overprint::all}, PrintFormat::pdf), "");
+    EXPECT_TRUE(says(check({.overprint = Overprint::black}, PrintFormat::pdf), "needs 'cmyk' or 'spot'"));
     EXPECT_TRUE(says(check({.cmyk = "a.icc", .bits = 1}, PrintFormat::tiff), "8 bits"));
     EXPECT_EQ(check({.cmyk = "a.icc"}, PrintFormat::tiff), "");
     EXPECT_EQ(check({.bits = 1}, PrintFormat::tiff), "");

@@ -1,0 +1,222 @@
+// art/draw_checks.cpp: which settings of a print can be combined with each other and with a format.
+#include "art/draw_settings.h"
+#include "art/raster/raster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace sikku {
+namespace {
+
+/// Reason why an option cannot be combined with others.
+struct Conflict {
+    bool is_given;
+    const char* option;
+    const char* reason;
+};
+
+void refuse_first(std::initializer_list<Conflict> conflicts) {
+    for (const Conflict& conflict : conflicts) {
+        if (conflict.is_given) refuse_option(conflict.option, "", conflict.reason);
+    }
+}
+
+void check_model(const DrawSettings& settings) {
+    constexpr const char* reason = "a model has no page and no camera; this option is for prints";
+    refuse_first({{settings.window.has_value(), "window", reason},
+                  {!settings.view.empty(), "view", reason},
+                  {settings.plotter, "plotter", reason},
+                  {settings.hatch.has_value(), "hatch", reason},
+                  {settings.pen_width > 0, "pen-width", reason},
+                  {settings.pens > 0, "pens", reason},
+                  {!settings.pen_rules.empty(), "pen", reason},
+                  {settings.refill.has_value(), "refill", reason},
+                  {settings.park.has_value(), "park", reason},
+                  {settings.resume > 0, "resume", reason},
+                  {!settings.gcode.arcs, "arcs", reason},
+                  {settings.gcode.least_arc > 0, "min-arc", reason},
+                  {settings.paper.has_value(), "hpgl-paper", reason},
+                  {settings.tile.has_value(), "tile", reason},
+                  {settings.dots.has_value(), "dots", reason},
+                  {settings.dot_spacing.has_value(), "dot-spacing", reason},
+                  {settings.animation.has_value(), "animate", reason},
+                  {settings.generations.has_value(), "generations", reason},
+                  {settings.frames, "frames", reason},
+                  {settings.frame_time.has_value(), "frame-time", reason},
+                  {settings.hold.has_value(), "hold", reason},
+                  {settings.fit_frames, "fit-frames", reason},
+                  {settings.lesson.has_value(), "lesson", reason},
+                  {settings.border, "border", reason},
+                  {settings.colours_strokes, "colour-by", reason},
+                  {settings.press.marks, "marks", reason},
+                  {settings.press.registration, "registration", reason},
+                  {settings.press.overprint != Overprint::none, "overprint", reason},
+                  {!settings.press.spots.empty(), "spot", reason},
+                  {settings.press.bleed != 0, "bleed", reason},
+                  {!settings.press.cmyk.empty(), "cmyk", reason},
+                  {settings.press.bits != 8, "bits", reason},
+                  {settings.press.screen != Screen{}, "screen", reason},
+                  {settings.step.has_value(), "step", "a model has one unit for each turtle step"},
+                  {settings.rotate != 0, "rotate", "a model can be rotated in the program that uses it"},
+                  {settings.mirror, "mirror", "a model can be mirrored in the program that uses it"}});
+}
+
+void check_placement(const DrawSettings& settings) {
+    constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
+    refuse_first({{settings.fit && settings.step, "step", both},
+                  {settings.fit && settings.window, "window", both},
+                  {settings.fit && settings.dot_spacing, "dot-spacing", both},
+                  {settings.step && settings.dot_spacing, "dot-spacing",
+                   "cannot be combined with 'step': both set the step length"}});
+}
+
+/// Checks that the format can express the settings of single pens.
+void check_pens(const DrawSettings& settings, PrintFormat format) {
+    const bool has_codes = settings.profile && settings.profile->layers.full_speed > 0 && format == PrintFormat::svg;
+    for (const PenRule& rule : settings.pen_rules) {
+        const PenSettings& pen = rule.settings;
+        const bool has_height = pen.lift || pen.down || pen.pause;
+        refuse_first(
+            {{format == PrintFormat::hpgl && has_height, "pen", "HP-GL sets the speed of a pen, but not its height"},
+             {has_codes && pen.lift, "pen",
+              "the names of AxiDraw's layers do not contain the height of a raised pen"},
+             {!is_for_plotters(format) && !has_codes && (has_height || pen.speed), "pen",
+              "an SVG describes pens only in layer names for AxiDraw; 'profile' axidraw writes them"}});
+    }
+}
+
+void check_plot(const DrawSettings& settings, PrintFormat format) {
+    const bool is_plot = settings.plotter || is_for_plotters(format);
+    const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
+    const GcodeOptions defaults = settings.profile ? settings.profile->gcode : GcodeOptions{};
+    if (settings.profile) {
+        const PlotLanguage language = settings.profile->language;
+        const PlotLanguage spoken = format == PrintFormat::hpgl    ? PlotLanguage::hpgl
+                                    : format == PrintFormat::gcode ? PlotLanguage::gcode
+                                                                   : PlotLanguage::svg;
+        if (is_for_plotters(format) && language != spoken) {
+            refuse_option(
+                "profile", settings.profile->name,
+                fmt::format("this plotter reads {}, not {}", language_name(language), language_name(spoken)));
+        }
+        if (language == PlotLanguage::svg && !is_plot) refuse_option("profile", "", "needs 'plotter'");
+        if (language == PlotLanguage::svg && format == PrintFormat::pdf) {
+            refuse_option("profile", settings.profile->name, "this plotter reads SVG, not PDF");
+        }
+    }
+    refuse_first(
+        {{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
+         {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
+         {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
+         {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
+         {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
+         {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
+         {!settings.pen_rules.empty() && !is_plot, "pen", "needs 'plotter', HP-GL or G-code"},
+         {settings.refill && !is_plot, "refill", "needs 'plotter', HP-GL or G-code"},
+         {settings.resume > 0 && !is_plot, "resume", "needs 'plotter', HP-GL or G-code"},
+         {settings.park && !is_for_plotters(format), "park", "applies only to HP-GL and G-code"},
+         {settings.gcode.arcs != defaults.arcs && format != PrintFormat::gcode, "arcs", "applies only to G-code"},
+         {settings.gcode.least_arc != defaults.least_arc && format != PrintFormat::gcode, "min-arc",
+          "applies only to G-code"},
+         {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
+         {settings.tile && is_plot, "tile", "tiles would cut the strokes of a plot"},
+         {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
+         {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
+    check_pens(settings, format);
+}
+
+void check_gif(const DrawSettings& settings) {
+    constexpr const char* screen = "does not apply to a .gif, which is shown on screens";
+    refuse_first({{settings.press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
+    const PixelSize size = pixel_size(settings.page, settings.dpi);
+    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
+        refuse_option(
+            "dpi", fmt::format("{:g}", settings.dpi),
+            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
+    }
+}
+
+void check_lesson(const DrawSettings& settings, PrintFormat format) {
+    if (!settings.lesson) return;
+    constexpr const char* alone = "cannot be combined with 'lesson', which has its own pages and order";
+    refuse_first({{settings.plotter || is_for_plotters(format), "lesson",
+                   "a lesson has colours, numbers and several steps; a plot is one drawing"},
+                  {settings.generations.has_value(), "generations", alone},
+                  {settings.tile.has_value(), "tile", alone},
+                  {settings.window.has_value(), "window", alone},
+                  {settings.animation.has_value(), "animate", alone},
+                  {settings.only_dots, "dots", alone},
+                  {settings.border, "border", "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.press.bleed > 0, "bleed", "the pages of a lesson are not trimmed"},
+                  {settings.press.marks, "marks", "the pages of a lesson are not trimmed"},
+                  {settings.press.registration, "registration", "the pages of a lesson are not trimmed"}});
+    if (is_vector(format) || format == PrintFormat::gif) return;
+    constexpr const char* filled = "each step of a lesson is scaled to fill its cell of the picture";
+    refuse_first(
+        {{settings.step.has_value(), "step", filled}, {settings.dot_spacing.has_value(), "dot-spacing", filled}});
+}
+
+void check_growth(const DrawSettings& settings, PrintFormat format) {
+    const bool is_gif = format == PrintFormat::gif;
+    const bool is_sheet = settings.generations && !is_gif && !settings.frames;
+    refuse_first(
+        {{is_gif && !settings.generations && !settings.lesson, "generations",
+          "needed for a .gif, an animation of growth: A:B"},
+         {settings.frames && !settings.generations, "frames", "needs 'generations'"},
+         {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
+         {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
+         {settings.frame_time && !is_gif, "frame-time", "applies only to a .gif"},
+         {settings.hold && !is_gif, "hold", "applies only to a .gif"},
+         {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
+    if (is_gif) check_gif(settings);
+    if (!settings.generations) return;
+    const auto [first, last] = *settings.generations;
+    const std::int64_t most = is_sheet ? 100 : most_frames;
+    if (last < first || last - first >= most) {
+        refuse_option("generations", fmt::format("{}:{}", first, last),
+                      fmt::format("expected up to {} derivation lengths, the lowest first", most));
+    }
+    if (is_sheet) {
+        constexpr const char* filled = "each drawing of a sheet of generations is scaled to fill its cell";
+        refuse_first(
+            {{settings.plotter || is_for_plotters(format), "generations",
+              "a plot cannot contain the grounds and captions of a sheet of generations; 'frames' makes a plot "
+              "of each"},
+             {settings.tile.has_value(), "tile",
+              "a sheet of generations cannot be cut into tiles; 'frames' cuts each generation"},
+             {settings.step.has_value(), "step", filled},
+             {settings.dot_spacing.has_value(), "dot-spacing", filled}});
+    }
+}
+
+}  // namespace
+
+void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
+    if (info(format).kind == FormatKind::model) return check_model(settings);
+    check_placement(settings);
+    if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
+        refuse_option("dpi", fmt::format("{:g}", settings.dpi),
+                      "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
+    }
+    try {
+        if (settings.tile) tiling_of(settings.page, tile_options(settings));
+    } catch (const std::runtime_error& error) {
+        refuse_option("tile", "", error.what());
+    }
+    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
+    check_plot(settings, format);
+    constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
+    const bool is_untrimmed = settings.plotter || settings.tile;
+    refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
+                  {is_untrimmed && settings.press.marks, "marks", trimmed},
+                  {is_untrimmed && settings.press.registration, "registration", trimmed},
+                  {settings.window && settings.border, "border",
+                   "a border frames the whole drawing; a window shows only part of it"},
+                  {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
+    check_lesson(settings, format);
+    check_growth(settings, format);
+}
+
+}  // namespace sikku

@@ -1,0 +1,227 @@
+// tests/art/pdf_x_test.cpp: PDF/X-4 as independent readers see it: qpdf, poppler, Ghostscript, libxml2 and pugixml.
+#include "art/prints.h"
+#include "engine/language/document.h"
+#include "tests/print_tools.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+namespace sikku {
+namespace {
+
+constexpr const char* profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
+
+const std::string kolam =
+    "title: A <kolam> & more\naxiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\nangle increment: "
+    "90\n"
+    "stroke: 3mm #000000\nground: #ffcc33\nfill: #30a050\n";
+
+class PdfX : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!std::filesystem::exists(profile)) GTEST_SKIP() << profile << " is not installed";
+    }
+
+    std::filesystem::path write(OptionValues values, const std::string& pattern = kolam,
+                                const std::string& name = "x.pdf") {
+        values.push_back({"cmyk", profile});
+        values.push_back({"size", "100x100mm"});
+        return folder_.write(name, draw(parse("x.lsys", pattern), "pdf", values));
+    }
+    /// The file with its streams uncompressed, found sound by qpdf.
+    std::string plain_text(const std::filesystem::path& path) {
+        const ToolOutcome check = run("qpdf --check '" + path.string() + "'");
+        EXPECT_TRUE(check.ok && check.text.find("WARNING") == std::string::npos) << check.text;
+        const auto plain = folder_ / "plain.pdf";
+        EXPECT_TRUE(run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'").ok);
+        return contents(plain);
+    }
+    /// Mean ink on a plate as Ghostscript separates it, 0 to 1.
+    double ink(const std::filesystem::path& pdf, const std::string& plate) {
+        const std::string stem = (folder_ / pdf.stem().string()).string();
+        if (!std::filesystem::exists(stem + ".tif")) {
+            const ToolOutcome outcome = run("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=tiffsep -r50 -o '" + stem +
+                                            ".tif' '" + pdf.string() + "'");
+            EXPECT_TRUE(outcome.ok) << outcome.text;
+        }
+        const std::string picture = stem + ".ppm";
+        EXPECT_TRUE(run("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok) << plate;
+        const PixelGrid pixels = read_ppm(picture);
+        double sum = 0;
+        for (const char byte : pixels.bytes) sum += 255 - static_cast<unsigned char>(byte);
+        return sum / 255 / static_cast<double>(pixels.bytes.size());
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(PdfX, SaysWhatItIs) {
+    NEEDS("qpdf");
+    NEEDS("pdfinfo");
+    const auto path = write({{"bleed", "3mm"}, {"marks", "true"}});
+    const std::string text = plain_text(path);
+    EXPECT_TRUE(contents(path).starts_with("%PDF-1.6"));
+    for (const char* part : {"/OutputIntents", "/GTS_PDFX", "/DestOutputProfile", "/OutputConditionIdentifier",
+                             "/Trapped /False", "/TrimBox", "/BleedBox", "/Metadata", "/ID "}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part;
+    }
+    // What the standard forbids or does not need.
+    for (const char* part : {"/ArtBox", "/AS ", "/JavaScript", "/Annots", "/Encrypt", "/Font"}) {
+        EXPECT_EQ(text.find(part), std::string::npos) << part;
+    }
+    const ToolOutcome info = run("pdfinfo -box '" + path.string() + "'");
+    EXPECT_NE(info.text.find("PDF subtype:    PDF/X-4"), std::string::npos) << info.text;
+    // 100 mm are 283.46 points; bleed and marks take 8 mm.
+    EXPECT_NE(info.text.find("TrimBox:            22.68    22.68   306.14   306.14"), std::string::npos) << info.text;
+    EXPECT_NE(info.text.find("BleedBox:           14.17    14.17   314.65   314.65"), std::string::npos) << info.text;
+}
+
+TEST_F(PdfX, MetadataAndInformationAgree) {
+    NEEDS("pdfinfo");
+    const auto path = write({});
+    const std::string packet = run("pdfinfo -meta '" + path.string() + "'").text;
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_string(packet.c_str())) << packet;
+    const pugi::xml_node about = document.child("x:xmpmeta").child("rdf:RDF").child("rdf:Description");
+    const auto value = [&](const char* name) { return std::string(about.child_value(name)); };
+    EXPECT_EQ(value("pdfxid:GTS_PDFXVersion"), "PDF/X-4");
+    EXPECT_EQ(value("pdf:Trapped"), "False");
+    EXPECT_EQ(value("xmpMM:VersionID"), "1");
+    EXPECT_EQ(value("xmpMM:RenditionClass"), "default");
+    static const std::regex uuid("uuid:[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}");
+    EXPECT_TRUE(std::regex_match(value("xmpMM:DocumentID"), uuid)) << value("xmpMM:DocumentID");
+    EXPECT_STREQ(about.child("dc:title").child("rdf:Alt").child_value("rdf:li"), "A <kolam> & more");
+    for (const char* date : {"xmp:CreateDate", "xmp:ModifyDate", "xmp:MetadataDate"}) {
+        EXPECT_EQ(value(date), "2010-01-01T00:00:00Z") << "the same on every day";
+    }
+    const std::string info = run("pdfinfo -isodates '" + path.string() + "'").text;
+    EXPECT_NE(info.find("Title:           A <kolam> & more"), std::string::npos) << info;
+    EXPECT_NE(info.find("CreationDate:    2010-01-01T00:00:00Z"), std::string::npos) << info;
+    EXPECT_NE(info.find("ModDate:         2010-01-01T00:00:00Z"), std::string::npos) << info;
+    // Other drawings are other documents, equal ones are the same.
+    EXPECT_EQ(contents(path), contents(write({}, kolam, "again.pdf")));
+    const auto id = [&](const std::filesystem::path& file) {
+        const std::string all = contents(file);
+        return all.substr(all.rfind("/ID ["), 70);
+    };
+    EXPECT_NE(id(path), id(write({{"rotate", "1"}}, kolam, "other.pdf")));
+    EXPECT_NE(id(path), id(write({}, "// another text\n" + kolam, "text.pdf")));
+}
+
+TEST_F(PdfX, TheProfileIsTheOneGiven) {
+    NEEDS("qpdf");
+    const auto path = write({});
+    const std::string text = plain_text(path);
+    static const std::regex reference(R"(/DestOutputProfile (\d+) 0 R)");
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(text, match, reference));
+    const std::string icc = folder_.file("out.icc");
+    ASSERT_TRUE(run("qpdf --show-object=" + match[1].str() + " --filtered-stream-data '" +
+                    (folder_ / "plain.pdf").string() + "' > '" + icc + "'")
+                    .ok);
+    EXPECT_EQ(contents(icc), contents(profile));
+}
+
+TEST_F(PdfX, EveryColourIsAnInk) {
+    NEEDS("qpdf");
+    const std::string tree =
+        "title: T\naxiom: {F+F+F+F}@O(2)F\nangle increment: 90\nstroke: 1mm #20306080\nfill: #30a05080\n"
+        "ground: #ffffff80\n";
+    std::vector<std::filesystem::path> files = {
+        write({{"bleed", "3mm"}, {"marks", "true"}, {"registration", "true"}, {"border", "kaavi"}, {"dots", ""}}),
+        write({{"spot", "Sun=#ffcc33"}, {"marks", "true"}}, kolam, "spot.pdf"),
+        write({}, tree, "alpha.pdf"),
+        write({{"generations", "0:2"}}, kolam, "sheet.pdf"),
+        write({{"tile", "60x60mm"}}, kolam, "tiles.pdf"),
+        write({{"plotter", "true"}, {"travel", "true"}}, kolam, "plot.pdf")};
+    for (const auto& path : files) {
+        const std::string text = plain_text(path);
+        EXPECT_EQ(text.find("DeviceRGB"), std::string::npos) << path;
+        static const std::regex rgb(R"([0-9.]+ [0-9.]+ [0-9.]+ (rg|RG)\b)");
+        EXPECT_FALSE(std::regex_search(text, rgb)) << path;
+        static const std::regex cmyk(R"([0-9.]+ [0-9.]+ [0-9.]+ [0-9.]+ [kK]\b)");
+        EXPECT_TRUE(std::regex_search(text, cmyk)) << path;
+        EXPECT_NE(text.find("GTS_PDFX"), std::string::npos) << path;
+        const auto provenance = provenance_of(path);
+        EXPECT_TRUE(provenance && provenance->pattern.find("angle increment") != std::string::npos) << path;
+    }
+}
+
+TEST_F(PdfX, BlackLinesAreBlackInkAlone) {
+    NEEDS("gs");
+    NEEDS("oiiotool");
+    const std::string lines = "title: T\naxiom: F+F+F+F\nangle increment: 90\nstroke: 5mm #000000\n";
+    const auto path = write({}, lines);
+    EXPECT_GT(ink(path, "Black"), 0.05);
+    for (const char* plate : {"Cyan", "Magenta", "Yellow"}) EXPECT_EQ(ink(path, plate), 0) << plate;
+    // A black ground is as deep as the press prints it.
+    const auto ground = write({}, "title: T\naxiom: F\nstroke: 1mm #ffffff\nground: #000000\n", "ground.pdf");
+    for (const char* plate : {"Cyan", "Magenta", "Yellow", "Black"}) EXPECT_GT(ink(ground, plate), 0.2) << plate;
+}
+
+TEST_F(PdfX, BlackPrintsOverOtherInksIfRequested) {
+    NEEDS("gs");
+    NEEDS("oiiotool");
+    const std::string lines = "title: T\naxiom: F+F+F+F\nangle increment: 90\nstroke: 5mm #000000\nground: #ffcc33\n";
+    const auto knocked_out = write({}, lines, "knocked.pdf");
+    const auto over = write({{"overprint", "black"}}, lines, "over.pdf");
+    const auto spots = write({{"overprint", "spots"}}, lines, "spots.pdf");
+    // Without a hole under the lines the ground is whole.
+    const auto ground = write({}, "title: T\naxiom: F\nstroke: 5mm #ffcc33\nground: #ffcc33\n", "ground.pdf");
+    EXPECT_NEAR(ink(over, "Yellow"), ink(ground, "Yellow"), 1e-4);
+    EXPECT_LT(ink(knocked_out, "Yellow"), 0.95 * ink(ground, "Yellow"));
+    EXPECT_NEAR(ink(spots, "Yellow"), ink(knocked_out, "Yellow"), 1e-4);
+    EXPECT_NEAR(ink(over, "Black"), ink(knocked_out, "Black"), 1e-4);
+}
+
+TEST_F(PdfX, SpotColoursPrintOverOtherInksIfRequested) {
+    NEEDS("gs");
+    NEEDS("oiiotool");
+    const std::string lines = "title: T\naxiom: F+F+F+F\nangle increment: 90\nstroke: 5mm #b3452c\nground: #ffcc33\n";
+    const auto knocked_out = write({{"spot", "Kaavi=#b3452c"}}, lines, "knocked.pdf");
+    const auto over = write({{"spot", "Kaavi=#b3452c"}, {"overprint", "spots"}}, lines, "over.pdf");
+    EXPECT_GT(ink(over, "Yellow"), 1.03 * ink(knocked_out, "Yellow"));
+    EXPECT_NEAR(ink(over, "Kaavi"), ink(knocked_out, "Kaavi"), 1e-4);
+    EXPECT_GT(ink(over, "Kaavi"), 0.05);
+}
+
+TEST_F(PdfX, RegistrationMarksAreOnEveryPlate) {
+    NEEDS("gs");
+    NEEDS("oiiotool");
+    const std::string lines = "title: T\naxiom: F\nstroke: 1mm #000000\n";
+    const auto without = write({}, lines, "without.pdf");
+    const auto with = write({{"registration", "true"}}, lines, "with.pdf");
+    for (const char* plate : {"Cyan", "Magenta", "Yellow"}) {
+        EXPECT_EQ(ink(without, plate), 0) << plate;
+        EXPECT_GT(ink(with, plate), 1e-4) << plate;
+    }
+}
+
+TEST_F(PdfX, OtherProfilesAreRefused) {
+    const std::string text = contents(profile);
+    const auto refused = [&](const std::string& bytes) -> std::string {
+        const std::string file = folder_.write("other.icc", bytes);
+        try {
+            draw(parse("x.lsys", kolam), "pdf", {{"cmyk", file}});
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(refused("nothing").find("not an ICC profile"), std::string::npos);
+    std::string link = text;
+    link.replace(12, 4, "spac");  // the class of the profile
+    EXPECT_NE(refused(link).find("not that of an output device"), std::string::npos);
+    EXPECT_EQ(refused(text), "");
+}
+
+}  // namespace
+}  // namespace sikku
