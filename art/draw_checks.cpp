@@ -48,7 +48,11 @@ void check_model(const DrawSettings& settings) {
                   {settings.hold.has_value(), "hold", reason},
                   {settings.fit_frames, "fit-frames", reason},
                   {settings.lesson.has_value(), "lesson", reason},
-                  {settings.border, "border", reason},
+                  {settings.border.has_value(), "border", reason},
+                  {settings.title_line.has_value(), "title-line", reason},
+                  {settings.repeat.has_value(), "repeat", reason},
+                  {settings.composes, "compose", reason},
+                  {!settings.edition.empty(), "edition", reason},
                   {settings.colours_strokes, "colour-by", reason},
                   {settings.press.marks, "marks", reason},
                   {settings.press.registration, "registration", reason},
@@ -67,6 +71,11 @@ void check_placement(const DrawSettings& settings) {
     constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
     refuse_first({{settings.fit && settings.step, "step", both},
                   {settings.fit && settings.window, "window", both},
+                  {settings.fit && settings.composes, "compose",
+                   "cannot be combined with 'fit', which fills the margins"},
+                  {settings.window && settings.composes, "compose", "a window fills the page"},
+                  {settings.window && settings.repeat, "repeat",
+                   "a window shows a part of one drawing, not of its copies"},
                   {settings.fit && settings.dot_spacing, "dot-spacing", both},
                   {settings.step && settings.dot_spacing, "dot-spacing",
                    "cannot be combined with 'step': both set the step length"}});
@@ -148,7 +157,10 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
                   {settings.window.has_value(), "window", alone},
                   {settings.animation.has_value(), "animate", alone},
                   {settings.only_dots, "dots", alone},
-                  {settings.border, "border", "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.border && *settings.border != "none", "border",
+                   "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.title_line.has_value(), "title-line", alone},
+                  {!settings.edition.empty(), "edition", alone},
                   {settings.press.bleed > 0, "bleed", "the pages of a lesson are not trimmed"},
                   {settings.press.marks, "marks", "the pages of a lesson are not trimmed"},
                   {settings.press.registration, "registration", "the pages of a lesson are not trimmed"}});
@@ -212,7 +224,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
                   {is_untrimmed && settings.press.marks, "marks", trimmed},
                   {is_untrimmed && settings.press.registration, "registration", trimmed},
-                  {settings.window && settings.border, "border",
+                  {settings.window && settings.border && *settings.border != "none", "border",
                    "a border frames the whole drawing; a window shows only part of it"},
                   {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
     check_lesson(settings, format);
