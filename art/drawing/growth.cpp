@@ -34,6 +34,7 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     options.border = options.colours_strokes = options.only_dots = false;
     Style lines = style;
     lines.dots.reset();
+    lines.fields.reset();
     DrawnExtent frame;
     const auto add = [&](const DrawnExtent& seen) {
         if (seen.box.empty()) return;
