@@ -110,8 +110,10 @@ private:
         if (settings_.generations && document_.has_override("derivation length")) {
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
+        if (is_model()) refuse_line_work("a model has");
         if (!is_spatial) return;
         require_plain("drawings that pitch, roll or bend have no hand-drawn lines; set hand to 0");
+        refuse_line_work("drawings that pitch, roll or bend have");
         require_straight("drawings that pitch, roll or bend have straight lines, not splines; set line to straight");
         constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
@@ -142,6 +144,19 @@ private:
         Diagnostics diagnostics;
         diagnostics.error(key->value, message);
         diagnostics.throw_if_errors();
+    }
+
+    void refuse_line_work(const char* subject) const {
+        const auto refuse = [&](bool is_set, const char* feature, const char* name, const char* off) {
+            const Key* key = document_.pattern().find(name);
+            if (!is_set || !key) return;
+            Diagnostics diagnostics;
+            diagnostics.error(key->value, fmt::format("{} no {}; set {} to {}", subject, feature, name, off));
+            diagnostics.throw_if_errors();
+        };
+        refuse(print_.style.fields.has_value(), "fields", "fields", "none");
+        refuse(print_.style.weave.has_value(), "weave", "weave", "none");
+        refuse(print_.style.parallel.count > 1, "parallel lines", "parallel", "1");
     }
 
     void make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -260,6 +275,16 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
         made.warn("no dots were drawn: the lines enclose none");
+    }
+    if (print_.style.fields && report.fields == 0 && !settings_.only_dots) {
+        made.warn("no fields were filled: the drawing has no closed line");
+    }
+    if (report.plot && report.fields > 0 && !settings_.hatch) {
+        made.warn("plots fill fields only by hatching: set 'hatch'");
+    }
+    if (report.parallel && report.parallel->spacing < 0.999 * report.parallel->wanted) {
+        made.fact(fmt::format("parallel lines are {:.2g} mm apart and {:.2g} mm wide: there is no room for {:.2g} mm",
+                              report.parallel->spacing, report.parallel->width, report.parallel->wanted));
     }
     if (report.is_empty) {
         made.warn("the window contains no part of the drawing");

@@ -12,15 +12,15 @@
 namespace sikku {
 
 bool has_ornaments(const Style& style, const DrawOptions& options) {
-    return style.dots || options.colours_strokes;
+    return style.dots || options.colours_strokes || has_line_work(style);
 }
 
 Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
     : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
     if (grammar.is_spatial()) {
-        throw std::runtime_error("dots and colours by strand apply only to drawings in the plane");
+        throw std::runtime_error("dots, fields, weaves, parallel lines and colours by strand apply only to drawings in the plane");
     }
-    if (style_.dots || options.colours_strokes) examine(grammar);
+    if (style_.dots || options.colours_strokes || has_line_work(style_)) examine(grammar);
     if (style_.dots) set_spacing();
     add_colours();
 }
@@ -33,10 +33,15 @@ void Composition::examine(const Grammar& grammar) {
     examined.budget = options_.budget;
     examined.watch = options_.watch;
     examined.monitor = options_.monitor;
+    if (has_line_work(style_)) examined.nodes_of_segment = nodes_of_worked_segment;
     examined.draws = [style = drawn_](const Pen& pen) { return style.draws(pen); };
     const KolamExamination examination = examine_kolam(grammar, examined);
     for (const std::uint32_t line : examination.line_of_stroke) {
         orbit_of_stroke_.push_back(examination.orbit_of_line[line]);
+    }
+    if (has_line_work(style_) && !options_.only_dots) {
+        lines_->seen();  // reading splines needs to know which of them are closed
+        work_.emplace(*lines_, examination, drawn_, options_);
     }
     if (!style_.dots) return;
     dots_ = dot_places(examination);
@@ -58,6 +63,7 @@ void Composition::set_spacing() {
 
 void Composition::add_colours() {
     if (options_.colours_strokes) add_stroke_colours();
+    if (work_) add_field_colours();
     if (style_.dots) {
         dot_pen_.colour = static_cast<int>(style_.palette.size());
         style_.palette.push_back(style_.dots->colour.value_or(
@@ -92,10 +98,36 @@ void Composition::add_stroke_colours() {
     }
 }
 
+void Composition::add_field_colours() {
+    std::vector<Colour> lines;  // and the ground
+    for (const int colour : stroke_colours_) lines.push_back(style_.palette[static_cast<std::size_t>(colour)]);
+    if (lines.empty() && drawn_.stroked) lines.push_back(drawn_.line_colour({}));
+    if (drawn_.ground) lines.push_back(*drawn_.ground);
+    work_->add_colours(style_.palette, lines);
+}
+
+/// Parallel lines are wider than their pen.
+const DrawnExtent& Composition::seen() {
+    if (extent_) return *extent_;
+    extent_ = lines_->seen();
+    if (work_ && work_->draws_lines()) {
+        extent_->widest += work_->parallel_width();
+    }
+    return *extent_;
+}
+
 void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
     NotedDiscs noted(sink, print.style);
     PathSink& own = dots_.empty() ? sink : noted;
-    if (options_.colours_strokes) {
+    // A plot without hatching draws outlines, which are the lines.
+    const bool is_plot = options_.plot || is_for_plotters(options_.format);
+    if (work_ && !(is_plot && !(options_.plot && options_.plot->hatch))) work_->draw_fields(sink);
+    if (work_ && work_->draws_lines()) {
+        OnlyAreas areas(own);
+        OldColours old(areas, drawn_);
+        lines_->read(print, window, old);
+        read_parallel(print, own);
+    } else if (options_.colours_strokes) {
         StrokeColours coloured(own, drawn_, stroke_colours_, orbit_of_stroke_);
         lines_->read(print, window, coloured);
     } else if (!options_.only_dots) {
@@ -103,6 +135,15 @@ void Composition::read(const Print& print, const Window& window, PathSink& sink)
         lines_->read(print, window, old);
     }
     read_dots(print, noted.places, sink);
+}
+
+void Composition::read_parallel(const Print& print, PathSink& sink) const {
+    work_->draw_lines(print, stroke_colours_, sink);
+    const BandLook look = work_->look(print);
+    if (look.count < 2) return;
+    const double step = print.placement.step;
+    const std::scoped_lock lock(reporting_);
+    parallel_ = {look.spacing * step, look.wanted * step, look.width * step};
 }
 
 /// @param drawn  by the pattern itself: these are not repeated
@@ -129,6 +170,8 @@ double Composition::dot_radius(const Print& print) const {
 void Composition::report(DrawReport& report) const {
     lines_->report(report);
     report.dots = dots_.size();
+    if (work_) report.fields = work_->fields();
+    report.parallel = parallel_;
 }
 
 }  // namespace sikku

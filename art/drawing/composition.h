@@ -1,19 +1,23 @@
-// art/drawing/composition.h: a drawing with dots and colours for its strands.
+// art/drawing/composition.h: a drawing with dots, colours for its strands and line work.
 #pragma once
 
+#include "art/drawing/line_work.h"
 #include "art/drawing/word_drawing.h"
 #include "art/kolam/kolam.h"
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 namespace sikku {
 
-/// True if the style or the options request dots or strand colours.
+/// True if the style or the options request dots, strand colours or line work.
 bool has_ornaments(const Style& style, const DrawOptions& options);
 
-/// Adds dots and strand colours to another drawing, in one palette.
+/// Adds fields, dots and strand colours to another drawing, in one palette, and draws its lines as a weave or as
+/// parallel lines.
 class Composition : public Drawing {
 public:
     /// Finds dots and strands if they are needed, and computes the step for a requested dot spacing. `grammar` is the
@@ -21,7 +25,7 @@ public:
     /// @throws BudgetError, WordError; std::runtime_error if requested dots cannot be drawn
     Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options);
 
-    const DrawnExtent& seen() override { return lines_->seen(); }
+    const DrawnExtent& seen() override;
     const Style& style() const override { return style_; }
     double scale() const override { return lines_->scale(); }
     Balance balance() const override { return lines_->balance(); }
@@ -34,6 +38,8 @@ private:
     void set_spacing();
     void add_colours();
     void add_stroke_colours();
+    void add_field_colours();
+    void read_parallel(const Print& print, PathSink& sink) const;
     double dot_radius(const Print& print) const;
     void read_dots(const Print& print, const std::vector<glm::dvec2>& drawn, PathSink& sink) const;
 
@@ -45,6 +51,10 @@ private:
     Pen dot_pen_;
     std::vector<std::uint32_t> orbit_of_stroke_;  ///< orbit of the stroke's line
     std::vector<int> stroke_colours_;
+    std::optional<LineWork> work_;
+    std::optional<DrawnExtent> extent_;
+    mutable std::mutex reporting_;
+    mutable std::optional<ParallelReport> parallel_;
 };
 
 }  // namespace sikku

@@ -87,14 +87,23 @@ inline DrawOptions with_locked_watch(DrawOptions options) {
     return options;
 }
 
+/// Parallel lines as they were drawn, in millimetres.
+struct ParallelReport {
+    double spacing = 0.0;  ///< from the middle of one to the next
+    double wanted = 0.0;   ///< the requested spacing, which is larger where there was no room
+    double width = 0.0;    ///< of each
+};
+
 /// Report about a finished drawing.
 struct DrawReport {
-    double step = 0.0;               ///< millimetres of one turtle step
-    glm::dvec2 size{0.0};            ///< size of the drawing with its pen, in millimetres
-    glm::dvec2 room{0.0};            ///< room on the page, within margins and border
-    std::size_t dots = 0;            ///< number of kolam dots drawn
-    std::size_t copies = 0;          ///< number of copies of a repeated drawing
-    std::size_t strokes = 0;         ///< number of lines of all copies
+    double step = 0.0;                       ///< millimetres of one turtle step
+    glm::dvec2 size{0.0};                    ///< size of the drawing with its pen, in millimetres
+    glm::dvec2 room{0.0};                    ///< room on the page, within margins and border
+    std::size_t dots = 0;                    ///< number of kolam dots drawn
+    std::size_t copies = 0;                  ///< number of copies of a repeated drawing
+    std::size_t strokes = 0;                 ///< number of lines of all copies
+    std::size_t fields = 0;                  ///< number of fields between lines, filled or not
+    std::optional<ParallelReport> parallel;  ///< of lines drawn as several parallel ones
     bool overflows = false;          ///< the drawing is larger than the page within its margins (a step was given)
     int sheets = 0;                  ///< number of sheets of a tiled print
     int sheet_rows = 0;              ///< rows of these sheets

@@ -37,6 +37,7 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     Style lines = style;
     lines.dots.reset();
     lines.border.reset();
+    lines.fields.reset();
     DrawnExtent frame;
     const auto add = [&](const DrawnExtent& seen) {
         if (seen.box.empty()) return;

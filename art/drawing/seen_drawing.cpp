@@ -1,5 +1,6 @@
 #include "art/drawing/seen_drawing.h"
 
+#include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/spline_pieces.h"
 #include "art/drawing/view.h"
@@ -37,6 +38,7 @@ constexpr double band_pixel_bytes = 10;  // of a band that is rendered
 constexpr double picture_bytes = 6e6;    // of the library, for a file
 constexpr double writer_bytes = 5e6;
 constexpr double scene_line_bytes = 60;      // memory of a line in space
+constexpr double worked_line_bytes = 900;    // memory of a line that is intersected for fields or a weave
 constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
 constexpr double hand_line_bytes = 3200;     // memory of a line that is drawn by hand
 constexpr double plot_line_bytes = 400;
@@ -127,8 +129,8 @@ double most_nodes(PixelSize size, double budget) {
 
 /// True if more is to be drawn than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
-    return style.dots || style.hand > 0 || options.lesson_step || has_frame(style, options) || options.repeat ||
-           options.colours_strokes || options.plot || options.tiles || options.format == PrintFormat::hpgl ||
+    return has_ornaments(style, options) || style.hand > 0 || options.lesson_step || has_frame(style, options) ||
+           options.repeat || options.plot || options.tiles || options.format == PrintFormat::hpgl ||
            options.format == PrintFormat::gcode;
 }
 
@@ -265,6 +267,7 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     double drawn = cost.kept_memory;
     if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
     if (print.style.hand > 0 || options.lesson_step) drawn += cost.lines * hand_line_bytes;
+    if (has_line_work(print.style)) drawn += cost.lines * worked_line_bytes;
     if (options.plot) drawn += cost.lines * plot_passes(print, *options.plot) * plot_line_bytes;
     if (is_vector(options.format)) {
         cost.memory = writer_bytes + drawn;
@@ -293,7 +296,8 @@ bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& 
     if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
     if (is_composed(style, options)) {
         return none(
-            "dots, borders, lines of text, repeats, colours by strand, lines drawn by hand, tiles and plots need the "
+            "dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours by strand, lines drawn by "
+            "hand, tiles and plots need the "
             "whole drawing");
     }
     if (style.moves_lift) return none("splines whose moves lift the pen need the whole drawing");

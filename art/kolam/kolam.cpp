@@ -40,10 +40,17 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
     result.lines = lines.count;
     result.open_lines = lines.open;
     result.line_of_stroke = lines.line_of_stroke;
+    result.is_open = lines.is_open;
+    result.continuation = lines.continuation;
     for (const std::uint32_t times : lines.times) result.reused_edges += times > 1 ? 1 : 0;
 
     const Meetings meetings = count_meetings(graph, lines, options);
+    if (auto diagram = make_diagram(graph, lines, options, result.no_diagram)) {
+        alternate(*diagram, options.monitor);
+        result.diagram = diagram_facts(*diagram, options.monitor);
+    }
     lines.passes = {};
+    lines.order = {};
     result.meetings = meetings.all;
     result.crossings = meetings.crossings;
     result.skew = meetings.skew;
@@ -68,7 +75,7 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
 
 template <class Plane>
 KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, const KolamOptions& options) {
-    StrokeReader<Plane> reader(plane, rank, options.budget / 40, options.draws);
+    StrokeReader<Plane> reader(plane, rank, options.budget / options.nodes_of_segment, options.draws);
     const auto turtle = Turtle::tracing(grammar, reader, reader, options.spline && !options.moves_lift);
     DerivationOptions derivation;
     derivation.interpreted = true;

@@ -1,6 +1,7 @@
 // art/kolam/kolam.h: examines a drawing as a kolam: lines, crossings, faces, dots and symmetry.
 #pragma once
 
+#include "art/kolam/link_diagram.h"
 #include "engine/base/monitor.h"
 #include "engine/geometry/path.h"
 #include "engine/language/grammar.h"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace sikku {
 struct KolamSymmetry {
     std::uint32_t rotations = 1;  ///< the identity included
     std::uint32_t mirrors = 0;    ///< 0, or as many as rotations
+    double axis = 0;              ///< direction of one of the mirrors in radians, if there are mirrors
     std::string name() const;     ///< C1, C4, D1, D4, …
 };
 
@@ -48,7 +51,11 @@ struct KolamExamination {
     std::uint64_t open_lines = 0;               ///< number of open lines
     std::vector<std::uint32_t> line_of_stroke;  ///< line of each stroke, numbered by first strokes
     std::vector<std::uint32_t> orbit_of_line;   ///< lines that are images of each other share a number
-    std::uint64_t straight_lines = 0;           ///< number of lines when continuing straight on wherever edges meet
+    std::vector<bool> is_open;                  ///< for each line
+    /// For each end of a stroke (2i is the beginning of stroke i, 2i + 1 its end) the end that continues it, or
+    /// 2^32 - 1.
+    std::vector<std::uint32_t> continuation;
+    std::uint64_t straight_lines = 0;  ///< number of lines when continuing straight on wherever edges meet
 
     std::uint64_t vertices = 0;
     std::uint64_t edges = 0;
@@ -63,6 +70,10 @@ struct KolamExamination {
     std::uint64_t mid_crossings = 0;  ///< crossings inside of segments, where the turtle does not pause
     std::uint64_t touchings = 0;      ///< visited by two strands that do not cross
     std::uint64_t multiple = 0;       ///< visited by more than two
+
+    /// The lines as an alternating diagram of a knot or link: they pass over and under each other by turns.
+    std::optional<DiagramFacts> diagram;
+    std::string no_diagram;  ///< why there is none
 
     KolamSymmetry symmetry;
     glm::dvec2 centre{0.0};  ///< centre of symmetry
@@ -83,14 +94,14 @@ struct KolamExamination {
 
 struct KolamOptions {
     bool spline = false;  ///< the pattern's `line: spline`
-    /// Maximum number of derivation nodes visited. A segment takes the memory and time of 40 nodes, a crossing those
-    /// of 10.
+    /// Maximum number of derivation nodes visited. A crossing takes the memory and time of 10 nodes.
     double budget = 200e6;
     std::function<bool(const Pen&)> draws = {};  ///< true for visible lines; null: all are visible
     /// Called as DerivationOptions::watch is, and with 0 from time to time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch = {};
-    Monitor monitor = {};     ///< polled throughout the examination
-    bool moves_lift = false;  ///< `spline with lifts`: undrawn steps are not control points
+    Monitor monitor = {};          ///< polled throughout the examination
+    bool moves_lift = false;       ///< `spline with lifts`: undrawn steps are not control points
+    double nodes_of_segment = 40;  ///< memory and time of a segment, in nodes
 };
 
 /// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that

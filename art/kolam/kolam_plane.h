@@ -187,6 +187,11 @@ public:
         std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
             return image(node, static_cast<int>(which), true);
         }
+        /// The direction of a mirror, in radians.
+        double axis(std::uint32_t which) const {
+            const glm::dvec2 along = plane_.lattice_.basis(0);
+            return std::atan2(along.y, along.x) + which * std::numbers::pi / plane_.turn_;
+        }
         glm::dvec2 centre{0.0};
 
     private:
@@ -400,6 +405,11 @@ public:
                                       (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
             const glm::dvec2 place = plane_.at(node) - centre;
             return image({place.x, -place.y}, factor);
+        }
+        double axis(std::uint32_t which) const {
+            const glm::dvec2 from = plane_.at(alike_.front()) - centre;
+            const glm::dvec2 to = plane_.at(alike_[which]) - centre;
+            return (std::atan2(from.y, from.x) + std::atan2(to.y, to.x)) / 2;
         }
         glm::dvec2 centre{0.0};
 

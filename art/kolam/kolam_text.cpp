@@ -29,6 +29,38 @@ std::string json(const std::vector<std::string>& texts) {
     return list + "]";
 }
 
+std::string diagram_json(const KolamExamination& k) {
+    if (!k.diagram) return "null";
+    const DiagramFacts& d = *k.diagram;
+    return fmt::format(
+        "{{\"alternating\": true, \"crossings\": {}, \"components\": {}, \"parts\": {}, \"nugatory\": {}, "
+        "\"reduced\": {}, \"crossing_number\": {}, \"writhe\": {}, \"linked_pairs\": {}}}",
+        d.crossings, d.components, d.parts, d.nugatory, json(d.is_reduced()), d.crossing_number(), d.writhe,
+        d.linked_pairs);
+}
+
+/// The kind of knot or link that the lines make if they pass over and under by turns.
+std::string diagram_text(const KolamExamination& k) {
+    if (!k.diagram) return "none: " + k.no_diagram;
+    const DiagramFacts& d = *k.diagram;
+    const std::uint64_t number = d.crossing_number();
+    std::string kind = d.components == 1 ? "knot" : fmt::format("link of {} lines", d.components);
+    if (number == 0) kind = d.components == 1 ? "unknot" : fmt::format("{} unlinked loops", d.components);
+    std::string text = fmt::format("alternating, {} with crossing number {}", kind, number);
+    if (d.crossings == 0) text = kind + " without crossings";
+    if (d.crossings > 0 && d.is_reduced()) text += "; reduced";
+    if (d.nugatory == 1) text += "; 1 crossing untwists";
+    if (d.nugatory > 1) text += fmt::format("; {} crossings untwist", d.nugatory);
+    if (d.parts > 1) text += fmt::format("; {} separate parts", d.parts);
+    if (d.components > 1 && d.linked_pairs > 0) {
+        text +=
+            fmt::format("; {} with a linking number other than 0",
+                        d.linked_pairs == 1 ? "1 pair of lines" : fmt::format("{} pairs of lines", d.linked_pairs));
+    }
+    if (d.components == 1 && d.crossings > 0) text += fmt::format("; writhe {}", d.writhe);
+    return text;
+}
+
 }  // namespace
 
 std::string kolam_json(const std::string& title, std::int64_t n, const KolamExamination& k) {
@@ -46,6 +78,7 @@ std::string kolam_json(const std::string& title, std::int64_t n, const KolamExam
         "\"meetings\": {}, \"crossings\": {}, \"skew\": {}, \"sixty_degrees\": {}, \"mid_crossings\": {}, ",
         k.meetings, k.crossings, k.skew, k.sixty, k.mid_crossings);
     text += fmt::format("\"touchings\": {}, \"multiple\": {}, ", k.touchings, k.multiple);
+    text += "\"diagram\": " + diagram_json(k) + ", ";
     text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
                         k.symmetry.name(), k.symmetry.rotations, k.symmetry.mirrors, json(k.centre));
     return text + fmt::format("\"loose_dots\": {}, \"dots\": [{}]}}\n", k.loose_dots(), dots);
@@ -88,6 +121,7 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
     line("crossings", crossings);
     line("touching", fmt::format("{}{}", k.touchings,
                                  k.is_spline && k.touchings > 0 ? "; the spline keeps the strands apart there" : ""));
+    line("diagram", diagram_text(k));
     if (k.multiple > 0) line("multiple", fmt::format("{}", k.multiple));
     line("meetings", fmt::format("{}", k.meetings));
     line("reused", plural(k.reused_edges, "edge", "edges"));

@@ -19,6 +19,7 @@ public:
         join_ends();
         number_lines();
         find_passes();
+        find_order();
         return std::move(lines_);
     }
 
@@ -145,6 +146,46 @@ private:
         breathe(options_);
     }
 
+    /// Walks along each line, in the direction of its first stroke; open lines from their beginning.
+    void find_order() {
+        std::vector<std::uint32_t> stroke_of_end(link_.size(), none);
+        for (std::uint32_t i = 0; i < first_uses_.size(); ++i) {
+            const std::uint32_t last = (i + 1 < first_uses_.size() ? first_uses_[i + 1] : count_uses()) - 1;
+            stroke_of_end[2 * std::size_t{first_uses_[i]}] = 2 * i;
+            stroke_of_end[2 * std::size_t{last} + 1] = 2 * i + 1;
+        }
+        lines_.continuation.assign(2 * first_uses_.size(), none);
+        for (std::uint32_t end = 0; end < link_.size(); ++end) {
+            if (stroke_of_end[end] == none || link_[end] == none) continue;
+            lines_.continuation[stroke_of_end[end]] = stroke_of_end[link_[end]];
+        }
+        std::vector<bool> is_walked(lines_.count, false);
+        for (std::size_t i = 0; i < first_uses_.size(); ++i) {
+            const std::uint32_t line = lines_.line_of_stroke[i];
+            if (is_walked[line]) continue;
+            is_walked[line] = true;
+            walk(2 * first_uses_[i], lines_.is_stroke_of_open_line[i]);
+        }
+        lines_.order_begins.push_back(lines_.order.size());
+        breathe(options_);
+    }
+    /// Walks on from the end at which a use begins.
+    void walk(std::uint32_t first, bool is_open) {
+        lines_.order_begins.push_back(lines_.order.size());
+        lines_.is_open.push_back(is_open);
+        while (is_open && link_[first] != none) {
+            pulse_();
+            first = link_[first] ^ 1;
+        }
+        std::uint32_t end = first;
+        do {
+            pulse_();
+            lines_.order.push_back(leaving(end));
+            end = link_[end ^ 1];
+        } while (end != none && end != first);
+    }
+    std::uint32_t count_uses() const { return static_cast<std::uint32_t>(uses_.size()); }
+
     const PlanarGraph& graph_;
     const Strokes& strokes_;
     const KolamOptions& options_;
@@ -155,18 +196,20 @@ private:
     Lines lines_;
 };
 
+/// True if two strands that share no edge cross at their vertex.
+bool do_cross(const PlanarGraph& graph, const Pass& p, const Pass& q) {
+    if (p.b == none || q.b == none) return false;
+    const auto [low, high] = std::minmax(graph.rank[p.a], graph.rank[p.b]);
+    const auto lies_between = [low = low, high = high](std::uint32_t rank) { return low < rank && rank < high; };
+    return lies_between(graph.rank[q.a]) != lies_between(graph.rank[q.b]);
+}
+
 /// Counts one vertex that two strands visit.
 void count_pair(const PlanarGraph& graph, const Lines& lines, const Pass& p, const Pass& q, Meetings& found) {
     for (const std::uint32_t half : {p.a, p.b, q.a, q.b}) {
         if (half != none && lines.times[half / 2] > 1) return;  // the strands share an edge
     }
-    if (p.b == none || q.b == none) {
-        ++found.touchings;
-        return;
-    }
-    const auto [low, high] = std::minmax(graph.rank[p.a], graph.rank[p.b]);
-    const auto lies_between = [low = low, high = high](std::uint32_t rank) { return low < rank && rank < high; };
-    if (lies_between(graph.rank[q.a]) == lies_between(graph.rank[q.b])) {
+    if (!do_cross(graph, p, q)) {
         ++found.touchings;
         return;
     }
@@ -198,6 +241,52 @@ Meetings count_meetings(const PlanarGraph& graph, const Lines& lines, const Kola
         begin = end;
     }
     return found;
+}
+
+std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options,
+                                        std::string& why) {
+    const auto none_because = [&](std::string reason) {
+        why = std::move(reason);
+        return std::nullopt;
+    };
+    if (lines.open > 0) return none_because("a line is open");
+    if (std::any_of(lines.times.begin(), lines.times.end(), [](std::uint32_t times) { return times > 1; })) {
+        return none_because("an edge is drawn more than once");
+    }
+    constexpr std::uint8_t no_strand = 2;
+    Pulse pulse(options.monitor);
+    LinkDiagram diagram;
+    std::vector<std::uint32_t> crossing(graph.places.size(), none);
+    std::vector<std::uint8_t> strand(2 * graph.edges.size(), no_strand);  // of the half-edges that leave a crossing
+    std::uint32_t crossings = 0;
+    for (std::size_t begin = 0, end = 0; begin < lines.passes.size(); begin = end) {
+        pulse();
+        while (end < lines.passes.size() && lines.passes[end].vertex == lines.passes[begin].vertex) ++end;
+        if (end - begin > 2) return none_because("more than two strands meet in one point");
+        if (end - begin < 2 || !do_cross(graph, lines.passes[begin], lines.passes[begin + 1])) continue;
+        crossing[lines.passes[begin].vertex] = crossings++;
+        for (std::size_t i = 0; i < 2; ++i) {
+            strand[lines.passes[begin + i].a] = strand[lines.passes[begin + i].b] = static_cast<std::uint8_t>(i);
+        }
+    }
+    std::vector<std::uint32_t> first_out(crossings, none);
+    diagram.turns_left.assign(crossings, false);
+    for (std::uint64_t line = 0; line < lines.count; ++line) {
+        LinkDiagram::Line& passes = diagram.lines.emplace_back();
+        for (std::size_t i = lines.order_begins[line]; i < lines.order_begins[line + 1]; ++i) {
+            pulse();
+            const std::uint32_t out = lines.order[i];
+            const std::uint32_t number = crossing[graph.tail(out)];
+            if (number == none) continue;
+            passes.passes.push_back({number, strand[out]});
+            const std::uint32_t first = std::exchange(first_out[number], out);
+            if (first == none) continue;
+            const auto [zero, one] = strand[out] == 0 ? std::pair(out, first) : std::pair(first, out);
+            const auto list = graph.around(graph.tail(out));
+            diagram.turns_left[number] = list[(graph.rank[zero] + 1) % list.size()] == one;
+        }
+    }
+    return diagram;
 }
 
 std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions& options) {

@@ -1,9 +1,12 @@
 // art/kolam/lines.h: finds the lines of a drawing and the points where they meet.
 #pragma once
 
+#include "art/kolam/link_diagram.h"
 #include "art/kolam/planar_graph.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace sikku::kolam_plane {
@@ -24,6 +27,11 @@ struct Lines {
     std::vector<std::uint32_t> times;           ///< how often each edge is drawn
     std::vector<char> closed_times;             ///< how often closed lines draw each edge, modulo 2
     std::vector<Pass> passes;                   ///< visits, sorted by vertex
+    std::vector<std::uint32_t> order;           ///< half-edges along each line, line after line
+    std::vector<std::size_t> order_begins;      ///< into `order`; one more than there are lines
+    std::vector<bool> is_open;                  ///< for each line
+    /// For each end of a stroke (2i is the beginning of stroke i, 2i + 1 its end) the end that continues it, or none.
+    std::vector<std::uint32_t> continuation;
 };
 
 /// Follows the strokes along the edges. @throws BudgetError
@@ -40,6 +48,11 @@ struct Meetings {
     std::uint64_t multiple = 0;
 };
 Meetings count_meetings(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options);
+
+/// The diagram of the lines, without upper strands. Points where strands only touch are left out.
+/// @param why  receives the reason if there is none: open lines, shared edges, more than two strands at a point
+std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options,
+                                        std::string& why);
 
 /// The number of lines when continuing straight on wherever edges meet.
 std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions& options);

@@ -168,6 +168,7 @@ SymmetryFound find_symmetry(const Plane& plane, const PlanarGraph& graph, const 
     for (std::uint32_t which = 0; which < images.mirrors(symmetry.rotations); ++which) {
         if (maps_onto_itself([&](std::uint32_t node) { return images.mirror(node, which); })) {
             symmetry.mirrors = symmetry.rotations;
+            symmetry.axis = images.axis(which);
             line_images.join([&](std::uint32_t node) { return images.mirror(node, which); });
             break;
         }

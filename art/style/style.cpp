@@ -1,6 +1,7 @@
 #include "art/style/style.h"
 
 #include "art/style/length.h"
+#include "art/style/powders.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
@@ -117,8 +118,8 @@ void read_hand(const Key& key, Style& style, Diagnostics& diagnostics) {
     if (!word) return;
     if (!read_number(std::string(word->view()), style.hand) || !(style.hand >= 0 && style.hand <= 1)) {
         style.hand = 0;
-        diagnostics.error(*word, fmt::format("{} is not a strength of the hand: expected {}", quoted(word->view()),
-                                             expected));
+        diagnostics.error(
+            *word, fmt::format("{} is not a strength of the hand: expected {}", quoted(word->view()), expected));
     }
 }
 
@@ -269,10 +270,22 @@ void read_fill(const Key& key, Style& style, Diagnostics& diagnostics) {
     style.fill = lower_case(word->view()) == "none" ? Colour{0, 0, 0, 0} : read_colour(*word, expected, diagnostics);
 }
 
+/// A value that is the name of a set of powders.
+std::optional<std::vector<Colour>> named_powders(const Key& key) {
+    std::size_t at = 0;
+    const Span word = next_word(key.value, at, true);
+    if (!next_word(key.value, at, true).empty()) return std::nullopt;
+    return find_powders(lower_case(word.view()));
+}
+
 void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
     constexpr std::string_view expected = "colours, separated by blanks or commas";
     std::vector<Colour> palette;
     std::size_t at = 0;
+    if (auto powders = named_powders(key)) {
+        style.palette = std::move(*powders);
+        return;
+    }
     // A palette of nonsense is not worth more messages than anyone reads.
     int errors = 0;
     for (Span word = next_word(key.value, at, true); !word.empty() && errors < 20;
@@ -290,6 +303,119 @@ void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
                           fmt::format("'palette:' is empty: expected {}", expected));
     }
     if (!palette.empty()) style.palette = std::move(palette);
+}
+
+void read_powders(const Key& key, Style& style, Diagnostics& diagnostics) {
+    const std::string expected =
+        fmt::format("colours or none, separated by blanks, or one of {}", fmt::join(powder_names(), ", "));
+    if (auto powders = named_powders(key)) {
+        style.powders = std::move(*powders);
+        style.powders_are_named = true;
+        return;
+    }
+    std::size_t at = 0;
+    int errors = 0;
+    for (Span word = next_word(key.value, at, true); !word.empty() && errors < 20;
+         word = next_word(key.value, at, true)) {
+        if (lower_case(word.view()) == "none") {
+            style.powders.push_back({0, 0, 0, 0});
+        } else if (const auto colour = parse_colour(word.view())) {
+            style.powders.push_back(*colour);
+        } else {
+            ++errors;
+            const std::string_view near = nearest(lower_case(word.view()), powder_names());
+            diagnostics.error(word, near.empty() ? colour_complaint(word.view(), expected)
+                                                 : fmt::format("unknown powders {}; did you mean '{}'?",
+                                                               quoted(word.view()), near));
+        }
+        if (style.powders.size() > most_colours) {
+            diagnostics.error(word, fmt::format("there are at most {} powders", most_colours));
+            break;
+        }
+    }
+    if (style.powders.empty() && errors == 0) {
+        diagnostics.error(key.name_at, fmt::format("'powders:' is empty: expected {}", expected));
+    }
+}
+
+void read_fields(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::array<std::pair<std::string_view, FieldsBy>, 6> ways = {{{"chessboard", FieldsBy::chessboard},
+                                                                            {"kind", FieldsBy::kind},
+                                                                            {"distance", FieldsBy::distance},
+                                                                            {"centre", FieldsBy::centre},
+                                                                            {"strand", FieldsBy::strand},
+                                                                            {"symmetry", FieldsBy::symmetry}}};
+    constexpr std::string_view expected =
+        "chessboard, by kind, by distance, by centre, by strand, by symmetry or none";
+    std::size_t at = 0;
+    Span word = next_word(key.value, at, false);
+    if (lower_case(word.view()) == "by") word = next_word(key.value, at, false);
+    const std::string text = lower_case(word.view());
+    if (word.empty()) {
+        diagnostics.error(key.name_at, fmt::format("'fields:' is incomplete: expected {}", expected));
+        return;
+    }
+    if (const Span second = next_word(key.value, at, false); !second.empty()) {
+        diagnostics.error(second, fmt::format("unexpected {}: 'fields:' is {}", quoted(second.view()), expected));
+        return;
+    }
+    if (text == "none") return;
+    const auto* found = std::find_if(ways.begin(), ways.end(), [&](const auto& way) { return way.first == text; });
+    if (found != ways.end()) {
+        style.fields = found->second;
+        return;
+    }
+    std::vector<std::string_view> names;
+    for (const auto& [name, way] : ways) names.push_back(name);
+    const std::string_view near = nearest(text, names);
+    diagnostics.error(word, near.empty() ? fmt::format("{}: expected {}", quoted(word.view()), expected)
+                                         : fmt::format("{}: did you mean '{}'?", quoted(word.view()), near));
+}
+
+/// A number from `least` to `most`, or nullopt.
+std::optional<double> number_in(std::string_view text, double least, double most) {
+    double number = 0.0;
+    const auto [end, error] = parse_number(text, number);
+    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+    return is_number && number >= least && number <= most ? std::optional(number) : std::nullopt;
+}
+
+void read_weave(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected =
+        "yes, none, or the gap beside the upper strand in widths of the stroke, 0 to 5";
+    constexpr double usual_gap = 0.4;
+    constexpr double widest_gap = 5;
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    const std::string text = lower_case(word->view());
+    if (text == "none" || text == "no") return;
+    style.weave = text == "yes" ? usual_gap : number_in(text, 0, widest_gap);
+    if (!style.weave) diagnostics.error(*word, fmt::format("{}: expected {}", quoted(word->view()), expected));
+}
+
+void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected =
+        "a number of parallel lines, 1 to 9, and optionally the distance from one to the next in widths of the "
+        "stroke, 1 to 50";
+    std::size_t at = 0;
+    const Span count = next_word(key.value, at, false);
+    const Span spacing = next_word(key.value, at, false);
+    const Span third = next_word(key.value, at, false);
+    if (count.empty()) {
+        diagnostics.error(key.name_at, fmt::format("'parallel:' is empty: expected {}", expected));
+        return;
+    }
+    const auto refuse = [&](const Span& word) {
+        diagnostics.error(word, fmt::format("{}: expected {}", quoted(word.view()), expected));
+    };
+    const auto number = number_in(count.view(), 1, 9);
+    if (!number || *number != std::floor(*number)) return refuse(count);
+    style.parallel.count = static_cast<int>(*number);
+    if (!third.empty()) return refuse(third);
+    if (spacing.empty()) return;
+    const auto width = number_in(spacing.view(), 1, 50);
+    if (!width) return refuse(spacing);
+    style.parallel.spacing = *width;
 }
 
 std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&) const) {
@@ -397,6 +523,10 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     if (const Key* key = pattern.find("stroke")) read_stroke(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("border")) read_border(*key, style, diagnostics);
+    if (const Key* key = pattern.find("fields")) read_fields(*key, style, diagnostics);
+    if (const Key* key = pattern.find("powders")) read_powders(*key, style, diagnostics);
+    if (const Key* key = pattern.find("weave")) read_weave(*key, style, diagnostics);
+    if (const Key* key = pattern.find("parallel")) read_parallel(*key, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
     if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
     if (const Key* key = pattern.find("view")) {

@@ -39,6 +39,15 @@ struct BorderStyle {
     bool operator==(const BorderStyle&) const = default;
 };
 
+/// What decides the colour of a field between lines.
+enum class FieldsBy { chessboard, kind, distance, centre, strand, symmetry };
+
+/// Lines drawn as several parallel ones.
+struct ParallelStyle {
+    int count = 1;
+    double spacing = 2.0;  ///< from line to line, in widths of the stroke
+};
+
 struct Style {
     Line line = Line::straight;
     bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
@@ -51,7 +60,12 @@ struct Style {
     std::vector<Colour> palette;          ///< never empty after read_style
     std::optional<DotStyle> dots;         ///< absent: none are drawn
     std::optional<BorderStyle> border;    ///< absent: none is drawn
-    Camera camera;                        ///< of drawings in space
+    std::optional<FieldsBy> fields;       ///< absent: fields between lines are not filled
+    std::vector<Colour> powders;          ///< of fields, transparent for `none`; empty: the first set of powders
+    bool powders_are_named = false;       ///< a set by its name, from which colours of the lines are left out
+    std::optional<double> weave;          ///< gap beside upper strands, in widths of the stroke; absent: no weave
+    ParallelStyle parallel;
+    Camera camera;  ///< of drawings in space
 
     /// True if undrawn steps are control points of the line.
     bool moves_draw() const { return line == Line::spline && !moves_lift; }

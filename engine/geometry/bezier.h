@@ -1,4 +1,4 @@
-// engine/geometry/bezier.h: points, parts and chords of cubic Béziers.
+// engine/geometry/bezier.h: points, derivatives, parts and chords of cubic Béziers.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,6 +11,20 @@ namespace sikku {
 
 /// Start, two controls, end.
 using Bezier = std::array<glm::dvec2, 4>;
+
+inline glm::dvec2 point_of(const Bezier& b, double t) {
+    const double s = 1 - t;
+    return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
+}
+/// The first derivative at a parameter.
+inline glm::dvec2 derivative_of(const Bezier& b, double t) {
+    const double s = 1 - t;
+    return 3 * s * s * (b[1] - b[0]) + 6 * s * t * (b[2] - b[1]) + 3 * t * t * (b[3] - b[2]);
+}
+/// A straight line as a Bézier.
+inline Bezier straight_curve(glm::dvec2 from, glm::dvec2 to) {
+    return {from, from + (to - from) / 3.0, from + (to - from) * (2.0 / 3.0), to};
+}
 
 /// The piece between two parameters, 0 <= from <= to <= 1, by its blossom.
 inline Bezier part_of(const Bezier& whole, double from, double to) {

@@ -1,10 +1,14 @@
 #include "art/style/style.h"
 
+#include "art/style/powders.h"
+#include "engine/base/keys.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -240,6 +244,72 @@ TEST(Style, SplinesMayLiftThePenWhereTheTurtleMoves) {
         const auto [style, errors] = read(std::string("axiom: F\nline: ") + bad + "\n");
         ASSERT_EQ(errors.size(), 1u) << bad;
         EXPECT_NE(errors[0].message.find("'spline with lifts'"), std::string::npos) << errors[0].message;
+    }
+}
+
+TEST(Style, ReadsFields) {
+    EXPECT_FALSE(read("axiom: F\n").style.fields);
+    EXPECT_FALSE(read("axiom: F\nfields: none\n").style.fields);
+    EXPECT_EQ(read("axiom: F\nfields: Chessboard\n").style.fields, FieldsBy::chessboard);
+    EXPECT_EQ(read("axiom: F\nfields: by kind\n").style.fields, FieldsBy::kind);
+    EXPECT_EQ(read("axiom: F\nfields: distance\n").style.fields, FieldsBy::distance);
+    EXPECT_EQ(read("axiom: F\nfields: by centre\n").style.fields, FieldsBy::centre);
+    EXPECT_EQ(read("axiom: F\nfields: by strand\n").style.fields, FieldsBy::strand);
+    EXPECT_EQ(read("axiom: F\nfields: by symmetry\n").style.fields, FieldsBy::symmetry);
+    for (const auto& [bad, essence] :
+         {std::pair("", "chessboard"), std::pair("by", "chessboard"), std::pair("by kinds", "did you mean 'kind'"),
+          std::pair("red", "by distance"), std::pair("kind red", "unexpected 'red'")}) {
+        const auto [style, errors] = read(std::string("axiom: F\nfields: ") + bad + "\n");
+        ASSERT_EQ(errors.size(), 1u) << bad;
+        EXPECT_NE(errors[0].message.find(essence), std::string::npos) << errors[0].message;
+    }
+}
+
+TEST(Style, ReadsPowders) {
+    const Style named = read("axiom: F\npowders: Lotus\n").style;
+    EXPECT_TRUE(named.powders_are_named);
+    EXPECT_EQ(named.powders, find_powders("lotus"));
+    const Style own = read("axiom: F\npowders: red, none #123\n").style;
+    EXPECT_FALSE(own.powders_are_named);
+    ASSERT_EQ(own.powders.size(), 3u);
+    EXPECT_EQ(own.powders[1].alpha, 0);
+    EXPECT_EQ(read("axiom: F\npalette: peacock\n").style.palette, find_powders("peacock"));
+    for (const auto& [bad, essence] : {std::pair("", "is empty"), std::pair("lotos", "did you mean 'lotus'"),
+                                       std::pair("red lotus", "did you mean"), std::pair("#12", "hexadecimal")}) {
+        const auto [style, errors] = read(std::string("axiom: F\npowders: ") + bad + "\n");
+        ASSERT_EQ(errors.size(), 1u) << bad;
+        EXPECT_NE(errors[0].message.find(essence), std::string::npos) << errors[0].message;
+    }
+}
+
+TEST(Style, SetsOfPowdersAreListedAndTellApart) {
+    const std::string listed(find_language_key("powders")->values);
+    for (const std::string_view name : powder_names()) {
+        EXPECT_NE(listed.find(name), std::string::npos) << name;
+        const auto colours = *find_powders(name);
+        EXPECT_GE(colours.size(), 6u);
+        for (std::size_t i = 0; i < colours.size(); ++i) {
+            for (std::size_t k = 0; k < i; ++k) {
+                EXPECT_GE(colour_distance(colours[i], colours[k]), 0.06) << name << ' ' << i << ' ' << k;
+            }
+        }
+    }
+    EXPECT_FALSE(find_powders("chalk"));
+}
+
+TEST(Style, ReadsWeaveAndParallelLines) {
+    EXPECT_FALSE(read("axiom: F\n").style.weave);
+    EXPECT_FALSE(read("axiom: F\nweave: none\n").style.weave);
+    EXPECT_GT(read("axiom: F\nweave: yes\n").style.weave, 0.2);
+    EXPECT_EQ(read("axiom: F\nweave: 0\n").style.weave, 0);
+    EXPECT_EQ(read("axiom: F\nweave: 1.25\n").style.weave, 1.25);
+    EXPECT_EQ(read("axiom: F\n").style.parallel.count, 1);
+    EXPECT_EQ(read("axiom: F\nparallel: 3\n").style.parallel.count, 3);
+    EXPECT_EQ(read("axiom: F\nparallel: 4 2.5\n").style.parallel.spacing, 2.5);
+    for (const char* bad :
+         {"weave: ", "weave: maybe", "weave: -1", "weave: 6", "weave: 1 2", "parallel: ", "parallel: 0",
+          "parallel: 10", "parallel: 2.5", "parallel: 2 0.5", "parallel: 2 3 4", "parallel: two"}) {
+        EXPECT_EQ(read(std::string("axiom: F\n") + bad + "\n").errors.size(), 1u) << bad;
     }
 }
 

@@ -1,0 +1,363 @@
+#include "art/drawing/line_bands.h"
+
+#include "engine/geometry/parallel_curve.h"
+#include "engine/geometry/point_tree.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+constexpr double accuracy = 0.005;      // of parallel curves, in widths of a strand
+constexpr double tightest = 0.75;       // of the radius of a turn: how far the innermost strand may go in
+constexpr double least_share = 0.55;    // of the spacing: the widest strand
+constexpr double beside = 0.6;          // of a spacing: more room between bands than between strands
+constexpr double least_spacing = 1e-3;  // in steps
+constexpr int samples = 4;              // of each piece, for distances
+
+glm::dvec2 left_of(glm::dvec2 along) {
+    return {-along.y, along.x};
+}
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Where two straight strands meet that run `offset` to the left of a corner. False where that is far away, or far
+/// outside of the corner.
+bool mitre(glm::dvec2 corner, glm::dvec2 before, glm::dvec2 after, double offset, glm::dvec2& found) {
+    // 1 + the cosine of the turn: about 148 and 95 degrees
+    constexpr double sharpest = 0.15;
+    constexpr double sharpest_outside = 0.91;
+    const double share = 1 + glm::dot(before, after);
+    const bool is_outside = cross(before, after) * offset < 0;
+    if (share < (is_outside ? sharpest_outside : sharpest)) return false;
+    found = corner + offset / share * (left_of(before) + left_of(after));
+    return true;
+}
+
+double distance_to(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b) {
+    const glm::dvec2 along = b - a;
+    const double square = glm::dot(along, along);
+    const double share = square > 0 ? std::clamp(glm::dot(point - a, along) / square, 0.0, 1.0) : 0.0;
+    return glm::length(point - a - share * along);
+}
+
+}  // namespace
+
+LineBands::LineBands(const CurvedLines& lines, const CurveMeetings& meetings, const Style& style,
+                     const Monitor& monitor)
+    : lines_(lines), meetings_(meetings), style_(style) {
+    if (style.weave) weave(monitor);
+    if (style.parallel.count < 2) return;
+    measure_turns(monitor);
+    double sum = 0;
+    for (const CurvePiece& piece : lines.pieces) sum += glm::length(piece.curve[3] - piece.curve[0]);
+    const double step = lines.pieces.empty() ? 0 : sum / static_cast<double>(lines.pieces.size());
+    // Lines farther apart than this leave room for any band that the tightest turn permits.
+    constexpr int widest = 4;
+    for (double most = step / 2; most <= widest * step && least_distance_ > most; most *= 2) {
+        measure_distance(monitor, most);
+    }
+}
+
+void LineBands::weave(const Monitor& monitor) {
+    diagram_ = make_curve_diagram(lines_, meetings_);
+    if (diagram_.multiple > 0) {
+        throw std::runtime_error(
+            fmt::format("a weave needs crossings of two strands; more than two meet in {} of this drawing",
+                        diagram_.multiple == 1 ? "1 point" : fmt::format("{} points", diagram_.multiple)));
+    }
+    if (!alternate(diagram_.diagram, monitor)) {
+        throw std::runtime_error("the lines cannot pass over and under by turns: an open line ends inside a loop");
+    }
+    upper_.resize(crossings());
+    for (std::size_t line = 0; line < diagram_.marks.size(); ++line) {
+        const auto& passes = diagram_.diagram.lines[line].passes;
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            if (diagram_.diagram.is_over(passes[i])) upper_[passes[i].crossing] = diagram_.marks[line][i];
+        }
+    }
+    measure_crossings();
+}
+
+void LineBands::measure_crossings() {
+    for (std::size_t line = 0; line < lines_.lines.size(); ++line) {
+        const auto& marks = diagram_.marks[line];
+        const bool is_closed = lines_.lines[line].is_closed;
+        for (std::size_t i = 0; i + (is_closed ? 0 : 1) < marks.size(); ++i) {
+            const bool is_last = i + 1 == marks.size();
+            const double from = meetings_.marks[marks[i]].position;
+            const double to =
+                meetings_.marks[marks[is_last ? 0 : i + 1]].position + (is_last ? lines_.lines[line].count() : 0.0);
+            double length = 0;
+            lines_.visit_between(lines_.lines[line], from, to, [&](const Bezier& curve, const CurvePiece&) {
+                constexpr int chords = 4;
+                for (int k = 0; k < chords; ++k) {
+                    length += glm::length(point_of(curve, static_cast<double>(k + 1) / chords) -
+                                          point_of(curve, static_cast<double>(k) / chords));
+                }
+            });
+            least_run_ = std::min(least_run_, length);
+        }
+    }
+}
+
+/// Finds the tightest turn, and the corners that come soonest after one another.
+void LineBands::measure_turns(const Monitor& monitor) {
+    Pulse pulse(monitor);
+    constexpr int places = 8;
+    for (const CurvedLines::Line& line : lines_.lines) {
+        double run = 0;          // of straight pieces in one direction
+        double turn_before = 0;  // half the turn at its beginning, as a tangent
+        const std::uint32_t count = line.count();
+        for (std::uint32_t i = 0; i < count + (line.is_closed ? count : 0); ++i) {
+            pulse();
+            const CurvePiece& piece = lines_.piece(line, i % count);
+            if (!piece.is_straight) {
+                if (i >= count) continue;
+                for (int k = 0; k <= places; ++k) {
+                    const double bend = std::fabs(curvature_of(piece.curve, static_cast<double>(k) / places));
+                    if (bend > 0) least_radius_ = std::min(least_radius_, 1 / bend);
+                }
+                run = turn_before = 0;
+                continue;
+            }
+            run += glm::length(piece.curve[3] - piece.curve[0]);
+            if (i + 1 >= count && !line.is_closed) break;
+            const glm::dvec2 before = tangent_of(piece.curve, 1);
+            const glm::dvec2 after = tangent_of(lines_.piece(line, (i + 1) % count).curve, 0);
+            glm::dvec2 unused;
+            if (!mitre({}, before, after, cross(before, after), unused)) {
+                run = turn_before = 0;
+                continue;
+            }
+            const double turn = cross(before, after) / (1 + glm::dot(before, after));
+            if (std::fabs(turn) < 1e-9) continue;
+            constexpr double most = 0.9;
+            const double both = std::fabs(turn_before + turn);
+            if (both > 1e-9) least_corner_ = std::min(least_corner_, most * run / both);
+            run = 0;
+            turn_before = turn;
+        }
+    }
+}
+
+/// Finds the least distance, up to `most`, of points of lines that lie beside each other: where the way between them
+/// is at right angles to both.
+void LineBands::measure_distance(const Monitor& monitor, double most) {
+    std::vector<glm::dvec2> points;
+    std::vector<glm::dvec2> tangents;
+    for (const CurvePiece& piece : lines_.pieces) {
+        for (int k = 0; k < samples; ++k) {
+            const double t = (k + 0.5) / samples;
+            points.push_back(point_of(piece.curve, t));
+            tangents.push_back(tangent_of(piece.curve, t));
+        }
+    }
+    const PointTree tree(points, monitor);
+    Pulse pulse(monitor);
+    constexpr std::size_t most_near = 200;
+    constexpr double right_angle = 0.25;  // cosine of the angle that still counts
+    std::vector<PointTree::Near> found;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        tree.nearest(points[i], std::min(most, least_distance_), most_near, found);
+        for (const PointTree::Near& near : found) {
+            pulse();
+            const double length = std::sqrt(near.square);
+            const glm::dvec2 way = points[near.id] - points[i];
+            if (length < 1e-6 || std::fabs(glm::dot(way, tangents[i])) > right_angle * length ||
+                std::fabs(glm::dot(way, tangents[near.id])) > right_angle * length) {
+                continue;
+            }
+            least_distance_ = std::min(least_distance_, length);
+        }
+    }
+}
+
+BandLook LineBands::look(const Print& print) const {
+    BandLook look;
+    const double unit = style_.stroke.in_steps ? 1.0 : 1 / print.placement.step;
+    double widest = 0;
+    for (const CurvePiece& piece : lines_.pieces) widest = std::max(widest, print.style.pen_width(piece.pen));
+    look.width = widest * unit;
+    look.count = style_.parallel.count;
+    look.wanted = look.spacing = style_.parallel.spacing * look.width;
+    const double gap = style_.weave.value_or(0);
+    if (look.count > 1) {
+        const int between = look.count - 1;
+        look.spacing = std::min({look.spacing, 2 * tightest * least_radius_ / between, 2 * least_corner_ / between,
+                                 least_distance_ / (look.count + beside)});
+        if (style_.weave) look.spacing = std::min(look.spacing, 0.9 * least_run_ / (look.count + gap));
+        if (!(look.spacing >= std::min(least_spacing, look.wanted))) {
+            throw std::runtime_error(
+                "parallel lines have no room: a line turns too tightly, or lies too near another");
+        }
+        if (look.spacing < look.wanted) look.thinner = std::min(1.0, least_share * look.spacing / look.width);
+        look.width *= look.thinner;
+    }
+    look.gap = gap * look.width;
+    return look;
+}
+
+/// The position, from a pass under another line on, at which a strand is far enough from that line.
+double LineBands::cut(std::size_t line, std::size_t pass, bool is_forward, double offset,
+                      const BandLook& look) const {
+    const auto& passes = diagram_.diagram.lines[line].passes;
+    const auto& marks = diagram_.marks[line];
+    const CurvedLines::Line& own = lines_.lines[line];
+    const double at = meetings_.marks[marks[pass]].position;
+    const double count = own.count();
+    // Halfway to the next crossing at most.
+    double room = is_forward ? count - at : at;
+    if (is_forward && (pass + 1 < marks.size() || own.is_closed)) {
+        const bool is_last = pass + 1 == marks.size();
+        room = (meetings_.marks[marks[is_last ? 0 : pass + 1]].position + (is_last ? count : 0) - at) / 2;
+    } else if (!is_forward && (pass > 0 || own.is_closed)) {
+        room = (at - meetings_.marks[marks[pass == 0 ? marks.size() - 1 : pass - 1]].position +
+                (pass == 0 ? count : 0)) /
+               2;
+    }
+    const CurveMark& upper_mark = meetings_.marks[upper_[passes[pass].crossing]];
+    const CurvedLines::Line& upper = lines_.lines[upper_mark.line];
+    const double clear = look.band() / 2 + look.gap + look.width / 2;
+
+    // The upper line nearby, as chords.
+    const glm::dvec2 upper_speed = lines_.derivative(upper, upper_mark.position);
+    const glm::dvec2 own_speed = lines_.derivative(own, at);
+    const double speeds = glm::length(upper_speed) * glm::length(own_speed);
+    const double sine = speeds > 0 ? std::fabs(cross(upper_speed, own_speed)) / speeds : 1;
+    constexpr double least_sine = 0.15;
+    const double reach = 2.5 * clear / std::max(sine, least_sine);
+    constexpr int chords = 96;
+    const double extent = std::min(reach / std::max(glm::length(upper_speed), 1e-9), upper.count() * 0.49);
+    std::array<glm::dvec2, chords + 1> curve;
+    for (int i = 0; i <= chords; ++i) {
+        double position = upper_mark.position + extent * (2.0 * i / chords - 1);
+        if (!upper.is_closed) position = std::clamp(position, 0.0, static_cast<double>(upper.count()));
+        curve[static_cast<std::size_t>(i)] = lines_.at(upper, position);
+    }
+    const auto is_near = [&](double way) {
+        const LinePlace place = lines_.place(own, at + (is_forward ? way : -way));
+        const Bezier& bezier = lines_.piece(own, place.piece).curve;
+        const glm::dvec2 point = point_of(bezier, place.t) + offset * left_of(tangent_of(bezier, place.t));
+        for (std::size_t i = 0; i < chords; ++i) {
+            if (distance_to(point, curve[i], curve[i + 1]) < clear) return true;
+        }
+        return false;
+    };
+    const double stride = std::min(room / 8, clear / 8 / std::max(glm::length(own_speed), 1e-9));
+    double high = stride;
+    while (high < room && is_near(high)) high += stride;
+    double low = high - stride;
+    high = std::min(high, room);
+    for (int i = 0; i < 40; ++i) {
+        const double middle = (low + high) / 2;
+        (is_near(middle) ? low : high) = middle;
+    }
+    return at + (is_forward ? high : -high);
+}
+
+/// The parts of a strand that are drawn, between its passes under other lines.
+std::vector<std::pair<double, double>> LineBands::sections(std::size_t line, double offset,
+                                                           const BandLook& look) const {
+    const double count = lines_.lines[line].count();
+    const bool is_closed = lines_.lines[line].is_closed;
+    std::vector<std::pair<double, double>> cuts;
+    if (style_.weave) {
+        const auto& passes = diagram_.diagram.lines[line].passes;
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            if (diagram_.diagram.is_over(passes[i])) continue;
+            cuts.emplace_back(cut(line, i, false, offset, look), cut(line, i, true, offset, look));
+        }
+    }
+    if (cuts.empty()) return {{0.0, count}};
+    std::vector<std::pair<double, double>> found;
+    if (!is_closed && cuts.front().first > 0) found.emplace_back(0.0, cuts.front().first);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) found.emplace_back(cuts[i].second, cuts[i + 1].first);
+    if (!is_closed && cuts.back().second < count) found.emplace_back(cuts.back().second, count);
+    if (is_closed) found.emplace_back(cuts.back().second, cuts.front().first + count);
+    return found;
+}
+
+void LineBands::draw(const Print& print, const std::function<int(std::size_t)>& colour, PathSink& sink) const {
+    const BandLook bands = look(print);
+    for (std::size_t line = 0; line < lines_.lines.size(); ++line) {
+        for (int strand = 0; strand < bands.count; ++strand) {
+            const double offset = (strand - (bands.count - 1) / 2.0) * bands.spacing;
+            for (const auto& section : sections(line, offset, bands)) {
+                if (section.second > section.first) draw_section(line, section, offset, bands, colour(line), sink);
+            }
+        }
+    }
+}
+
+void LineBands::draw_section(std::size_t line, std::pair<double, double> section, double offset, const BandLook& look,
+                             int colour, PathSink& sink) const {
+    const CurvedLines::Line& whole = lines_.lines[line];
+    const bool is_closed = whole.is_closed && section.second - section.first >= whole.count();
+    std::vector<Part> parts;
+    lines_.visit_between(whole, section.first, section.second, [&](const Bezier& curve, const CurvePiece& piece) {
+        parts.push_back({curve, &piece});
+    });
+    if (parts.empty()) return;
+    const auto moved = [&](const Part& part, double t) {
+        return offset == 0 ? point_of(part.curve, t)
+                           : point_of(part.curve, t) + offset * left_of(tangent_of(part.curve, t));
+    };
+    // Where the strand passes from one part to the next: one point in a smooth line or a corner of straight ones.
+    const auto corner = [&](const Part& before, const Part& after, glm::dvec2& at) {
+        if (offset == 0) return at = before.curve[3], true;
+        const glm::dvec2 in = tangent_of(before.curve, 1);
+        const glm::dvec2 out = tangent_of(after.curve, 0);
+        if (glm::length(in - out) < 1e-6) return at = moved(before, 1), true;
+        const bool is_straight = before.piece->is_straight && after.piece->is_straight;
+        return is_straight && mitre(before.curve[3], in, out, offset, at);
+    };
+    const auto pen_of = [&](const Part& part) {
+        Pen pen = part.piece->pen;
+        pen.width *= look.thinner;
+        pen.colour = colour >= 0 ? colour : style_.index(pen);
+        return pen;
+    };
+    glm::dvec2 start = moved(parts.front(), 0);
+    if (is_closed && !corner(parts.back(), parts.front(), start)) start = moved(parts.front(), 0);
+    glm::dvec2 at = start;
+    Pen pen = pen_of(parts.front());
+    sink.begin_stroke(start, pen);
+    std::vector<glm::dvec2> controls;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Part& part = parts[i];
+        if (const Pen own = pen_of(part); own != pen) sink.change_pen(pen = own);
+        const bool is_last = i + 1 == parts.size();
+        const Part* after = !is_last ? &parts[i + 1] : is_closed ? &parts.front() : nullptr;
+        glm::dvec2 end = moved(part, 1);
+        const bool is_joined = after && corner(part, *after, end);
+        if (is_last && is_joined) end = start;
+        if (part.piece->is_straight) {
+            sink.lines(std::span(&end, 1));
+        } else {
+            controls.clear();
+            if (offset == 0) {
+                controls.assign(part.curve.begin() + 1, part.curve.end());
+            } else {
+                add_parallel(part.curve, offset, accuracy * look.width, controls);
+            }
+            controls.back() = end;
+            sink.curves(controls);
+        }
+        at = end;
+        if (!after || is_joined) continue;
+        const glm::dvec2 next = is_last ? start : moved(*after, 0);
+        if (next != at) sink.lines(std::span(&next, 1));
+        at = next;
+    }
+    sink.end_stroke(is_closed);
+}
+
+}  // namespace sikku

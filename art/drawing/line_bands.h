@@ -1,0 +1,68 @@
+// art/drawing/line_bands.h: draws lines as bands of parallel lines that pass over and under each other.
+#pragma once
+
+#include "art/kolam/curve_meetings.h"
+#include "art/print/print.h"
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// The parallel lines of a band in one print, in turtle steps.
+struct BandLook {
+    int count = 1;
+    double spacing = 0.0;  ///< from the middle of one line to the next
+    double wanted = 0.0;   ///< the spacing that the style requests
+    double width = 0.0;    ///< of a line
+    double thinner = 1.0;  ///< factor of the widths of pens, where the lines would run into each other
+    double gap = 0.0;      ///< beside an upper band
+    double band() const { return (count - 1) * spacing + width; }
+};
+
+/// Lines with the places where they pass under others. Strands are parallel to the line they belong to, within 0.5
+/// percent of their width. Lower bands are interrupted where they come nearer to the upper line than half its band
+/// and a gap, measured to the round ends of its lines.
+class LineBands {
+public:
+    /// Keeps references to the lines and meetings. Parallel lines are limited by the tightest turn, and by the
+    /// least distance of lines beside each other.
+    /// @throws std::runtime_error if the style requests a weave that cannot alternate; Stopped
+    LineBands(const CurvedLines& lines, const CurveMeetings& meetings, const Style& style, const Monitor& monitor);
+
+    /// @param print  placed
+    /// @throws std::runtime_error if parallel lines have no room
+    BandLook look(const Print& print) const;
+    /// Draws all lines. @param colour  palette index of a line's number, or -1 for that of its pen
+    void draw(const Print& print, const std::function<int(std::size_t)>& colour, PathSink& sink) const;
+    std::size_t crossings() const { return diagram_.diagram.crossings(); }
+
+private:
+    struct Part {
+        Bezier curve;
+        const CurvePiece* piece;
+    };
+    void weave(const Monitor& monitor);
+    void measure_turns(const Monitor& monitor);
+    void measure_distance(const Monitor& monitor, double most);
+    void measure_crossings();
+    std::vector<std::pair<double, double>> sections(std::size_t line, double offset, const BandLook& look) const;
+    double cut(std::size_t line, std::size_t pass, bool is_forward, double offset, const BandLook& look) const;
+    void draw_section(std::size_t line, std::pair<double, double> section, double offset, const BandLook& look,
+                      int colour, PathSink& sink) const;
+
+    const CurvedLines& lines_;
+    const CurveMeetings& meetings_;
+    Style style_;
+    CurveDiagram diagram_;
+    std::vector<std::size_t> upper_;  ///< for each crossing the mark of the upper strand
+    double least_radius_ = std::numeric_limits<double>::max();
+    double least_distance_ = std::numeric_limits<double>::max();  ///< between lines beside each other
+    double least_corner_ = std::numeric_limits<double>::max();    ///< farthest parallel with corners in their order
+    double least_run_ = std::numeric_limits<double>::max();       ///< along a line from crossing to crossing
+};
+
+}  // namespace sikku

@@ -1,0 +1,112 @@
+#include "art/drawing/line_work.h"
+
+#include "art/style/powders.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+/// The colours of fields: those of even and of odd classes where neighbours differ in parity, else all.
+std::vector<std::size_t> colours_of_class(std::uint32_t number, FieldsBy by, std::size_t count) {
+    const bool has_parity = by == FieldsBy::chessboard || by == FieldsBy::kind || by == FieldsBy::symmetry;
+    std::vector<std::size_t> fitting;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!has_parity || count < 2 || i % 2 == number % 2) fitting.push_back(i);
+    }
+    return fitting;
+}
+
+std::vector<Colour> powders_of(const Style& style, std::span<const Colour> others) {
+    if (!style.powders.empty() && !style.powders_are_named) return style.powders;
+    const std::vector<Colour> all = style.powders.empty() ? *find_powders(powder_names().front()) : style.powders;
+    // A line on powder of its own colour could not be seen, nor powder on ground of that colour.
+    constexpr double least = 0.1;  // in OKLab
+    std::vector<Colour> seen;
+    for (const Colour colour : all) {
+        const auto is_near = [&](Colour other) { return colour_distance(other, colour) < least; };
+        if (std::none_of(others.begin(), others.end(), is_near)) seen.push_back(colour);
+    }
+    return seen.empty() ? all : seen;
+}
+
+}  // namespace
+
+bool has_line_work(const Style& style) {
+    return style.fields || style.weave || style.parallel.count > 1;
+}
+
+LineWork::LineWork(const WordDrawing& drawing, const KolamExamination& examination, const Style& style,
+                   const DrawOptions& options)
+    : style_(style) {
+    const double most = std::min(options.budget / nodes_of_worked_segment, 1e9);
+    CurveReader reader([&style](const Pen& pen) { return style.draws(pen); }, static_cast<std::size_t>(most));
+    drawing.read({}, {}, reader);
+    lines_ = reader.finish(examination);
+    if (style.fields || style.weave) {
+        meetings_ = find_meetings(lines_, static_cast<std::size_t>(most), options.monitor);
+    }
+    if (style.fields) {
+        fields_ = find_fields(lines_, meetings_, options.monitor);
+        classes_ = classify(fields_, *style.fields, examination.symmetry, examination.centre, options.monitor);
+    }
+    if (style.weave || style.parallel.count > 1) {
+        bands_ = std::make_unique<LineBands>(lines_, meetings_, style, options.monitor);
+    }
+}
+
+void LineWork::add_colours(std::vector<Colour>& palette, std::span<const Colour> others) {
+    if (!style_.fields) return;
+    const std::vector<Colour> powders = powders_of(style_, others);
+    const int first = static_cast<int>(palette.size());
+    palette.insert(palette.end(), powders.begin(), powders.end());
+    for (const std::uint32_t number : classes_) {
+        const auto fitting = colours_of_class(number, *style_.fields, powders.size());
+        const bool has_parity = fitting.size() < powders.size();
+        const std::size_t chosen = fitting[(has_parity ? number / 2 : number) % fitting.size()];
+        colours_.push_back(powders[chosen].alpha == 0 ? -1 : first + static_cast<int>(chosen));
+    }
+}
+
+void LineWork::draw_fields(PathSink& sink) const {
+    // By colour, as layers and pens are.
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+        if (colours_[i] >= 0) order.push_back(i);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return colours_[a] < colours_[b]; });
+    std::vector<glm::dvec2> corners;
+    for (const std::size_t i : order) {
+        const Field& field = fields_[i];
+        const Pen pen{.colour = colours_[i]};
+        if (!field.is_straight) {
+            sink.area(field.outline, pen);
+            continue;
+        }
+        corners.clear();
+        for (std::size_t k = 0; k + 1 < field.outline.size(); k += 3) corners.push_back(field.outline[k]);
+        if (corners.size() > 2) sink.polygon(corners, pen);
+    }
+}
+
+double LineWork::parallel_width() const {
+    const int between = style_.parallel.count - 1;
+    if (between == 0) return 0;
+    Print unplaced;
+    unplaced.style = style_;
+    unplaced.placement.step = 1;
+    const BandLook look = bands_->look(unplaced);
+    // How much of it there is room for is known only in steps.
+    return between * (style_.stroke.in_steps ? look.spacing : look.wanted);
+}
+
+void LineWork::draw_lines(const Print& print, std::span<const int> colours, PathSink& sink) const {
+    const auto colour = [&](std::size_t line) {
+        return colours.empty() ? -1 : colours[lines_.lines[line].orbit % colours.size()];
+    };
+    bands_->draw(print, colour, sink);
+}
+
+}  // namespace sikku

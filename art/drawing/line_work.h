@@ -1,0 +1,72 @@
+// art/drawing/line_work.h: the fields, the weave and the parallel lines of a drawing.
+#pragma once
+
+#include "art/drawing/line_bands.h"
+#include "art/drawing/word_drawing.h"
+#include "art/kolam/fields.h"
+#include "art/kolam/kolam.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// True if a style requests fields, a weave or parallel lines.
+bool has_line_work(const Style& style);
+
+/// The segments that line work allows for, each of which takes the memory and time of about so many nodes.
+constexpr double nodes_of_worked_segment = 400;
+
+/// The lines of a drawing as curves, and what is made of them.
+class LineWork {
+public:
+    /// Reads the drawing once and finds where its lines meet, and its fields.
+    /// @param style  of the pattern, with its own palette
+    /// @throws BudgetError; std::runtime_error if curved lines run along each other, or if a weave cannot alternate
+    LineWork(const WordDrawing& drawing, const KolamExamination& examination, const Style& style,
+             const DrawOptions& options);
+    LineWork(const LineWork&) = delete;
+    LineWork& operator=(const LineWork&) = delete;
+
+    /// True if the lines are drawn by draw_lines(), and not as the pattern draws them.
+    bool draws_lines() const { return bands_ != nullptr; }
+    std::size_t fields() const { return fields_.size(); }
+    bool requests_fields() const { return style_.fields.has_value(); }
+    /// Appends the colours of the fields to a palette. @param others  colours of the lines
+    /// and the ground, which sets of powders avoid
+    void add_colours(std::vector<Colour>& palette, std::span<const Colour> others);
+    /// Fills the fields, with colours of that palette.
+    void draw_fields(PathSink& sink) const;
+    /// @param colours  palette indices of the orbits of lines, repeated from the end; empty: of the pens
+    void draw_lines(const Print& print, std::span<const int> colours, PathSink& sink) const;
+    /// How much wider a band of parallel lines is than its pen, at most; in the measure of the style's stroke.
+    double parallel_width() const;
+    /// Strands of a print; only if draws_lines().
+    BandLook look(const Print& print) const { return bands_->look(print); }
+
+private:
+    Style style_;
+    CurvedLines lines_;
+    CurveMeetings meetings_;
+    std::vector<Field> fields_;
+    std::vector<std::uint32_t> classes_;
+    std::vector<int> colours_;  ///< palette index of each field, or -1
+    std::unique_ptr<LineBands> bands_;
+};
+
+/// Hands on polygons and discs only.
+class OnlyAreas : public PathFilter {
+public:
+    using Forwarding::Forwarding;
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+};
+
+}  // namespace sikku

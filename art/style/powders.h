@@ -1,0 +1,25 @@
+// art/style/powders.h: named sets of the powders with which rangoli fields are filled.
+#pragma once
+
+#include "art/style/colour.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A set of powders. Neighbours in the list contrast with each other, as fields of different parity take them by
+/// turns.
+struct Powders {
+    std::string_view name;
+    std::string_view colours;  ///< separated by blanks
+};
+
+/// All sets, in the order of the manual. `distinct` is told apart by the colour-blind as well (Okabe and Ito 2008).
+std::vector<std::string_view> powder_names();
+
+/// The colours of a set; nullopt if there is none of that name.
+std::optional<std::vector<Colour>> find_powders(std::string_view name);
+
+}  // namespace sikku
