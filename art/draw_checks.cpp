@@ -69,16 +69,15 @@ void check_model(const DrawSettings& settings) {
 
 void check_placement(const DrawSettings& settings) {
     constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
-    refuse_first({{settings.fit && settings.step, "step", both},
-                  {settings.fit && settings.window, "window", both},
-                  {settings.fit && settings.composes, "compose",
-                   "cannot be combined with 'fit', which fills the margins"},
-                  {settings.window && settings.composes, "compose", "a window fills the page"},
-                  {settings.window && settings.repeat, "repeat",
-                   "a window shows a part of one drawing, not of its copies"},
-                  {settings.fit && settings.dot_spacing, "dot-spacing", both},
-                  {settings.step && settings.dot_spacing, "dot-spacing",
-                   "cannot be combined with 'step': both set the step length"}});
+    refuse_first(
+        {{settings.fit && settings.step, "step", both},
+         {settings.fit && settings.window, "window", both},
+         {settings.fit && settings.composes, "compose", "cannot be combined with 'fit', which fills the margins"},
+         {settings.window && settings.composes, "compose", "a window fills the page"},
+         {settings.window && settings.repeat, "repeat", "a window shows a part of one drawing, not of its copies"},
+         {settings.fit && settings.dot_spacing, "dot-spacing", both},
+         {settings.step && settings.dot_spacing, "dot-spacing",
+          "cannot be combined with 'step': both set the step length"}});
 }
 
 /// Checks that the format can express the settings of single pens.

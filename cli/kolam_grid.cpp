@@ -151,6 +151,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
+    const std::string extension = std::filesystem::path(options.output).extension().string();
     const auto other =
         kolam_file_text(extension.empty() ? "" : extension.substr(1), grid, made.states, stop_monitor());
     write(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);

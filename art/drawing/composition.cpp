@@ -18,7 +18,8 @@ bool has_ornaments(const Style& style, const DrawOptions& options) {
 Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
     : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
     if (grammar.is_spatial()) {
-        throw std::runtime_error("dots, fields, weaves, parallel lines and colours by strand apply only to drawings in the plane");
+        throw std::runtime_error(
+            "dots, fields, weaves, parallel lines and colours by strand apply only to drawings in the plane");
     }
     if (style_.dots || options.colours_strokes || has_line_work(style_)) examine(grammar);
     if (style_.dots) set_spacing();

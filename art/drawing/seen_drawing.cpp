@@ -296,7 +296,8 @@ bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& 
     if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
     if (is_composed(style, options)) {
         return none(
-            "dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours by strand, lines drawn by "
+            "dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours by strand, lines drawn "
+            "by "
             "hand, tiles and plots need the "
             "whole drawing");
     }

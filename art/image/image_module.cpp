@@ -454,7 +454,6 @@ DecodedPicture read(const std::filesystem::path& path, int longest_side, std::ui
     return PictureReader(path, most_pixels).read(longest_side, monitor);
 }
 
-
 class Inks final : public InkProfile {
 public:
     explicit Inks(const std::filesystem::path& file) : transform_(file) {
@@ -475,8 +474,8 @@ std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
     return std::make_unique<Inks>(file);
 }
 
-constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile,
-                                read, open_inks};
+constexpr ImageModule functions{
+    image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile, read, open_inks};
 
 }  // namespace
 }  // namespace sikku

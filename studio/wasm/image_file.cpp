@@ -159,8 +159,8 @@ bool is_picture(std::string_view /*first_bytes*/) {
     return false;
 }
 
-DecodedPicture read_picture(const std::filesystem::path& /*path*/, int /*longest_side*/, std::uint64_t /*most_pixels*/,
-                     const Monitor& /*monitor*/) {
+DecodedPicture read_picture(const std::filesystem::path& /*path*/, int /*longest_side*/,
+                            std::uint64_t /*most_pixels*/, const Monitor& /*monitor*/) {
     throw std::runtime_error("the studio reads no photographs; `sikku kolam --read` does");
 }
 
