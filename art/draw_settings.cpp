@@ -39,7 +39,10 @@ double length(const char* option, const std::string& text, double dpi) {
 Page sheet(const char* option, const std::string& text, double dpi) {
     const auto size = parse_size(text, dpi);
     if (!size) {
-        refuse_option(option, text, "expected A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm");
+        refuse_option(
+            option, text,
+            "expected A0 to A10, B0 to B10, C0 to C10, JIS-B0 to JIS-B10, RA0 to RA4, SRA0 to SRA4, letter, legal, "
+            "tabloid, executive, ANSI-A to ANSI-E, Arch-A to Arch-E, or WIDTHxHEIGHT such as 50x70cm");
     }
     if (!(size->x >= 1 && size->y >= 1 && size->x <= longest && size->y <= longest)) {
         refuse_option(option, text, "expected a page between 1 mm and 10 m wide and high");
@@ -61,6 +64,17 @@ void set_window(DrawSettings& settings, const std::string& text) {
         refuse_option("window", text,
                       "expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 and Y0 below Y1");
     }
+}
+
+void set_repeat(DrawSettings& settings, const std::string& text) {
+    settings.repeat = parse_repeat(text);
+    if (settings.repeat) return;
+    std::string names;
+    for (const std::string_view name : repeat_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    refuse_option("repeat", text,
+                  fmt::format("expected a group and its cells, such as frieze:5, p4m:3x4 or ring:8, up to {} copies, "
+                              "then ,gap=2 in steps or ,gap=5%; groups are {}",
+                              most_copies, names));
 }
 
 /// Parses `only`, `SIZE COLOUR`, or `only SIZE COLOUR`.
@@ -190,14 +204,16 @@ constexpr const char* presses = "Press";
 constexpr const char* pictures = "Pictures";
 
 const std::array own_rows = {
-    Option<S>{{.name = "size",
-               .help = "page size: A0 to A6, letter, legal, tabloid, or WIDTHxHEIGHT such as 300x300mm (A4)",
-               .value = "SIZE"},
-              [](S& s, Text t) {
-                  const Page page = sheet("size", t, s.dpi);
-                  s.page.width = page.width;
-                  s.page.height = page.height;
-              }},
+    Option<S>{
+        {.name = "size",
+         .help = "page size: A0 to A10, B0 to B6, SRA0 to SRA4, letter, legal, tabloid, ANSI-A to ANSI-E, Arch-A to "
+                 "Arch-E, or WIDTHxHEIGHT such as 50x70cm; also C, JIS-B and RA sizes (A4)",
+         .value = "SIZE"},
+        [](S& s, Text t) {
+            const Page page = sheet("size", t, s.dpi);
+            s.page.width = page.width;
+            s.page.height = page.height;
+        }},
     Option<S>{{.name = "landscape", .help = "landscape page", .kind = flag},
               [](S& s, Text t) { s.landscape = is_true(t); }},
     Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH"},
@@ -207,6 +223,11 @@ const std::array own_rows = {
               }},
     Option<S>{{.name = "fit", .help = "fill the page within its margins (default)", .kind = flag},
               [](S& s, Text t) { s.fit = is_true(t); }},
+    Option<S>{{.name = "compose",
+               .help = "place the drawing by its shape and mass around the optical centre, with room to breathe, "
+                       "instead of filling the margins",
+               .kind = flag},
+              [](S& s, Text t) { s.composes = is_true(t); }},
     Option<S>{{.name = "step",
                .help = "length of one turtle step on paper, instead of fitting the page",
                .value = "LENGTH"},
@@ -244,8 +265,30 @@ const std::array own_rows = {
                .value = "LENGTH",
                .group = kolams},
               set_dot_spacing},
-    Option<S>{{.name = "border", .help = "draw a frame of red earth lines", .value = "kaavi", .group = kolams},
-              [](S& s, Text t) { set_word("border", "kaavi", t, s.border); }},
+    Option<S>{{.name = "border",
+               .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, or a pattern file, whose drawing is "
+                       "repeated, with another for the corners",
+               .value = "NAME|FILE[,CORNER]",
+               .group = kolams,
+               .is_key = true},
+              [](S& s, Text t) { s.border = t; }},
+    Option<S>{{.name = "repeat",
+               .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "
+                       "wallpaper group p1 to p6m with its cells such as p4m:3x4, or ring:8; gap in steps or percent "
+                       "(8%)",
+               .value = "GROUP[:COUNT][,gap=GAP]",
+               .group = kolams},
+              set_repeat},
+    Option<S>{{.name = "title-line",
+               .help = "write a line below the drawing, on the left (the pattern's title)",
+               .value = "[TEXT]",
+               .group = kolams},
+              [](S& s, Text t) { s.title_line = t; }},
+    Option<S>{{.name = "edition",
+               .help = "write the number of the print below the drawing, on the right, such as 3/50",
+               .value = "TEXT",
+               .group = kolams},
+              [](S& s, Text t) { s.edition = t; }},
     Option<S>{{.name = "colour-by", .help = "draw each line in its own colour", .value = "strand", .group = kolams},
               [](S& s, Text t) { set_word("colour-by", "strand", t, s.colours_strokes); }},
     Option<S>{{.name = "generations",
@@ -519,7 +562,7 @@ TileOptions tile_options(const DrawSettings& settings) {
     return options;
 }
 
-DrawingOptions drawing_options(const DrawSettings& settings) {
+DrawingOptions drawing_options(const DrawSettings& settings, const Document& document) {
     DrawingOptions options;
     options.placement.rotate = settings.rotate;
     options.placement.mirror = settings.mirror;
@@ -527,7 +570,15 @@ DrawingOptions drawing_options(const DrawSettings& settings) {
     options.window = settings.window;
     options.only_dots = settings.only_dots;
     options.colours_strokes = settings.colours_strokes;
-    options.border = settings.border;
+    if (settings.title_line) {
+        options.title_line = settings.title_line->empty() ? document.text("title") : *settings.title_line;
+        if (options.title_line.empty()) {
+            options.title_line = std::filesystem::path(document.source().name()).stem().string();
+        }
+    }
+    options.edition = settings.edition;
+    options.repeat = settings.repeat;
+    options.composes = settings.composes;
     options.budget = settings.budget;
     return options;
 }
@@ -543,6 +594,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     };
     // Dots of the default size and colour cannot be written as a value of the key.
     if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
+    if (settings.border) set("border", *settings.border);
     if (!settings.view.empty()) set("view", settings.view);
     Diagnostics diagnostics;
     Style style = read_style(drawn.pattern(), settings.dpi, diagnostics);
@@ -585,7 +637,11 @@ void check_model(const DrawSettings& settings) {
                   {settings.hold.has_value(), "hold", reason},
                   {settings.fit_frames, "fit-frames", reason},
                   {settings.lesson.has_value(), "lesson", reason},
-                  {settings.border, "border", reason},
+                  {settings.border.has_value(), "border", reason},
+                  {settings.title_line.has_value(), "title-line", reason},
+                  {settings.repeat.has_value(), "repeat", reason},
+                  {settings.composes, "compose", reason},
+                  {!settings.edition.empty(), "edition", reason},
                   {settings.colours_strokes, "colour-by", reason},
                   {settings.press.marks, "marks", reason},
                   {!settings.press.spots.empty(), "spot", reason},
@@ -600,11 +656,15 @@ void check_model(const DrawSettings& settings) {
 
 void check_placement(const DrawSettings& settings) {
     constexpr const char* both = "cannot be combined with 'fit', which also sets the step length";
-    refuse_first({{settings.fit && settings.step, "step", both},
-                  {settings.fit && settings.window, "window", both},
-                  {settings.fit && settings.dot_spacing, "dot-spacing", both},
-                  {settings.step && settings.dot_spacing, "dot-spacing",
-                   "cannot be combined with 'step': both set the step length"}});
+    refuse_first(
+        {{settings.fit && settings.step, "step", both},
+         {settings.fit && settings.window, "window", both},
+         {settings.fit && settings.composes, "compose", "cannot be combined with 'fit', which fills the margins"},
+         {settings.window && settings.composes, "compose", "a window fills the page"},
+         {settings.window && settings.repeat, "repeat", "a window shows a part of one drawing, not of its copies"},
+         {settings.fit && settings.dot_spacing, "dot-spacing", both},
+         {settings.step && settings.dot_spacing, "dot-spacing",
+          "cannot be combined with 'step': both set the step length"}});
 }
 
 void check_plot(const DrawSettings& settings, PrintFormat format) {
@@ -643,7 +703,10 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
                   {settings.window.has_value(), "window", alone},
                   {settings.animation.has_value(), "animate", alone},
                   {settings.only_dots, "dots", alone},
-                  {settings.border, "border", "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.border && *settings.border != "none", "border",
+                   "a lesson teaches the lines of the kolam; a border is not one of them"},
+                  {settings.title_line.has_value(), "title-line", alone},
+                  {!settings.edition.empty(), "edition", alone},
                   {settings.press.bleed > 0, "bleed", "the pages of a lesson are not trimmed"},
                   {settings.press.marks, "marks", "the pages of a lesson are not trimmed"}});
     if (is_vector(format) || format == PrintFormat::gif) return;
@@ -705,7 +768,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     const bool is_untrimmed = settings.plotter || settings.tile;
     refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
                   {is_untrimmed && settings.press.marks, "marks", trimmed},
-                  {settings.window && settings.border, "border",
+                  {settings.window && settings.border && *settings.border != "none", "border",
                    "a border frames the whole drawing; a window shows only part of it"},
                   {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
     check_lesson(settings, format);

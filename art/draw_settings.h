@@ -10,6 +10,7 @@
 #include "art/print/format.h"
 #include "art/print/page.h"
 #include "art/print/press.h"
+#include "art/print/repeat.h"
 #include "art/print/tiles.h"
 #include "art/style/style.h"
 #include "engine/base/option.h"
@@ -40,7 +41,11 @@ struct DrawSettings {
     std::optional<std::string> dots;   ///< value for `dots:`; empty: default size and colour
     bool only_dots = false;
     std::optional<double> dot_spacing;                                 ///< distance between the nearest dots
-    bool border = false;                                               ///< frame of red earth
+    std::optional<Repeat> repeat;                                      ///< draw many copies
+    bool composes = false;                                             ///< place the drawing by its shape and mass
+    std::optional<std::string> border;                                 ///< value for `border:`
+    std::optional<std::string> title_line;                             ///< text below; empty: the pattern's title
+    std::string edition;                                               ///< text below on the right
     bool colours_strokes = false;                                      ///< one colour for each strand
     std::optional<std::pair<std::int64_t, std::int64_t>> generations;  ///< derivation lengths, first and last
     bool frames = false;                                               ///< write each generation to its own file
@@ -76,8 +81,9 @@ DrawSettings read_draw_settings(const OptionValues& values);
 /// PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
 
-/// The options of the drawing, on its own page or in the cell of a sheet.
-DrawingOptions drawing_options(const DrawSettings& settings);
+/// The options of the drawing, on its own page or in the cell of a sheet. The patterns of a border are not loaded:
+/// see load_border().
+DrawingOptions drawing_options(const DrawSettings& settings, const Document& document);
 
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);

@@ -1,12 +1,15 @@
 #include "art/print_cell.h"
 
+#include "art/border_files.h"
+
 namespace sikku {
 
-SheetCell print_cell(const Document& document, const DrawSettings& settings) {
+SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder) {
     SheetCell cell;
-    static_cast<DrawingOptions&>(cell) = drawing_options(settings);
+    static_cast<DrawingOptions&>(cell) = drawing_options(settings, document);
     cell.grammar = document.shared_grammar();
     cell.style = read_print_style(document, settings);
+    load_border(cell.style, document, settings, folder, cell);
     cell.title = document.text("title");
     return cell;
 }

@@ -5,11 +5,15 @@
 #include "art/sheet/sheet.h"
 #include "engine/language/document.h"
 
+#include <filesystem>
+
 namespace sikku {
 
 /// Returns a cell that draws a document like its own print, without a caption. Settings of the print's file (bleed,
 /// marks, inks, resolution, the order of a plot) have no effect, and neither has the dot spacing: a drawing fills its
 /// cell. @throws SettingError, PatternError
-SheetCell print_cell(const Document& document, const DrawSettings& settings);
+/// @param folder  folder of files that the settings name
+SheetCell print_cell(const Document& document, const DrawSettings& settings,
+                     const std::filesystem::path& folder = {});
 
 }  // namespace sikku

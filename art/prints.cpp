@@ -1,5 +1,6 @@
 #include "art/prints.h"
 
+#include "art/border_files.h"
 #include "art/draw_settings.h"
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
@@ -65,10 +66,12 @@ void report_text(const DrawReport& report, const std::filesystem::path& name, Ma
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
-    PrintWork(const Document& document, PrintFormat format, DrawSettings settings)
+    PrintWork(const Document& document, PrintFormat format, DrawSettings settings,
+              const std::filesystem::path& folder)
         : document_(settings.keys.empty() ? document : document.with(settings.keys)),
           format_(format),
-          settings_(std::move(settings)) {
+          settings_(std::move(settings)),
+          folder_(folder) {
         print_.style = read_print_style(document_, settings_);
         print_.page = settings_.page;
         print_.dpi = settings_.dpi;
@@ -79,9 +82,14 @@ public:
         print_.animation = settings_.animation;
         plan_drawing();
         check_drawing();
+        // A border frames a whole print.
+        if (settings_.window || settings_.lesson || is_model()) print_.style.border.reset();
+        load_border(print_.style, document_, settings_, folder, drawing_,
+                    [this](const std::string& name, const std::string& text) { files_.emplace_back(name, text); });
     }
 
     Cost forecast() const override;
+    std::vector<std::pair<std::string, std::string>> read_files() const override { return files_; }
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
     DrawnPixels make_pixels(const Monitor& monitor);
@@ -99,7 +107,7 @@ private:
     }
 
     void plan_drawing() {
-        static_cast<DrawingOptions&>(drawing_) = drawing_options(settings_);
+        static_cast<DrawingOptions&>(drawing_) = drawing_options(settings_, document_);
         drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
         drawing_.dot_spacing = settings_.dot_spacing;
         drawing_.threads = settings_.threads;
@@ -131,7 +139,10 @@ private:
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
-        if (settings_.border) refuse("border", plane);
+        if (settings_.border && *settings_.border != "none") refuse("border", plane);
+        if (settings_.repeat) refuse("repeat", plane);
+        if (settings_.title_line) refuse("title-line", plane);
+        if (!settings_.edition.empty()) refuse("edition", plane);
         if (settings_.lesson) refuse("lesson", plane);
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
@@ -173,6 +184,8 @@ private:
     DrawSettings settings_;
     Print print_;
     DrawOptions drawing_;
+    std::filesystem::path folder_;
+    std::vector<std::pair<std::string, std::string>> files_;  ///< that the border was loaded from
 };
 
 void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -200,7 +213,7 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
 
 std::vector<SheetCell> PrintWork::generation_cells() const {
     const auto [first, last] = *settings_.generations;
-    SheetCell cell = print_cell(document_, settings_);
+    SheetCell cell = print_cell(document_, settings_, folder_);
     cell.may_be_empty = true;
     return generations(cell, first, last);
 }
@@ -212,8 +225,9 @@ std::vector<SheetCell> PrintWork::lesson_cells(const DrawOptions& options) const
     const LessonLength length = lesson_length(document_.grammar(), print_, drawing);
     std::vector<SheetCell> cells;
     for (std::size_t step = length.first; step < length.count; ++step) {
-        SheetCell& cell = cells.emplace_back(print_cell(document_, settings_));
+        SheetCell& cell = cells.emplace_back(print_cell(document_, settings_, folder_));
         cell.lesson_step = step;
+        cell.style.border.reset();
         cell.caption = {step == 0 ? "dots" : step + 1 == length.count ? "whole" : std::to_string(step)};
     }
     return cells;
@@ -261,6 +275,11 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
     report_text(report, name, made);
+    if (report.copies > 0) {
+        made.fact(fmt::format("{}: {}, {}", settings_.repeat->group,
+                              report.copies == 1 ? "1 copy" : fmt::format("{} copies", report.copies),
+                              counted(report.strokes, "line")));
+    }
     if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
         made.warn("no dots were drawn: the lines enclose none");
     }
@@ -406,7 +425,7 @@ std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat form
     DrawSettings settings = read_draw_settings(values);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
-    return std::make_unique<PrintWork>(document, format, std::move(settings));
+    return std::make_unique<PrintWork>(document, format, std::move(settings), folder);
 }
 
 class Prints : public Interpreter {

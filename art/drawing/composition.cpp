@@ -12,13 +12,13 @@
 namespace sikku {
 
 bool has_ornaments(const Style& style, const DrawOptions& options) {
-    return style.dots || options.border || options.colours_strokes;
+    return style.dots || options.colours_strokes;
 }
 
 Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
     : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
     if (grammar.is_spatial()) {
-        throw std::runtime_error("dots, colours by strand and borders apply only to drawings in the plane");
+        throw std::runtime_error("dots and colours by strand apply only to drawings in the plane");
     }
     if (style_.dots || options.colours_strokes) examine(grammar);
     if (style_.dots) set_spacing();
@@ -65,10 +65,6 @@ void Composition::add_colours() {
         // To practise on, on white paper.
         if (options_.only_dots) style_.ground = Colour{255, 255, 255, 255};
     }
-    if (options_.border) {
-        border_colour_ = static_cast<int>(style_.palette.size());
-        for (const Colour colour : border_colours(style_.ground)) style_.palette.push_back(colour);
-    }
 }
 
 /// Uses the pattern's palette if its colours distinguish lines, otherwise the kolam colours on dark ground. Omits
@@ -96,10 +92,6 @@ void Composition::add_stroke_colours() {
     }
 }
 
-double Composition::border_space(const Page& page) const {
-    return options_.border ? border_room(border_width(page)) : 0;
-}
-
 void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
     NotedDiscs noted(sink, print.style);
     PathSink& own = dots_.empty() ? sink : noted;
@@ -111,9 +103,6 @@ void Composition::read(const Print& print, const Window& window, PathSink& sink)
         lines_->read(print, window, old);
     }
     read_dots(print, noted.places, sink);
-    if (!options_.border) return;
-    const Page frame{window.width, window.height, window.margin};
-    draw_border(print, window, border_width(frame), border_colour_, sink);
 }
 
 /// @param drawn  by the pattern itself: these are not repeated

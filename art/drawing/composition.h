@@ -1,4 +1,4 @@
-// art/drawing/composition.h: a drawing with dots, a border and colours for its strands.
+// art/drawing/composition.h: a drawing with dots and colours for its strands.
 #pragma once
 
 #include "art/drawing/word_drawing.h"
@@ -10,10 +10,10 @@
 
 namespace sikku {
 
-/// True if the style or the options request dots, a border or strand colours.
+/// True if the style or the options request dots or strand colours.
 bool has_ornaments(const Style& style, const DrawOptions& options);
 
-/// Adds dots, a border and strand colours to another drawing, in one palette.
+/// Adds dots and strand colours to another drawing, in one palette.
 class Composition : public Drawing {
 public:
     /// Finds dots and strands if they are needed, and computes the step for a requested dot spacing. `grammar` is the
@@ -24,7 +24,7 @@ public:
     const DrawnExtent& seen() override { return lines_->seen(); }
     const Style& style() const override { return style_; }
     double scale() const override { return lines_->scale(); }
-    double border_space(const Page& page) const override;
+    Balance balance() const override { return lines_->balance(); }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     void report(DrawReport& report) const override;
@@ -39,11 +39,10 @@ private:
 
     std::unique_ptr<WordDrawing> lines_;
     Style drawn_;  ///< the style of the drawing, with its own palette
-    Style style_;  ///< with the colours of dots, border and strands added
+    Style style_;  ///< with the colours of dots and strands added
     std::vector<glm::dvec2> dots_;
     double distance_ = 0;  ///< between the nearest dots, in steps
     Pen dot_pen_;
-    int border_colour_ = 0;
     std::vector<std::uint32_t> orbit_of_stroke_;  ///< orbit of the stroke's line
     std::vector<int> stroke_colours_;
 };

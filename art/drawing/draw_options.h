@@ -7,15 +7,18 @@
 #include "art/plotter/plot.h"
 #include "art/print/format.h"
 #include "art/print/print.h"
+#include "art/print/repeat.h"
 #include "art/print/tiles.h"
 #include "art/raster/raster.h"
 #include "engine/base/monitor.h"
+#include "engine/language/grammar.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 namespace sikku {
 
@@ -26,6 +29,12 @@ struct DrawnExtent {
     double around = 0.0;  ///< the same for lines that continue outside a window
 };
 
+/// A pattern that is drawn as a part of a border.
+struct BorderPattern {
+    std::shared_ptr<const Grammar> grammar;
+    Style style;
+};
+
 /// Options of a drawing that hold for a page of its own and for a cell of a sheet.
 struct DrawingOptions {
     PlacementOptions placement;
@@ -33,9 +42,14 @@ struct DrawingOptions {
     bool may_be_empty = false;     ///< a drawing without lines gives an empty page, as for one of several generations
     bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
     bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
-    std::optional<std::size_t> lesson_step;  ///< show this step of a lesson, from 0: see LessonDrawing
-    bool border = false;                     ///< add a frame of red earth within the margins: see draw_border()
-    double budget = 200e6;                   ///< maximum number of derivation nodes visited in one pass
+    std::optional<std::size_t> lesson_step;                ///< show this step of a lesson, from 0: see LessonDrawing
+    std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
+    std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
+    std::optional<Repeat> repeat{};                        ///< draw it many times
+    bool composes = false;     ///< place it by its shape and mass: see PlacementOptions::balance
+    std::string title_line{};  ///< text below the drawing on the left; empty: none
+    std::string edition{};     ///< text below the drawing on the right, such as 3/50; empty: none
+    double budget = 200e6;     ///< maximum number of derivation nodes visited in one pass
 };
 
 struct DrawOptions : DrawingOptions {
@@ -78,6 +92,8 @@ struct DrawReport {
     glm::dvec2 size{0.0};            ///< size of the drawing with its pen, in millimetres
     glm::dvec2 room{0.0};            ///< room on the page, within margins and border
     std::size_t dots = 0;            ///< number of kolam dots drawn
+    std::size_t copies = 0;          ///< number of copies of a repeated drawing
+    std::size_t strokes = 0;         ///< number of lines of all copies
     bool overflows = false;          ///< the drawing is larger than the page within its margins (a step was given)
     int sheets = 0;                  ///< number of sheets of a tiled print
     int sheet_rows = 0;              ///< rows of these sheets

@@ -1,8 +1,11 @@
 #include "art/drawing/drawing.h"
 
 #include "art/drawing/composition.h"
+#include "art/drawing/framed_drawing.h"
 #include "art/drawing/hand_drawing.h"
+#include "art/drawing/ink_shape.h"
 #include "art/drawing/lesson_drawing.h"
+#include "art/drawing/repeated_drawing.h"
 #include "art/drawing/seen_drawing.h"
 #include "art/drawing/word_drawing.h"
 #include "art/print/clip.h"
@@ -53,16 +56,39 @@ const DrawnExtent& Drawing::extent() {
     return found;
 }
 
-DrawReport Drawing::place(Print& print) {
+Balance Drawing::balance_of(const std::vector<glm::dvec2>& points, glm::dvec2 centre) const {
+    const glm::dmat3x2 turned = orientation(options_.placement);
+    std::vector<glm::dvec2> corners;
+    Box box;
+    for (const glm::dvec2 point : points) {
+        corners.push_back(turned * glm::dvec3(point, 1));
+        box.add(corners.back());
+    }
+    const glm::dvec2 size = box.high - box.low;
+    if (box.empty() || !(size.x > 0 && size.y > 0)) return {};
+    const glm::dvec2 mass = turned * glm::dvec3(centre, 1);
+    return {polygon_area(convex_hull(std::move(corners))) / (size.x * size.y),
+            (mass - (box.low + box.high) / 2.0) / size};
+}
+
+PlacementOptions Drawing::placement() const {
     PlacementOptions placement = options_.placement;
-    placement.scale = scale();
+    // Generations share one frame, and with it one place.
+    if (options_.composes) placement.balance = options_.frame ? Balance{} : balance();
+    return placement;
+}
+
+DrawReport Drawing::place(Print& print) {
     const DrawnExtent& placed = options_.frame ? *options_.frame : extent();
     // Read for what is known of it in any case.
     around_ = seen().around;
-    const double border = border_space(print.page);
-    print.page.margin += border;
+    PlacementOptions placement = this->placement();
+    placement.scale = scale();
+    const Page page = print.page;
+    print.page.margin += border_space(page);
+    print.page.height -= foot_space(page);
     DrawReport report = place_print(print, placed, style().stroke, placement);
-    print.page.margin -= border;
+    print.page = page;
     return report;
 }
 
@@ -86,13 +112,20 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
         return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);
     }
     if (options.window) require_window(*shared, options, why);
-    auto lines = std::make_unique<WordDrawing>(*shared, style, options);
+    DrawOptions one = options;
+    if (options.repeat) one.budget /= options.repeat->copies();
+    auto lines = std::make_unique<WordDrawing>(*shared, style, one);
     std::unique_ptr<Drawing> drawing;
     if (has_ornaments(style, options)) {
-        drawing = std::make_unique<Composition>(*shared, std::move(lines), options);
+        drawing = std::make_unique<Composition>(*shared, std::move(lines), one);
     } else {
         drawing = std::move(lines);
     }
+    if (shared->is_spatial() && (options.repeat || has_frame(style, options))) {
+        throw std::runtime_error("repeats, borders and lines of text apply only to drawings in the plane");
+    }
+    if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
+    if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
     if (!(style.hand > 0) && !options.lesson_step) return drawing;
     if (shared->is_spatial()) {
         throw std::runtime_error("lines drawn by hand and lessons apply only to drawings in the plane");

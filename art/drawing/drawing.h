@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -24,8 +25,8 @@ Window whole_page(const Page& page);
 Box seen_box(const Print& print, const Window& window, double around);
 
 /// A drawing that is placed once and then read any number of times, with the same strokes each time. Implementations
-/// read the word (WordDrawing), draw only the visible parts (SeenDrawing), or add dots, a border and colours to
-/// another drawing (Composition); make_drawing() chooses one.
+/// read the word (WordDrawing), draw only the visible parts (SeenDrawing), add dots and colours to another drawing
+/// (Composition), or frame it (FramedDrawing); make_drawing() combines them.
 class Drawing {
 public:
     explicit Drawing(const DrawOptions& options) : options_(options) {}
@@ -42,14 +43,21 @@ public:
     virtual const Style& style() const = 0;
     /// Fraction of the page that a fitted drawing fills.
     virtual double scale() const = 0;
+    /// The shape and the mass of the drawing in the orientation of the page. Call after seen(). By default, those of
+    /// a full box.
+    virtual Balance balance() const { return {}; }
     /// Width of the border on a page of that size, in millimetres on each side within the margins; 0 without a
     /// border.
     virtual double border_space(const Page&) const { return 0; }
+    /// Height of a line of text below the drawing and its border, in millimetres, within the margins; 0 without one.
+    virtual double foot_space(const Page&) const { return 0; }
     /// Bounds of all points of a drawing in space, without the width of pens; available after reading.
     virtual std::optional<SpaceBounds> bounds() const { return std::nullopt; }
     /// Step length in millimetres, if the options or the dot spacing fix it.
     std::optional<double> fixed_step() const { return options_.placement.step; }
 
+    /// The placement of the options, with the balance if they request a composed page. Call after seen().
+    PlacementOptions placement() const;
     /// Calculates the placement of `print` on its page. @throws std::runtime_error if nothing is drawn, unless the
     /// options have a frame, or if the margins leave no room
     DrawReport place(Print& print);
@@ -73,14 +81,17 @@ public:
     virtual void report(DrawReport&) const {}
 
 protected:
+    /// @param points  whose convex hull is that of the drawing @param centre  of its mass; both in its coordinates
+    Balance balance_of(const std::vector<glm::dvec2>& points, glm::dvec2 centre) const;
+
     DrawOptions options_;
 
 private:
     double around_ = 0;  ///< widest pen of lines that continue outside a window, in the unit of the style's stroke
 };
 
-/// Makes the drawing of a grammar: read from the word, or through a view if there is one, with the dots, border and
-/// strand colours that `style` and `options` request.
+/// Makes the drawing of a grammar: read from the word, or through a view if there is one, with the dots, strand
+/// colours and frame that `style` and `options` request.
 /// @throws BudgetError, WordError; std::runtime_error if it cannot be drawn
 std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
 

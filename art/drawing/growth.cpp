@@ -31,9 +31,12 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
                      std::optional<SpaceBounds>& bounds) {
     options.begin = nullptr;
     // The lines alone determine the frame: dots lie between them.
-    options.border = options.colours_strokes = options.only_dots = false;
+    options.colours_strokes = options.only_dots = false;
+    options.title_line.clear();
+    options.edition.clear();
     Style lines = style;
     lines.dots.reset();
+    lines.border.reset();
     DrawnExtent frame;
     const auto add = [&](const DrawnExtent& seen) {
         if (seen.box.empty()) return;

@@ -28,7 +28,9 @@ public:
     const DrawnExtent& seen() override;
     const Style& style() const override { return style_; }
     double scale() const override { return drawing_->scale(); }
+    Balance balance() const override { return drawing_->balance(); }
     double border_space(const Page& page) const override { return drawing_->border_space(page); }
+    double foot_space(const Page& page) const override { return drawing_->foot_space(page); }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     using Drawing::rendering;

@@ -1,5 +1,6 @@
 #include "art/drawing/seen_drawing.h"
 
+#include "art/drawing/framed_drawing.h"
 #include "art/drawing/spline_pieces.h"
 #include "art/drawing/view.h"
 #include "art/raster/raster.h"
@@ -126,8 +127,8 @@ double most_nodes(PixelSize size, double budget) {
 
 /// True if more is to be drawn than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
-    return style.dots || style.hand > 0 || options.lesson_step || options.border || options.colours_strokes ||
-           options.plot || options.tiles || options.format == PrintFormat::hpgl ||
+    return style.dots || style.hand > 0 || options.lesson_step || has_frame(style, options) || options.repeat ||
+           options.colours_strokes || options.plot || options.tiles || options.format == PrintFormat::hpgl ||
            options.format == PrintFormat::gcode;
 }
 
@@ -256,6 +257,10 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
         cost.nodes = std::min(known->nodes, options.budget);
         cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes);
     }
+    if (options.repeat) {
+        cost.nodes *= options.repeat->copies();
+        cost.lines *= options.repeat->copies();
+    }
     if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
     double drawn = cost.kept_memory;
     if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
@@ -287,7 +292,9 @@ bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& 
     if (is_vector(options.format) && !options.window) return false;
     if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
     if (is_composed(style, options)) {
-        return none("dots, borders, colours by strand, lines drawn by hand, tiles and plots need the whole drawing");
+        return none(
+            "dots, borders, lines of text, repeats, colours by strand, lines drawn by hand, tiles and plots need the "
+            "whole drawing");
     }
     if (style.moves_lift) return none("splines whose moves lift the pen need the whole drawing");
     if (!style.draws({})) return none("lines that leave no ink are not seen");
@@ -331,7 +338,7 @@ DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const
     const auto parts = seen_parts(grammar, given.style, options, why);
     if (!parts) {
         if (options.window) require_window(grammar, options, why);
-        require_affordable(grammar, true, options.budget);
+        require_affordable(grammar, true, options.budget / (options.repeat ? options.repeat->copies() : 1));
         return cost_of_reading(grammar, given, options);
     }
     Print print = given;

@@ -1,5 +1,6 @@
 #include "art/drawing/word_drawing.h"
 
+#include "art/drawing/ink_shape.h"
 #include "art/drawing/plot_scene.h"
 #include "art/space/solid_raster.h"
 #include "art/space/solids.h"
@@ -236,6 +237,13 @@ const DrawnExtent& WordDrawing::seen() {
         found = {window.box, window.widest, found.widest};
     }
     return extent_.emplace(found);
+}
+
+Balance WordDrawing::balance() const {
+    if (grammar_.is_spatial() || options_.window) return {};
+    InkShape shape(style_);
+    read({}, {}, shape);
+    return balance_of(shape.hull(), shape.centre());
 }
 
 bool WordDrawing::has_ink() {

@@ -19,6 +19,8 @@ public:
     const DrawnExtent& seen() override;
     const Style& style() const override { return drawn_style_; }
     double scale() const override { return options_.placement.scale * grammar_.scale_percent() / 100; }
+    /// Takes one pass over the word. In space, that of a full box.
+    Balance balance() const override;
     std::optional<SpaceBounds> bounds() const override;
     /// Takes one pass over the word. Drawings in space are kept in memory and drawn from back to front.
     using Drawing::read;

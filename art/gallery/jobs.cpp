@@ -543,7 +543,8 @@ std::string GalleryJob::hash() const {
         // Search for scales and key maps instead of compiling, which would take long for every job of a finished
         // gallery.
         const std::string whole = lower_case(text() + pattern->text->text);
-        if (whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos) {
+        const bool has_border = whole.find("border") != std::string::npos || keys.contains("border");
+        if (has_border || whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos) {
             try {
                 for (const auto& [file, held] : work()->read_files()) {
                     hash.add_piece(file);

@@ -198,7 +198,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     const GalleryPattern* row = nullptr;
     for (auto& [job, loaded] : prints) {
         const DrawSettings settings = read_draw_settings(job->values());
-        SheetCell cell = print_cell(loaded, settings);
+        SheetCell cell = print_cell(loaded, settings, job->folder);
         if (cell.title.empty()) cell.title = job->pattern->name;
         if (has_rows) {
             cell.caption = {fmt::format("n = {}", cell.grammar->steps())};

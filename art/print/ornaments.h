@@ -1,4 +1,4 @@
-// art/print/ornaments.h: adds dots, a border and strand colours to the lines of a pattern.
+// art/print/ornaments.h: adds dots and strand colours to the lines of a pattern.
 #pragma once
 
 #include "art/print/print.h"
@@ -100,18 +100,6 @@ private:
 /// The shortest way between two of them; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
 double least_distance(std::span<const glm::dvec2> dots);
 
-/// How far the border reaches inwards from the margin, in millimetres: a 24th of the page's shorter side.
-double border_width(const Page& page);
-/// With the room that a drawing leaves to it.
-double border_room(double width);
-/// Colours of draw_border(): rice flour and red earth (*kaavi*), in a lighter tone where the usual one would not
-/// stand out from the ground; without a ground, the paper is white.
-std::vector<Colour> border_colours(const std::optional<Colour>& ground);
 /// Colours that distinguish the lines of a kolam on dark ground, rice flour first; the same as those of grids.
 std::vector<Colour> kolam_palette();
-/// A frame within the margin of a window of the page, of that width: a line of red earth between thin ones of rice
-/// flour, closed, with a loop around a dot in each corner. `colour` is the index of the first of border_colours() in
-/// the palette of `print`, which is placed.
-void draw_border(const Print& print, const Window& window, double width, int colour, PathSink& sink);
-
 }  // namespace sikku

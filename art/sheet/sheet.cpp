@@ -351,9 +351,11 @@ double Sheet::drawn_step(const Subject& subject, double width, double height, do
     Page page{width, height, options_.inset * std::min(width, height)};
     const double border = subject.drawing->border_space(page);
     if (border > 0) page.margin = border + border_margin * std::min(width, height);
+    page.height -= subject.drawing->foot_space(page);
     const double ink_steps = style.stroke.in_steps ? widest / 2 : 0;
     const double ink_millimetres = style.stroke.in_steps ? 0 : widest / 2 * factor;
-    PlacementOptions fitted;
+    PlacementOptions fitted = subject.drawing->placement();
+    fitted.step.reset();
     fitted.scale = std::min(1.0, subject.drawing->scale());
     return place(subject.extent.box, page, fitted, ink_steps, ink_millimetres).step;
 }
@@ -485,8 +487,9 @@ void Sheet::place_drawings(const Measures& m) {
         print.title = cells_[i].title;
         print.dpi = options_.dpi;
         print.page = {m.width, m.height, 0.0};
-        PlacementOptions placement = cells_[i].placement;
+        PlacementOptions placement = subjects_[i].drawing->placement();
         placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
+        print.page.height -= subjects_[i].drawing->foot_space(print.page);
         print.placement = place(subjects_[i].extent.box, print.page, placement, 0.0, 0.0);
         print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
         print.page = options_.page;

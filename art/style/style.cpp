@@ -304,7 +304,39 @@ std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&
     return result;
 }
 
+void read_border(const Key& key, Style& style, Diagnostics& diagnostics) {
+    if (lower_case(trimmed(key.value.view())) == "none") return;
+    style.border = parse_border(key.value.view());
+    if (!style.border) {
+        diagnostics.error(key.value.empty() ? key.name_at : key.value,
+                          "expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern file such as "
+                          "petal.lsys, optionally followed by a comma and another for the corners");
+    }
+}
+
 }  // namespace
+
+std::optional<BorderStyle> parse_border(std::string_view text) {
+    constexpr std::array<std::pair<std::string_view, BorderKind>, 6> names = {{{"kaavi", BorderKind::kaavi},
+                                                                               {"padi", BorderKind::padi},
+                                                                               {"lotus", BorderKind::lotus},
+                                                                               {"rope", BorderKind::rope},
+                                                                               {"diamonds", BorderKind::diamonds},
+                                                                               {"waves", BorderKind::waves}}};
+    text = trimmed(text);
+    const std::string lower = lower_case(text);
+    for (const auto& [name, kind] : names) {
+        if (lower == name) return BorderStyle{.kind = kind};
+    }
+    const std::size_t comma = text.find(',');
+    BorderStyle border{.kind = BorderKind::pattern, .pattern = std::string(trimmed(text.substr(0, comma)))};
+    if (comma != std::string_view::npos) {
+        border.corner = trimmed(text.substr(comma + 1));
+        if (border.corner.empty() || border.corner.find(',') != std::string::npos) return std::nullopt;
+    }
+    if (border.pattern.empty()) return std::nullopt;
+    return border;
+}
 
 /// Okabe and Ito 2008, Color Universal Design: told apart by the colour-blind as well.
 std::vector<Colour> default_palette() {
@@ -364,6 +396,7 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     if (const Key* key = pattern.find("hand")) read_hand(*key, style, diagnostics);
     if (const Key* key = pattern.find("stroke")) read_stroke(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
+    if (const Key* key = pattern.find("border")) read_border(*key, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
     if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
     if (const Key* key = pattern.find("view")) {

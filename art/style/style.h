@@ -1,4 +1,5 @@
-// art/style/style.h: the style of a drawing, from the keys line, hand, stroke, ground, fill, palette, dots, view.
+// art/style/style.h: the style of a drawing, from the keys line, hand, stroke, ground, fill, palette, dots, border,
+// view.
 #pragma once
 
 #include "art/style/camera.h"
@@ -6,7 +7,9 @@
 #include "engine/geometry/path.h"
 #include "engine/language/pattern.h"
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,10 +30,19 @@ struct DotStyle {
     std::optional<Colour> colour;     ///< absent: of the lines
 };
 
+/// How a print is framed.
+enum class BorderKind : std::uint8_t { kaavi, padi, lotus, rope, diamonds, waves, pattern };
+struct BorderStyle {
+    BorderKind kind = BorderKind::kaavi;
+    std::string pattern{};  ///< of BorderKind::pattern: the pattern whose drawing is repeated, by path or name
+    std::string corner{};   ///< the pattern drawn in the corners; empty: a dot in a ring
+    bool operator==(const BorderStyle&) const = default;
+};
+
 struct Style {
     Line line = Line::straight;
     bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
-    double hand = 0.0;  ///< how much lines waver and swell, as drawn by a hand with powder: 0, not at all, to 1
+    double hand = 0.0;        ///< how much lines waver and swell, as drawn by a hand with powder: 0, not at all, to 1
     StrokeWidth stroke;
     std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`
@@ -38,6 +50,7 @@ struct Style {
     std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
     std::vector<Colour> palette;          ///< never empty after read_style
     std::optional<DotStyle> dots;         ///< absent: none are drawn
+    std::optional<BorderStyle> border;    ///< absent: none is drawn
     Camera camera;                        ///< of drawings in space
 
     /// True if undrawn steps are control points of the line.
@@ -58,6 +71,11 @@ struct Style {
     /// Radius of a disc in millimetres. A `radius` of 0 steps is a dot, twice as wide as the line.
     double disc_radius(double radius, const Pen& pen, double step) const;
 };
+
+/// The value of `border:`: kaavi, padi, lotus, rope, diamonds, waves; or one or two pattern files, separated by a
+/// comma: the repeat and the corner. Nullopt for anything else. A file ends in `.lsys`; other words are names of
+/// bundled patterns.
+std::optional<BorderStyle> parse_border(std::string_view text);
 
 /// Eight colours that are told apart by everyone, black first.
 std::vector<Colour> default_palette();

@@ -43,6 +43,8 @@ constexpr std::array language = {
             "Colour of polygons and discs with colour index 0"},
     KeyInfo{"palette", art, "colours", "eight colours", "Colours of the indices 0, 1, 2 …, repeated from the end"},
     KeyInfo{"dots", art, "a size and a colour such as 0.2 step white; none", "none", "Dots of a kolam"},
+    KeyInfo{"border", art, "kaavi, padi, lotus, rope, diamonds, waves; a pattern file, or two; none", "none",
+            "Frame around the drawing; of pattern files, the first is repeated, the second stands in the corners"},
     KeyInfo{"view", art, "AZIMUTH ELEVATION [perspective [DISTANCE]]; front, side, top", "front",
             "Direction from which a drawing in space is seen, in degrees around and up"},
 

@@ -25,7 +25,13 @@ function defaultOf(option: OptionHelp): string {
 export function namedValues(help: string): string[] {
     const list = /: (.+?),? or /.exec(help)?.[1] ?? "";
     return list.split(", ").flatMap((part) => {
-        const range = /^([A-Z])(\d) to \1(\d)$/.exec(part);
+        const range = /^([A-Z]+)(\d+) to \1(\d+)$/.exec(part);
+        const letters = /^([A-Za-z]+-)([A-Z]) to \1([A-Z])$/.exec(part);
+        const code = (letter: string | undefined): number => (letter ?? "A").charCodeAt(0);
+        if (letters) {
+            const [first, last] = [code(letters[2]), code(letters[3])];
+            return Array.from({ length: last - first + 1 }, (_, at) => letters[1] + String.fromCharCode(first + at));
+        }
         if (!range) return part === "" ? [] : [part];
         const [first, last] = [Number(range[2]), Number(range[3])];
         return Array.from({ length: Math.max(0, last - first + 1) }, (_, at) => `${range[1]}${first + at}`);

@@ -216,5 +216,7 @@ test("scale files of any size are kept as they are", () => {
 test("page sizes come from the help of the option", () => {
     const help = "page size: A0 to A3, letter, tabloid, or WIDTHxHEIGHT such as 300x300mm (A4)";
     assert.deepEqual(namedValues(help), ["A0", "A1", "A2", "A3", "letter", "tabloid"]);
+    const more = "page size: A9 to A10, SRA3 to SRA4, Arch-D to Arch-E, or WIDTHxHEIGHT (A4)";
+    assert.deepEqual(namedValues(more), ["A9", "A10", "SRA3", "SRA4", "Arch-D", "Arch-E"]);
     assert.deepEqual(namedValues("no list"), []);
 });

@@ -54,7 +54,54 @@ TEST(Size, HasNamesInAnyCase) {
     }
 }
 
+/// Half of a sheet of a series has the proportions of the whole (ISO 216, 217 and 269, JIS P 0138), to a millimetre.
+TEST(Size, HasSeries) {
+    const std::vector<std::tuple<std::string, int, double>> series = {{"A", 10, 1e6},
+                                                                      {"B", 10, std::sqrt(2) * 1e6},
+                                                                      {"C", 10, std::sqrt(std::sqrt(2)) * 1e6},
+                                                                      {"JIS B", 10, 1.5e6}};
+    for (const auto& [name, last, area] : series) {
+        for (int i = 0; i <= last; ++i) {
+            const auto size = parse_size(name + std::to_string(i), 300);
+            ASSERT_TRUE(size) << name << i;
+            const double width = std::sqrt(area / std::sqrt(2)) / std::pow(2, i / 2.0);
+            EXPECT_NEAR(size->x, width, 1.01) << name << i;
+            EXPECT_NEAR(size->y, width * std::sqrt(2), 1.01) << name << i;
+        }
+        EXPECT_FALSE(parse_size(name + std::to_string(last + 1), 300));
+    }
+    for (const std::string name : {"RA", "SRA"}) {
+        for (int i = 0; i < 4; ++i) {
+            const auto sheet = parse_size(name + std::to_string(i), 300);
+            const auto half = parse_size(name + std::to_string(i + 1), 300);
+            ASSERT_TRUE(sheet && half);
+            EXPECT_EQ(half->x, sheet->y / 2);
+            EXPECT_EQ(half->y, sheet->x);
+            // Larger than the trimmed sheet.
+            EXPECT_GT(sheet->x, parse_size("A" + std::to_string(i), 300)->x);
+        }
+    }
+    EXPECT_EQ(parse_size("sra3", 300), glm::dvec2(320, 450));
+    EXPECT_EQ(parse_size("B2", 300), glm::dvec2(500, 707));
+    EXPECT_EQ(parse_size("jis-b4", 300), glm::dvec2(257, 364));
+    EXPECT_EQ(parse_size("2A0", 300), glm::dvec2(1189, 1682));
+}
+
+TEST(Size, HasInchSizes) {
+    const auto size = [](const char* name) { return *parse_size(name, 300) / 25.4; };
+    EXPECT_NEAR(size("ANSI C").x, 17, 1e-9);
+    EXPECT_NEAR(size("ansi-e").y, 44, 1e-9);
+    EXPECT_NEAR(size("Arch D").x, 24, 1e-9);
+    EXPECT_NEAR(size("arch_e1").y, 42, 1e-9);
+    EXPECT_NEAR(size("ledger").y, 17, 1e-9);
+    EXPECT_EQ(size("ANSI A"), size("letter"));
+    EXPECT_EQ(size("ANSI B"), size("tabloid"));
+}
+
 TEST(Size, HasMeasures) {
+    EXPECT_EQ(parse_size("50x70cm", 300), glm::dvec2(500, 700));
+    EXPECT_EQ(parse_size("50×70cm", 300), glm::dvec2(500, 700));
+    EXPECT_NEAR(parse_size("20x30in", 300)->y, 762, 1e-9);
     EXPECT_EQ(parse_size("300x300mm", 300), glm::dvec2(300, 300));
     EXPECT_EQ(parse_size("300x200", 300), glm::dvec2(300, 200));
     EXPECT_EQ(parse_size("20cmx30cm", 300), glm::dvec2(200, 300));
@@ -75,8 +122,8 @@ TEST(Size, HasMeasures) {
 }
 
 TEST(Size, RefusesTheRest) {
-    for (const char* bad : {"", "A7", "A", "x", "300", "300x", "x300", "300x300x300", "300x300km", "12inx18", "pxxpx",
-                            "A4x", "300*300", "1e400x1", "nanxnan"}) {
+    for (const char* bad : {"", "A11", "SRA5", "ANSI F", "A", "x", "300", "300x", "x300", "300x300x300", "300x300km",
+                            "12inx18", "pxxpx", "A4x", "300*300", "1e400x1", "nanxnan"}) {
         EXPECT_FALSE(parse_size(bad, 300)) << bad;
     }
 }

@@ -1,4 +1,5 @@
 // tests/program/print_options_test.cpp: runs the program to draw dots, borders, animations, tiles and plots.
+#include "art/print/border.h"
 #include "art/print/ornaments.h"
 #include "tests/program.h"
 #include "tests/tools.h"
@@ -107,13 +108,19 @@ TEST(Colours, AreAsFarApartAsTheyLook) {
 TEST(Colours, OfABorderStandOutFromTheGround) {
     for (const char* ground : {"#8c3b2a", "#7d3324", "#93432d", "white", "black", "#6b6b3a", "#4f6b3c", "#b3452c"}) {
         const Colour under = *parse_colour(ground);
-        const std::vector<Colour> colours = border_colours(under);
+        const std::vector<Colour> colours = border_colours({BorderKind::kaavi}, under);
         ASSERT_EQ(colours.size(), 2u);
         EXPECT_EQ(hex(colours[0]), "#fffaf0");
         EXPECT_GT(colour_distance(colours[1], under), 0.14) << ground;
         EXPECT_GT(colour_distance(colours[1], colours[0]), 0.2) << ground;
+        // The lines of the others are seen on paper as well.
+        const std::vector<Colour> rope = border_colours({BorderKind::rope}, under);
+        ASSERT_EQ(rope.size(), 2u);
+        EXPECT_GT(colour_distance(rope[0], under), 0.3) << ground;
+        EXPECT_GT(colour_distance(rope[1], under), 0.14) << ground;
+        EXPECT_GT(colour_distance(rope[0], rope[1]), 0.1) << ground;
     }
-    EXPECT_EQ(hex(border_colours(std::nullopt)[1]), "#b3452c");
+    EXPECT_EQ(hex(border_colours({BorderKind::kaavi}, std::nullopt)[1]), "#b3452c");
 }
 
 TEST_F(PrintOptions, StrandsAreToldApart) {

@@ -1,0 +1,22 @@
+// art/border_files.h: loads the patterns of borders.
+#pragma once
+
+#include "art/draw_settings.h"
+#include "engine/language/document.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace sikku {
+
+/// Receives the name of a file that was read and its text.
+using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
+
+/// Loads the patterns that the border of `style` names into `options`. Files that an option names are in `folder`,
+/// files that the pattern names are beside it; other names are bundled patterns.
+/// @throws SettingError if one is not found or is not a pattern; Stopped
+void load_border(const Style& style, const Document& document, const DrawSettings& settings,
+                 const std::filesystem::path& folder, DrawingOptions& options, const FileWitness& witness = {});
+
+}  // namespace sikku

@@ -1,0 +1,154 @@
+#include "art/drawing/framed_drawing.h"
+
+#include "art/drawing/word_drawing.h"
+#include "art/print/border_ink.h"
+#include "art/print/lettering.h"
+#include "art/print/ornaments.h"
+#include "engine/geometry/moved_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr double motif_budget = 1e5;  // nodes of a pattern that is repeated along a border
+constexpr double letter_stem = 0.085;
+constexpr double foot_share = 2.6;  // of the height of letters, above the line they stand on
+
+/// Height of capitals in millimetres.
+double letters_of(const Page& page) {
+    return std::clamp(std::min(page.width, page.height) * 0.0125, 1.2, 14.0);
+}
+
+bool has_text(const DrawOptions& options) {
+    return !options.title_line.empty() || !options.edition.empty();
+}
+
+/// Draws no lines: of drawings without a pen, whose frame has one.
+class WithoutLines : public PathFilter {
+public:
+    using Forwarding::Forwarding;
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, bare(pen)); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(bare(pen)); }
+
+private:
+    static Pen bare(Pen pen) {
+        pen.width = 0;
+        pen.width_set = true;
+        return pen;
+    }
+};
+
+std::shared_ptr<const BorderMotif> motif_of(const BorderPattern& pattern, const DrawOptions& given) {
+    if (pattern.grammar->is_spatial()) {
+        throw std::runtime_error("the pattern of a border has to lie in the plane; this one pitches, rolls or bends");
+    }
+    DrawOptions options;
+    options.budget = std::min(given.budget, motif_budget);
+    options.watch = given.watch;
+    options.monitor = given.monitor;
+    auto motif = std::make_shared<BorderMotif>();
+    Style style = pattern.style;
+    style.border.reset();
+    const auto drawing = make_drawing(*pattern.grammar, style, options);
+    motif->box = drawing->extent().box;
+    const glm::dvec2 size = motif->box.high - motif->box.low;
+    if (!(size.x > 0 && size.y > 0)) {
+        throw std::runtime_error("the pattern of a border needs a width and a height; this one is a straight line");
+    }
+    motif->style = drawing->style();
+    Print print;
+    print.style = motif->style;
+    drawing->read(print, motif->path);
+    return motif;
+}
+
+Border border_of(const BorderStyle& style, const DrawOptions& options) {
+    Border border{.kind = style.kind};
+    if (style.kind != BorderKind::pattern) return border;
+    if (!options.border_repeat) throw std::runtime_error("the pattern of the border is missing");
+    border.repeat = motif_of(*options.border_repeat, options);
+    if (options.border_corner) border.corner = motif_of(*options.border_corner, options);
+    return border;
+}
+
+}  // namespace
+
+bool has_frame(const Style& style, const DrawOptions& options) {
+    return style.border || has_text(options);
+}
+
+FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, const DrawOptions& options)
+    : Drawing(options), inner_(std::move(inner)), drawn_(inner_->style()), style_(drawn_) {
+    options_.placement.step = inner_->fixed_step();
+    style_.stroked = true;
+    if (style_.border) {
+        border_ = border_of(*style_.border, options_);
+        border_colour_ = static_cast<int>(style_.palette.size());
+        for (const Colour colour : border_colours(*border_, style_.ground)) style_.palette.push_back(colour);
+    }
+    if (!has_text(options_)) return;
+    constexpr double least = 0.25;  // in OKLab
+    const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : Colour{255, 255, 255, 255};
+    Colour ink = style_.line_colour({});
+    if (ink.alpha < 255 || colour_distance(ink, ground) < least) {
+        ink = lightness(ground) < 0.6 ? Colour{255, 255, 255, 255} : Colour{0, 0, 0, 255};
+    }
+    text_colour_ = static_cast<int>(style_.palette.size());
+    style_.palette.push_back(ink);
+}
+
+double FramedDrawing::border_space(const Page& page) const {
+    Page framed = page;
+    framed.height -= foot_space(page);
+    return border_ ? border_room(border_->kind, framed) : 0;
+}
+
+double FramedDrawing::foot_space(const Page& page) const {
+    return has_text(options_) ? foot_share * letters_of(page) : 0;
+}
+
+void FramedDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    OldColours old(sink, drawn_);
+    if (drawn_.stroked) {
+        inner_->read(print, window, old);
+    } else {
+        WithoutLines bare(old);
+        inner_->read(print, window, bare);
+    }
+    if (border_) {
+        Window framed = window;
+        framed.height -= foot_space({window.width, window.height, window.margin});
+        draw_border(*border_, print, framed, border_colour_, sink);
+    }
+    if (has_text(options_)) read_text(print, window, sink);
+}
+
+/// The title stands on the left, the edition on the right.
+void FramedDrawing::read_text(const Print& print, const Window& window, PathSink& sink) const {
+    const double height = letters_of({window.width, window.height, window.margin});
+    const double left = window.left + window.margin, width = window.width - 2 * window.margin;
+    const double line = window.top + window.height - window.margin - letter_stem * height / 2;
+    const BorderInk ink(print, text_colour_, sink);
+    const Pen pen = ink.pen(letter_stem * height, 0);
+    const auto write = [&](const std::string& text, double at) {
+        glm::dmat3x2 map = ink.from_page();
+        map[2] += glm::dmat2x2(map[0], map[1]) * glm::dvec2(at, line);
+        map[1] = -1.0 * map[1];
+        MovedPath moved(sink, map);
+        write_text(text, {0.0, 0.0}, height, pen, moved);
+    };
+    const std::string edition = shortened(options_.edition, height, width);
+    const double taken = edition.empty() ? 0 : text_width(edition, height);
+    if (!edition.empty()) write(edition, left + width - taken);
+    const double room = width - taken - (edition.empty() ? 0 : 2 * height);
+    if (!options_.title_line.empty() && room > 4 * height) {
+        write(shortened(options_.title_line, height, room), left);
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,250 @@
+#include "art/print/border.h"
+
+#include "art/print/border_ink.h"
+#include "art/print/ornaments.h"
+#include "engine/geometry/moved_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+// Of the border's depth: a loop is two radii and the line wide.
+constexpr double loop_share = 0.38;
+constexpr double line_share = 0.24;
+constexpr double earth_share = 0.6;  // of the line
+constexpr double dot_share = 0.4;    // of the loop
+
+/// Depth in parts of that of BorderKind::kaavi.
+double relative_depth(BorderKind kind) {
+    switch (kind) {
+        case BorderKind::kaavi:
+            return 1.0;
+        case BorderKind::padi:
+            return 1.9;
+        case BorderKind::lotus:
+            return 1.75;
+        case BorderKind::rope:
+            return 1.35;
+        case BorderKind::diamonds:
+            return 1.5;
+        case BorderKind::waves:
+            return 1.5;
+        case BorderKind::pattern:
+            return 1.6;
+    }
+    return 1.0;
+}
+
+double thickness(const Page& page) {
+    return std::min(page.width, page.height) / 24;
+}
+
+/// A line of red earth between thin ones of rice flour, with a loop around a dot in each corner.
+void draw_kaavi(const Print& print, const Window& window, double width, int colour, PathSink& sink) {
+    BorderInk ink(print, colour, sink);
+    const double radius = width * loop_share;
+    const double line = width * line_share;
+    // Page units, y down, clockwise from the top left corner; the sides lie one loop within the margin.
+    const double inset = window.margin + 2 * radius + line / 2;
+    const double left = window.left + inset;
+    const double top = window.top + inset;
+    const double right = window.left + window.width - inset;
+    const double bottom = window.top + window.height - inset;
+    const std::array<glm::dvec2, 4> corners = {glm::dvec2(left, top), glm::dvec2(right, top),
+                                               glm::dvec2(right, bottom), glm::dvec2(left, bottom)};
+    const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(-1, 0), glm::dvec2(0, -1)};
+    const double handle = 0.5522847498307936 * radius;  // of a quarter of a circle as a Bézier
+    for (const bool is_earth : {false, true}) {
+        // A pen plotter does not paint over.
+        if (print.is_plot && !is_earth) continue;
+        ink.begin(corners[0] + radius * ways[0], is_earth ? line * earth_share : line, is_earth ? 1 : 0);
+        for (std::size_t side = 0; side < 4; ++side) {
+            const glm::dvec2 along = ways[side];
+            const glm::dvec2 out = ways[(side + 3) % 4];
+            const glm::dvec2 corner = corners[(side + 1) % 4];
+            ink.line(corner + radius * along);
+            // Three quarters around the dot, then down the next side.
+            const glm::dvec2 centre = corner + radius * (along + out);
+            std::array<glm::dvec2, 9> loop;
+            glm::dvec2 from = -out;
+            glm::dvec2 heading = along;
+            for (std::size_t i = 0; i < 9; i += 3) {
+                loop[i] = ink.drawn(centre + radius * from + handle * heading);
+                loop[i + 1] = ink.drawn(centre + radius * heading + handle * from);
+                loop[i + 2] = ink.drawn(centre + radius * heading);
+                from = std::exchange(heading, -from);
+            }
+            sink.curves(loop);
+            ink.line(corner - radius * out);
+        }
+        ink.end(true);
+    }
+    for (std::size_t side = 0; side < 4; ++side) {
+        const glm::dvec2 centre = corners[side] - radius * (ways[side] + ways[(side + 1) % 4]);
+        sink.disc(ink.drawn(centre), radius * dot_share / print.placement.step, ink.pen(line * earth_share, 1));
+    }
+}
+
+/// Hands a recorded drawing on in the pens of the border: their colours follow each other, each pen's line, then its
+/// fill.
+class MotifPens : public PathFilter {
+public:
+    /// @param step   millimetres of a step
+    MotifPens(BorderInk& ink, const Style& style, double step, int first, PathSink& sink)
+        : Forwarding(sink), ink_(ink), style_(style), step_(step), first_(first) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, line(pen)); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(line(pen)); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        sink_.polygon(vertices, fill(pen));
+    }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, fill(pen)); }
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
+        if (style_.fill_colour(pen).alpha == 0) return;
+        // A radius of 0 is a dot that the pen sizes.
+        const double steps = radius > 0 ? radius : style_.line_width(pen, step_) / step_;
+        sink_.disc(centre, steps, fill(pen));
+    }
+
+private:
+    Pen line(const Pen& pen) const {
+        return ink_.pen(style_.draws(pen) ? style_.line_width(pen, step_) : 0.0, first_ + 2 * style_.index(pen));
+    }
+    Pen fill(const Pen& pen) const { return ink_.pen(1.0, first_ + 2 * style_.index(pen) + 1); }
+
+    BorderInk& ink_;
+    const Style& style_;
+    double step_;
+    int first_;
+};
+
+std::vector<Colour> motif_colours(const Style& style) {
+    std::vector<Colour> colours;
+    for (int i = 0; i < static_cast<int>(std::max<std::size_t>(style.palette.size(), 1)); ++i) {
+        colours.push_back(style.line_colour(Pen{.colour = i}));
+        colours.push_back(style.fill_colour(Pen{.colour = i}));
+    }
+    return colours;
+}
+
+/// Draws a motif with its box in an area of a side.
+/// @param corner, along, down  of the area on the page: its top left corner as the motif stands, and its sides
+void draw_motif(const BorderMotif& motif, glm::dvec2 corner, glm::dvec2 along, glm::dvec2 down, int first,
+                BorderInk& ink) {
+    const glm::dvec2 size = motif.box.high - motif.box.low;
+    const glm::dvec2 x = along / size.x, y = -1.0 * down / size.y;
+    const glm::dmat3x2 to_page(x, y, corner - motif.box.low.x * x - motif.box.high.y * y);
+    const glm::dmat3x2 from_page = ink.from_page();
+    const glm::dmat2x2 turn(from_page[0], from_page[1]);
+    const glm::dmat3x2 map(turn * to_page[0], turn * to_page[1], turn * to_page[2] + from_page[2]);
+    MotifPens pens(ink, motif.style, glm::length(down) / size.y, first, ink.sink());
+    MovedPath moved(pens, map);
+    motif.path.draw(moved);
+}
+
+void draw_pattern(const Border& border, std::span<const BorderSide, 4> sides, double depth, BorderInk& ink) {
+    const BorderMotif& repeat = *border.repeat;
+    const glm::dvec2 size = repeat.box.high - repeat.box.low;
+    const double across = sides[0].length - 2 * depth, down = sides[1].length - 2 * depth;
+    const BorderRepeats repeats = border_repeats(across, down, size.x * depth / size.y);
+    const int corner_colours = static_cast<int>(motif_colours(repeat.style).size());
+    for (std::size_t i = 0; i < 4; ++i) {
+        const BorderSide& side = sides[i];
+        const int count = i % 2 == 0 ? repeats.across : repeats.down;
+        const double length = (side.length - 2 * depth) / count;
+        for (int k = 0; k < count; ++k) {
+            draw_motif(repeat, side.at({depth + k * length, 0}), length * side.along, depth * side.inwards, 0, ink);
+        }
+        if (border.corner) {
+            draw_motif(*border.corner, side.corner, depth * side.along, depth * side.inwards, corner_colours, ink);
+            continue;
+        }
+        const glm::dvec2 centre = side.at({depth / 2, depth / 2});
+        const double radius = depth * 0.3, handle = 0.5522847498307936 * radius;
+        const double width = repeat.style.draws({}) ? repeat.style.line_width({}, depth / size.y) : depth / 12;
+        glm::dvec2 from = side.along, heading = side.inwards;
+        ink.begin(centre + radius * from, width, 0);
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            ink.curve(centre + radius * from + handle * heading, centre + radius * heading + handle * from,
+                      centre + radius * heading);
+            from = std::exchange(heading, -from);
+        }
+        ink.end(true);
+        ink.disc(centre, depth * 0.1, 0);
+    }
+}
+
+}  // namespace
+
+double border_depth(BorderKind kind, const Page& page) {
+    return relative_depth(kind) * thickness(page);
+}
+
+double border_room(BorderKind kind, const Page& page) {
+    return border_depth(kind, page) + (kind == BorderKind::kaavi ? 0.6 : 0.8) * thickness(page);
+}
+
+std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground) {
+    if (border.kind == BorderKind::pattern) {
+        std::vector<Colour> colours = motif_colours(border.repeat->style);
+        if (border.corner) {
+            for (const Colour colour : motif_colours(border.corner->style)) colours.push_back(colour);
+        }
+        return colours;
+    }
+    constexpr double least = 0.14;  // in OKLab
+    const Colour white = kolam_palette().front();
+    const Colour under = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
+    const Colour kaavi{0xb3, 0x45, 0x2c, 255};
+    const Colour deep_earth{0x6e, 0x2c, 0x1c, 255};
+    const Colour pale_earth{0xe0, 0x7a, 0x50, 255};
+    if (border.kind != BorderKind::kaavi && lightness(under) > 0.6) return {deep_earth, kaavi};
+    return {white, colour_distance(kaavi, under) >= least ? kaavi : pale_earth};
+}
+
+BorderRepeats border_repeats(double across, double down, double length) {
+    const auto count = [](double side, double each) { return std::max(1.0, std::round(side / each)); };
+    const double usual = count(across, length);
+    BorderRepeats best;
+    double least = 1e300;
+    for (double n = std::max(1.0, std::floor(usual * 0.88)); n <= std::ceil(usual * 1.12); ++n) {
+        const double m = count(down, across / n);
+        const double stretch = std::fabs(std::log(across / n / length)) + std::fabs(std::log(down / m / length));
+        const double score = std::fabs(std::log((down / m) / (across / n))) + 0.05 * stretch;
+        if (score < least) {
+            least = score;
+            best = {static_cast<int>(n), static_cast<int>(m)};
+        }
+    }
+    return best;
+}
+
+void draw_border(const Border& border, const Print& print, const Window& window, int colour, PathSink& sink) {
+    const double depth = border_depth(border.kind, {window.width, window.height, window.margin});
+    if (border.kind == BorderKind::kaavi) return draw_kaavi(print, window, depth, colour, sink);
+    const auto sides = border_sides(window);
+    // A cell may be too small for any frame.
+    if (std::min(sides[0].length, sides[1].length) < 3 * depth) return;
+    BorderInk ink(print, colour, sink);
+    switch (border.kind) {
+        case BorderKind::kaavi:
+            break;
+        case BorderKind::padi:
+            return draw_padi(sides, depth, ink);
+        case BorderKind::lotus:
+            return draw_lotus(sides, depth, ink);
+        case BorderKind::rope:
+            return draw_rope(sides, depth, ink);
+        case BorderKind::diamonds:
+            return draw_diamonds(sides, depth, ink);
+        case BorderKind::waves:
+            return draw_waves(sides, depth, ink);
+        case BorderKind::pattern:
+            return draw_pattern(border, sides, depth, ink);
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,47 @@
+// art/print/border.h: frames around drawings: traditional ones, and repeats of a recorded drawing.
+#pragma once
+
+#include "art/print/print.h"
+#include "engine/geometry/recorded_path.h"
+
+#include <memory>
+#include <vector>
+
+namespace sikku {
+
+/// The repeat or the corner of a border, in steps, y up.
+struct BorderMotif {
+    RecordedPath path;
+    Box box;      ///< of its ink, without the width of pens
+    Style style;  ///< of its pens
+};
+
+/// A border that is ready to be drawn.
+struct Border {
+    BorderKind kind = BorderKind::kaavi;
+    std::shared_ptr<const BorderMotif> repeat{};  ///< of BorderKind::pattern: upright at the top edge
+    std::shared_ptr<const BorderMotif> corner{};  ///< as it stands in the top left corner; null: a dot in a ring
+};
+
+/// How far the border reaches inwards from the margin, in millimetres; it grows with the page's shorter side.
+double border_depth(BorderKind kind, const Page& page);
+/// With the room that a drawing leaves to it.
+double border_room(BorderKind kind, const Page& page);
+/// Colours of draw_border(): those of a traditional border are rice flour and red earth (*kaavi*), in tones that
+/// stand out from the ground, or, on light ground, dark and light red earth; those of a pattern come from its style.
+/// Without a ground, the paper is white.
+std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground);
+
+/// A whole number of repeats along each side, chosen so that their lengths differ as little as possible.
+struct BorderRepeats {
+    int across = 1, down = 1;
+};
+/// @param across, down  lengths of the sides without the corners, above 0 @param length  about that of a repeat
+BorderRepeats border_repeats(double across, double down, double length);
+
+/// Draws a frame within the margin of a window of the page; all its lines close at the corners. `colour` is the index
+/// of the first of border_colours() in the palette of `print`, which is placed. Nothing is drawn over other lines of
+/// the border, except, in pictures and vectors, by BorderKind::kaavi.
+void draw_border(const Border& border, const Print& print, const Window& window, int colour, PathSink& sink);
+
+}  // namespace sikku

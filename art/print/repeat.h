@@ -1,0 +1,46 @@
+// art/print/repeat.h: repeats of a drawing: friezes, the wallpaper groups, rings.
+#pragma once
+
+#include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// How a drawing is repeated.
+struct Repeat {
+    std::string group;             ///< `frieze`, `p4m`, `ring`, …
+    int columns = 1, rows = 1;     ///< translation cells; of a ring, `columns` copies
+    double gap = 0.08;             ///< space between neighbouring copies; negative: they overlap
+    bool gap_is_in_steps = false;  ///< the gap is in turtle steps, not a part of the drawing's larger side
+
+    /// Number of copies of the drawing.
+    int copies() const;
+};
+
+/// Maximum number of copies.
+constexpr int most_copies = 10'000;
+
+/// Parses `GROUP[:COUNT][,gap=GAP]`. The group is a wallpaper group by its name (p1 p2 pm pg cm pmm pmg pgg cmm p4
+/// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3); a frieze group: frieze (translations alone),
+/// frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells (5); or ring with a number of copies (8). The
+/// gap is in steps, or in percent of the drawing's larger side (8%). Nullopt for anything else and for more than
+/// most_copies.
+std::optional<Repeat> parse_repeat(std::string_view text);
+
+/// All names of groups, in the order of parse_repeat().
+std::vector<std::string_view> repeat_groups();
+
+/// The maps that make the copies, in the order in which they are drawn: row by row, and cell by cell; the first
+/// copies of a ring stand at the top, clockwise. The drawing lies in the asymmetric unit of the group with the least
+/// cell for which no two copies come closer than the gap (measured by their convex hulls, in rectangular units by
+/// their boxes). The origin of the maps is that of the group in the International Tables for Crystallography, vol. A.
+/// @param hull  points of the convex hull of the drawing; at least one
+/// @param ink   width of its lines in steps, which is added to the gap
+std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
+
+}  // namespace sikku
