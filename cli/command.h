@@ -128,6 +128,7 @@ bool check_midi_file(const std::string& file);
 void add_derive(CLI::App& app, bool& quiet);
 void add_measure(CLI::App& app, bool& quiet);
 void add_draw(CLI::App& app, bool& quiet);
+void add_sheet(CLI::App& app, bool& quiet);
 void add_kolam(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);
 void add_gallery(CLI::App& app, bool& quiet);

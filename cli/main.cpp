@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.fallthrough();
     add_draw(app, quiet);
+    add_sheet(app, quiet);
     add_kolam(app, quiet);
     add_play(app, quiet);
     add_gallery(app, quiet);

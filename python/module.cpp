@@ -3,6 +3,7 @@
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
+#include "art/sheets.h"
 #include "engine/measure/measurement_text.h"
 #include "music/scores.h"
 #include "python/arrays.h"
@@ -80,6 +81,17 @@ py::list write_outputs(const Document& document, const std::string& interpreter_
     const Made made = long_call([&](const Monitor& monitor) {
         const Assignment assigned = assign(interpreter, document, to_values(values));
         return interpreter.plan(assigned.document, format, assigned.options)->make(file_system(), path, monitor);
+    });
+    return to_list(made.remarks);
+}
+
+/// Writes several documents, each with its own options, on one sheet, and returns the remarks.
+py::list write_sheet(const std::vector<std::pair<Document, TextPairs>>& drawings, const std::string& format,
+                     const TextPairs& values, const std::string& path) {
+    const Made made = long_call([&](const Monitor& monitor) {
+        std::vector<SheetItem> items;
+        for (const auto& [document, own] : drawings) items.push_back({document, to_values(own)});
+        return plan_sheet(items, format, to_values(values))->make(file_system(), path, monitor);
     });
     return to_list(made.remarks);
 }
@@ -162,11 +174,13 @@ PYBIND11_MODULE(_core, module) {
     add_words(module);
     module.def("make", &make_outputs);
     module.def("write", &write_outputs);
+    module.def("write_sheet", &write_sheet);
     module.def("measure", &measure_document);
     module.def("kolam", &examine_document);
     module.def("path", &path_of);
     module.def("notes", &notes_of);
-    module.def("options", [](const std::string& name) { return list_options(interpreter_of(name)); });
+    module.def("options", [](const std::string& name) { return list_options(interpreter_of(name).options()); });
+    module.def("sheet_options", [] { return list_options(sheet_options()); });
     module.def("formats", [](const std::string& name) { return list_formats(interpreter_of(name)); });
     module.def("keys", &list_keys);
     module.attr("version") = SIKKU_VERSION;

@@ -33,9 +33,9 @@ py::list to_list(const std::vector<Remark>& remarks) {
     return list;
 }
 
-py::list list_options(const Interpreter& interpreter) {
+py::list list_options(std::span<const OptionInfo* const> options) {
     py::list list;
-    for (const OptionInfo* option : interpreter.options()) {
+    for (const OptionInfo* option : options) {
         list.append(py::make_tuple(option->name, option->is_list, option->kind == OptionKind::flag, option->value,
                                    option->help));
     }

@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +24,8 @@ const Interpreter& interpreter_of(const std::string& name);
 /// Returns a list of (is a warning, text).
 pybind11::list to_list(const std::vector<Remark>& remarks);
 
-/// Returns (name, may be repeated, is a flag, placeholder of the value, help) for each option of an interpreter.
-pybind11::list list_options(const Interpreter& interpreter);
+/// Returns (name, may be repeated, is a flag, placeholder of the value, help) for each option.
+pybind11::list list_options(std::span<const OptionInfo* const> options);
 /// Returns (extension, alias, is text) for each format of an interpreter.
 pybind11::list list_formats(const Interpreter& interpreter);
 /// The names of all keys of the language.

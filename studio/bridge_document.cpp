@@ -314,16 +314,16 @@ namespace {
 /// Selects the options that affect the look of a drawing and, for the whole page, its layout.
 OptionValues shown_options(const OptionValues& all, bool is_page) {
     static constexpr std::array look = {"mirror", "rotate", "dots", "dot-spacing", "colour-by", "budget", "view"};
-    static constexpr std::array page = {"size", "margin", "landscape", "fit", "step", "window", "border"};
+    static constexpr std::array page = {"size",   "margin", "landscape", "fit",        "step",   "window",
+                                        "border", "repeat", "compose",   "title-line", "edition"};
     const auto is_in = [](const auto& names, const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
     OptionValues shown;
     for (const OptionValue& value : all) {
         const OptionInfo* option = find_option(prints().options(), value.name);
-        if (!option || option->is_key || is_in(look, value.name) || (is_page && is_in(page, value.name))) {
-            shown.push_back(value);
-        }
+        const bool is_look = !option || option->is_key || is_in(look, value.name);
+        if (is_in(page, value.name) ? is_page : is_look) shown.push_back(value);
     }
     return shown;
 }

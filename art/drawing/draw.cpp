@@ -34,6 +34,8 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     }
 }
 
+}  // namespace
+
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
     print.is_plot = true;
     print.style = with_fill_pens(print.style);
@@ -68,6 +70,8 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     if (options.shows_travel) draw_travels(plan, plotted, *writer);
     writer->finish();
 }
+
+namespace {
 
 /// Draws on one page. Sets `is_blank` of the report for pictures in which nothing is visible.
 void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& options, Output& output,

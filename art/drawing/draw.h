@@ -18,6 +18,10 @@ namespace sikku {
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options, const std::filesystem::path& file,
                 Destination& destination = file_system());
 
+class Drawing;
+/// Writes a drawing that is placed on `print` as a plot. Fills in the plot of the report.
+void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report);
+
 /// Writes the drawing as a model: see write_model(). Widths in millimetres are those of the print; only placement,
 /// budget, begin and watch of `options` are used.
 /// @throws as draw()

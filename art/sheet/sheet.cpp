@@ -5,6 +5,8 @@
 #include "art/image/image_file.h"
 #include "art/print/lettering.h"
 #include "art/raster/raster.h"
+#include "art/sheet/sheet_pixels.h"
+#include "art/sheet/sheet_plot.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
 #include "engine/base/output.h"
@@ -18,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <stdexcept>
 #include <typeinfo>
@@ -77,26 +78,6 @@ struct Plan {
     std::vector<PlacedCell> cells;
 };
 
-/// A cell as pixels of the sheet.
-struct CellPicture {
-    std::size_t cell = 0;
-    Print print;  ///< whose page is the cell
-    int left = 0, right = 0;
-    int top = 0, bottom = 0;
-};
-
-/// Rows of the sheet with whole cells.
-struct Strip {
-    int top = 0, bottom = 0;
-    std::vector<CellPicture> cells;
-};
-
-/// Rows of the sheet that are made at a time.
-struct SheetBand {
-    int top = 0, bottom = 0;
-    std::vector<std::uint8_t> pixels;
-};
-
 /// How much of a picture is made at a time.
 struct Room {
     int readers = 1;  ///< drawings
@@ -125,6 +106,8 @@ DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     drawing.format = options.format;
     drawing.monitor = options.monitor;
     drawing.placement.scale = 1.0;
+    drawing.dot_spacing = cell.dot_spacing;
+    drawing.plot = options.plot;
     return drawing;
 }
 
@@ -170,6 +153,7 @@ public:
     const Print& print() const { return print_; }
     const Plan& arrange();
     void write_vectors(PrintWriter& writer) const;
+    DrawReport write_plot(Output& output) const;
     void write_pixels(Output& output, const std::filesystem::path& file) const;
 
 private:
@@ -181,6 +165,7 @@ private:
     void measure();
     std::vector<Grid> grids() const;
     double caption_height(double width, double letters) const;
+    void write_title(double left);
     double letters_of(double width) const;
     double score(const Grid& grid) const;
     struct Measures {
@@ -194,8 +179,10 @@ private:
     Measures measures(const Grid& grid) const;
     double drawn_step(const Subject& subject, double width, double height, double factor) const;
     double pen_factor(const SheetCell& cell, double width, double height) const;
+    void arrange_rows();
+    void arrange_slots();
     void lay_out(const Grid& grid, const Measures& m);
-    void place_drawings(const Measures& m);
+    void place_drawings();
     void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     void write_texts(double top, double bottom, PathSink& sink) const;
@@ -339,6 +326,13 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
     const double spare = height - m.title - headings * m.heading - rows * (m.caption + m.height);
     const double pitch_gap = rows > 1 ? std::min(spare / (rows - 1), std::max(1.6 * gap, gap + 0.2 * m.height)) : 0;
     m.down = m.height + m.caption + pitch_gap;
+    if (options_.gap) {
+        m.across = m.width + gap;
+        m.down = m.height + m.caption + gap;
+        m.first.x = page.margin + (width - (columns - 1) * m.across - m.width) / 2;
+        m.first.y = page.margin + m.title + std::max(0.0, spare - (rows - 1) * gap) * (m.title > 0 ? 0.3 : 0.5);
+        return m;
+    }
     m.first.x = page.margin + (width - (columns - 1) * m.across - m.width) / 2;
     m.first.y = page.margin + m.title + std::max(0.0, spare - (rows - 1) * pitch_gap) * (m.title > 0 ? 0.3 : 0.5);
     return m;
@@ -398,6 +392,47 @@ void Sheet::write_caption(const SheetCell& cell, const Window& window, double le
 }
 
 const Plan& Sheet::arrange() {
+    const auto has_slot = [](const SheetCell& cell) { return cell.slot.has_value(); };
+    if (std::all_of(cells_.begin(), cells_.end(), has_slot)) {
+        arrange_slots();
+    } else if (std::none_of(cells_.begin(), cells_.end(), has_slot)) {
+        arrange_rows();
+    } else {
+        throw std::runtime_error("some drawings have a place on the sheet; then all of them need one");
+    }
+    place_drawings();
+    check_inks();
+    return plan_;
+}
+
+/// Puts each cell where it is to be.
+void Sheet::arrange_slots() {
+    plan_.layout.columns = static_cast<int>(cells_.size());
+    plan_.layout.rows = 1;
+    write_title(options_.page.margin);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        PlacedCell cell;
+        cell.window = *cells_[i].slot;
+        cell.window.margin = border_margin * std::min(cell.window.width, cell.window.height);
+        plan_.layout.letters = letters_of(cell.window.width);
+        write_caption(cells_[i], cell.window, plan_.layout.letters);
+        plan_.layout.windows.push_back(cell.window);
+        plan_.cells.push_back(std::move(cell));
+        const auto overlaps = [&](const PlacedCell& other) {
+            const Window &a = other.window, &b = plan_.cells.back().window;
+            return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height &&
+                   b.top < a.top + a.height;
+        };
+        const auto last = plan_.cells.end() - 1;
+        const auto found = std::find_if(plan_.cells.begin(), last, overlaps);
+        if (is_vector(options_.format) || found == last) continue;
+        throw std::runtime_error(
+            fmt::format("the places of '{}' and '{}' overlap; pictures draw each on a ground of its own",
+                        cells_[static_cast<std::size_t>(found - plan_.cells.begin())].title, cells_[i].title));
+    }
+}
+
+void Sheet::arrange_rows() {
     const std::vector<Grid> all = grids();
     const Grid* best = nullptr;
     double most = 0;
@@ -416,27 +451,12 @@ const Plan& Sheet::arrange() {
     }
     const Measures m = measures(*best);
     lay_out(*best, m);
-    place_drawings(m);
-    check_inks();
-    return plan_;
 }
 
 /// Lays out texts and cells, without their drawings.
 void Sheet::lay_out(const Grid& grid, const Measures& m) {
     const Page& page = options_.page;
-    const double shorter = std::min(page.width, page.height);
-    if (!options_.title.empty()) {
-        const double room = page.width - 2 * page.margin;
-        double height = std::clamp(shorter * 0.032, 2.0, 40.0);
-        height = std::min(height, height * room / text_width(options_.title, height));
-        plan_.texts.push_back(
-            {options_.title, {m.first.x, page.margin + height}, height, text_pen(title_stem * height, false)});
-        const double small = height * 0.36;
-        plan_.texts.push_back({shortened(options_.subtitle, small, room),
-                               {m.first.x, page.margin + height + small * 2.4},
-                               small,
-                               text_pen(stem * small, true)});
-    }
+    write_title(m.first.x);
     plan_.layout.columns = grid.columns;
     plan_.layout.rows = static_cast<int>(grid.rows.size());
     plan_.layout.letters = m.letters;
@@ -467,14 +487,34 @@ void Sheet::lay_out(const Grid& grid, const Measures& m) {
     }
 }
 
+/// Writes the title above all cells.
+void Sheet::write_title(double left) {
+    const Page& page = options_.page;
+    const double shorter = std::min(page.width, page.height);
+    if (!options_.title.empty()) {
+        const double room = page.width - 2 * page.margin;
+        double height = std::clamp(shorter * 0.032, 2.0, 40.0);
+        height = std::min(height, height * room / text_width(options_.title, height));
+        plan_.texts.push_back(
+            {options_.title, {left, page.margin + height}, height, text_pen(title_stem * height, false)});
+        const double small = height * 0.36;
+        plan_.texts.push_back({shortened(options_.subtitle, small, room),
+                               {left, page.margin + height + small * 2.4},
+                               small,
+                               text_pen(stem * small, true)});
+    }
+}
+
 /// Places the drawings in their cells.
-void Sheet::place_drawings(const Measures& m) {
+void Sheet::place_drawings() {
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
-            steps[i] = cells_[i].placement.step
-                           ? *cells_[i].placement.step
-                           : drawn_step(subjects_[i], m.width, m.height, pen_factor(cells_[i], m.width, m.height));
+            const Window& window = plan_.cells[i].window;
+            const std::optional<double> fixed = subjects_[i].drawing->fixed_step();
+            steps[i] = fixed ? *fixed
+                             : drawn_step(subjects_[i], window.width, window.height,
+                                          pen_factor(cells_[i], window.width, window.height));
         });
         if (least.size() <= subjects_[i].row) least.push_back(steps[i]);
         least.back() = std::min(least.back(), steps[i]);
@@ -482,11 +522,12 @@ void Sheet::place_drawings(const Measures& m) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         PlacedCell& cell = plan_.cells[i];
         Print& print = cell.print;
-        const double factor = pen_factor(cells_[i], m.width, m.height);
+        const double width = cell.window.width, height = cell.window.height;
+        const double factor = pen_factor(cells_[i], width, height);
         print.style = subjects_[i].drawing->style();
         print.title = cells_[i].title;
         print.dpi = options_.dpi;
-        print.page = {m.width, m.height, 0.0};
+        print.page = {width, height, 0.0};
         PlacementOptions placement = subjects_[i].drawing->placement();
         placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
         print.page.height -= subjects_[i].drawing->foot_space(print.page);
@@ -496,7 +537,7 @@ void Sheet::place_drawings(const Measures& m) {
         const double widest = subjects_[i].extent.widest;
         double pen = widest * (print.style.stroke.in_steps ? *placement.step : factor);
         double thinner = print.style.stroke.in_steps ? 1.0 : factor;
-        const double widest_pen = widest_line * std::min(m.width, m.height);
+        const double widest_pen = widest_line * std::min(width, height);
         if (print.style.stroke.in_steps && pen > widest_pen) {
             thinner = widest_pen / pen;
             pen = widest_pen;
@@ -507,7 +548,7 @@ void Sheet::place_drawings(const Measures& m) {
             print.style.dots->size->value *= factor;
         }
         const glm::dvec2 size = subjects_[i].size * *placement.step + pen;
-        cell.window.clips = cells_[i].window || size.x > m.width || size.y > m.height;
+        cell.window.clips = cells_[i].window || size.x > width || size.y > height;
         print.press = options_.press;
         if (options_.format != PrintFormat::pdf) print = as_picture(print);
     }
@@ -545,15 +586,26 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     writer.finish();
 }
 
-/// The colour that shows where `upper` lies over `lower`.
-Colour over(Colour upper, Colour lower) {
-    const double a = upper.alpha / 255.0, b = lower.alpha / 255.0 * (1 - a);
-    if (!(a + b > 0)) return lower;
-    const auto mixed = [&](std::uint8_t u, std::uint8_t l) {
-        return static_cast<std::uint8_t>(std::lround((u * a + l * b) / (a + b)));
-    };
-    return {mixed(upper.red, lower.red), mixed(upper.green, lower.green), mixed(upper.blue, lower.blue),
-            static_cast<std::uint8_t>(std::lround((a + b) * 255))};
+DrawReport Sheet::write_plot(Output& output) const {
+    std::vector<PlacedDrawing> drawings;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        drawings.push_back({subjects_[i].drawing.get(), &plan_.cells[i].print, plan_.cells[i].window});
+    }
+    DrawOptions options;
+    options.format = options_.format;
+    options.plot = options_.plot;
+    options.shows_travel = options_.shows_travel;
+    options.gcode = options_.gcode;
+    options.hpgl = options_.hpgl;
+    options.monitor = options_.monitor;
+    const SheetDrawing all(
+        std::move(drawings), print_, [this](PathSink& sink) { write_texts(0.0, options_.page.height, sink); },
+        options);
+    Print print = print_;
+    print.style = all.style();
+    DrawReport report;
+    draw_plot(all, print, options, output, report);
+    return report;
 }
 
 /// The rows of the sheet, cut between the rows of its cells.
@@ -589,33 +641,6 @@ std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
     return strips;
 }
 
-/// Copies the rows of a raster that lie in the band to their place.
-/// @param left, top, height  where on the sheet the raster lies, in pixels
-void render(const Rendering& raster, int left, int top, int height, int channels, std::size_t stride,
-            SheetBand& band) {
-    constexpr int step = 128;  // as render_rows() wants it
-    const int first = std::max(0, band.top - top) / step * step;
-    const int end = std::min(height, (band.bottom - top + step - 1) / step * step);
-    if (first >= end) return;
-    raster.render_rows(first, end, channels, [&](int from, int rows, std::span<const std::uint8_t> part) {
-        const std::size_t bytes = part.size() / static_cast<std::size_t>(rows);
-        for (int row = 0; row < rows; ++row) {
-            const int at = top + from + row - band.top;
-            if (at < 0 || at >= band.bottom - band.top) continue;
-            std::memcpy(band.pixels.data() + static_cast<std::size_t>(at) * stride +
-                            static_cast<std::size_t>(left) * static_cast<std::size_t>(channels),
-                        part.data() + static_cast<std::size_t>(row) * bytes, bytes);
-        }
-    });
-}
-
-/// Keeps one channel of grey pixels.
-void keep_first_channel(std::vector<std::uint8_t>& pixels, int channels) {
-    const std::size_t count = pixels.size() / static_cast<std::size_t>(channels);
-    for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i * static_cast<std::size_t>(channels)];
-    pixels.resize(count);
-}
-
 void Sheet::write_pixels(Output& output, const std::filesystem::path& file) const {
     const PixelSize size = pixel_size(options_.page, options_.dpi);
     const double millimetre = options_.dpi / 25.4;
@@ -645,7 +670,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
         for (int top = strip.top; top < strip.bottom; top += rows) {
             SheetBand band{top, std::min(top + rows, strip.bottom), {}};
             band.pixels.resize(stride * static_cast<std::size_t>(band.bottom - band.top));
-            render(*texts, 0, strip.top, strip.bottom - strip.top, channels, stride, band);
+            render_part(*texts, 0, strip.top, strip.bottom - strip.top, channels, stride, band);
             readers.execute([&] {
                 oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
                     const CellPicture& cell = strip.cells[i];
@@ -655,7 +680,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
                             rasters[i] = subjects_[cell.cell].drawing->rendering(cell.print);
                             rasters[i]->watch([&] { watch(0); });
                         }
-                        render(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
+                        render_part(*rasters[i], cell.left, cell.top, cell.bottom - cell.top, channels, stride, band);
                     });
                     if (cell.bottom <= band.bottom) rasters[i].reset();
                 });
@@ -712,10 +737,12 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
     if (!is_vector(options.format)) prepare_images(options.threads);
     return on_threads(options.threads, [&] {
         Sheet sheet(cells, options);
-        const Plan& plan = sheet.arrange();
+        SheetLayout layout = sheet.arrange().layout;
         const auto opened = destination.open(file);
         Output& output = *opened;
-        if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
+        if (options.plot || is_for_plotters(options.format)) {
+            layout.plot = sheet.write_plot(output).plot;
+        } else if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
             const auto writer = options.format == PrintFormat::svg ? write_svg(sheet.print(), output)
                                                                    : write_pdf(sheet.print(), output);
             sheet.write_vectors(*writer);
@@ -723,7 +750,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
             sheet.write_pixels(output, file);
         }
         output.commit();
-        return plan.layout;
+        return layout;
     });
 }
 
@@ -738,7 +765,7 @@ double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& opt
             kept += cost.kept_memory;
         });
     }
-    if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) return kept;
+    if (is_vector(options.format)) return kept;
     const PixelSize size = pixel_size(options.page, options.dpi);
     const double stride = 3.0 * size.width;
     const double shape = options.page.height / options.page.width;

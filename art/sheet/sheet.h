@@ -18,12 +18,15 @@ namespace sikku {
 /// One drawing of a sheet. It fills its cell, on its own ground, in its own style. Widths in millimetres are meant
 /// for an A4 page, and are scaled with the drawing, but lines are not thinned below 0.1 mm. Rotation, mirroring and
 /// step of the placement are used; `scale` is ignored.
+/// Cells either all have slots, or are laid out in rows.
 struct SheetCell : DrawingOptions {
     std::shared_ptr<const Grammar> grammar;
     Style style;
-    std::string title;                 ///< title of its layers
-    std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
-    std::string heading;               ///< if not empty, begins a row under this heading
+    std::string title;                  ///< title of its layers
+    std::vector<std::string> caption;   ///< paragraphs, the first of them in larger letters
+    std::string heading;                ///< if not empty, begins a row under this heading
+    std::optional<Window> slot;         ///< place on the sheet, in millimetres; absent: in the rows of the sheet
+    std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
 };
 
 struct SheetOptions {
@@ -36,7 +39,7 @@ struct SheetOptions {
     std::string title;                                             ///< above all cells; empty: none
     std::string subtitle;                                          ///< under it
     int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
-    std::optional<double> gap;  ///< millimetres between cells; absent: a tenth of their width
+    std::optional<double> gap;  ///< millimetres between cells, exactly; absent: about a tenth of their width
     double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell
     std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
     std::size_t caption_lines = 5;    ///< maximum number of lines of a caption; longer ones end in `…`
@@ -45,10 +48,14 @@ struct SheetOptions {
     std::string pattern;              ///< text stored in the file, so that it can be made again
     std::string made;                 ///< recipe stored in the file
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
-    int threads = 0;                  ///< 0: all cores
-    int compression = 6;              ///< PNG compression, 1 (fast) to 9 (small)
-    double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
-    Monitor monitor = {};             ///< polled in long stages that read no words
+    std::optional<PlotOptions> plot;  ///< arrange the lines of SVG and PDF for a plotter; see DrawOptions::plot
+    bool shows_travel = false;        ///< draw pen-up travel of the plot in a separate layer
+    GcodeOptions gcode;
+    HpglOptions hpgl;
+    int threads = 0;       ///< 0: all cores
+    int compression = 6;   ///< PNG compression, 1 (fast) to 9 (small)
+    double memory = 0;     ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};  ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
@@ -59,14 +66,17 @@ struct SheetLayout {
     int rows = 0;
     std::vector<Window> windows;  ///< windows of the cells, in their order
     double letters = 0.0;         ///< height of a caption's capitals
+    std::optional<PlotReport> plot;
 };
 
 /// Draws the sheet into `file`, which appears whole or not at all; the same cells give the same bytes. Windows and,
 /// in pictures, words of any order are handled as in draw(). Pictures are made row by row: memory holds the pixels of
 /// one row and, for each thread, one drawing, as Raster keeps it. If that exceeds the memory of the options, a row is
 /// made in bands, with all its drawings in memory; the bytes are the same.
+/// Plots (HP-GL, G-code, or with plot options) hold the lines and fills of all cells, without their grounds.
 /// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; std::runtime_error if
-/// there are no cells, the cells do not fit, memory is insufficient, or the file cannot be written
+/// there are no cells, the cells do not fit, slots overlap in a picture, memory is insufficient, or the file cannot
+/// be written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file, Destination& destination = file_system());
 

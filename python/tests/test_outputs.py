@@ -16,6 +16,18 @@ from conftest import Run
 NAMES = [pattern.name for pattern in sikku.patterns()]
 
 
+def test_a_sheet_is_that_of_the_program(tmp_path: Path, run: Run) -> None:
+    snake = sikku.load("snake-kolam")
+    koch = sikku.load("koch-curve")
+    ours, theirs = tmp_path / "ours.svg", tmp_path / "theirs.svg"
+    sikku.sheet(ours, (snake, {"dots": True, "border": "rope"}), koch, columns=2, gutter="20mm", same_scale=True)
+    command = ["sheet", "snake-kolam@dots,border=rope", "koch-curve", "--columns", "2", "--gutter", "20mm"]
+    assert run(*command, "--same-scale", "-o", str(theirs)).returncode == 0
+    assert ours.read_bytes() == theirs.read_bytes()
+    with pytest.raises(sikku.SettingError):
+        sikku.sheet(ours, snake, nonsense=1)
+
+
 def test_patterns_are_those_of_the_program(run: Run) -> None:
     assert NAMES == run("patterns", "--names").stdout.decode().split()
     hilbert = next(pattern for pattern in sikku.patterns() if pattern.name == "hilbert")

@@ -62,6 +62,8 @@ export function thumbnailOptions(draw: Work["draw"]): Options {
         "step",
         "window",
         "border",
+        "title-line",
+        "edition",
         "budget",
         "dot-spacing",
         "generations",

@@ -21,7 +21,7 @@ from sikku.errors import (
     WordError,
 )
 from sikku.lib import _core
-from sikku.pattern import Module, Notes, Path, Pattern, PatternInfo, load, patterns
+from sikku.pattern import Module, Notes, Path, Pattern, PatternInfo, load, patterns, sheet
 
 __version__: str = _core.version
 
@@ -42,4 +42,5 @@ __all__ = [
     "WordError",
     "load",
     "patterns",
+    "sheet",
 ]

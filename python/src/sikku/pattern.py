@@ -333,6 +333,26 @@ def _shared_settings(n: Optional[int], seed: Optional[int]) -> Texts:
     return texts
 
 
+def sheet(path: PathName, *drawings: Union[Pattern, tuple[Pattern, dict[str, Value]]], **options: Value) -> list[str]:
+    """Draws several patterns on one page; the extension of `path` selects the format.
+
+    drawings: patterns, or pairs of a pattern and options of its own: `(kolam, {"border": "rope", "x": "20mm"})`.
+    options: those of `sikku sheet`: `columns=2`, `gutter="20mm"`, `dots=True`, `size="A2"`, …
+
+    Returns facts about the output. Warnings are issued as SikkuWarning. Raises SettingError, PatternError,
+    BudgetError, WordError, and Error if a drawing has no room or the file cannot be written.
+    """
+    items = [one if isinstance(one, tuple) else (one, {}) for one in drawings]
+    _, format = _format_of(os.fsdecode(path))
+    remarks = _core.write_sheet(
+        [(pattern._document, to_options("prints", own)) for pattern, own in items],
+        format,
+        to_options("sheet", options),
+        os.fsencode(path),
+    )
+    return _warn(remarks)
+
+
 def load(
     pattern: Optional[PathName] = None,
     *,

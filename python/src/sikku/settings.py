@@ -48,9 +48,8 @@ def _keys() -> frozenset[str]:
 @functools.lru_cache(maxsize=None)
 def _options(interpreter: str) -> dict[str, tuple[bool, bool]]:
     """For the name of each option: whether it may be repeated, and whether its value may be omitted."""
-    return {
-        name: (is_list, value.startswith("[")) for name, is_list, _, value, _ in _core.options(interpreter)
-    }
+    rows = _core.options("prints") + _core.sheet_options() if interpreter == "sheet" else _core.options(interpreter)
+    return {name: (is_list, value.startswith("[")) for name, is_list, _, value, _ in rows}
 
 
 def _key_name(name: str) -> str:
@@ -65,7 +64,7 @@ def to_settings(values: dict[str, Value]) -> Texts:
 
 
 def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
-    """Options of an interpreter, keys and defines with the texts of their values."""
+    """Options of an interpreter (or of a `sheet`), keys and defines with the texts of their values."""
     known = _options(interpreter)
     texts: Texts = []
     for name, value in values.items():

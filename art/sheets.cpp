@@ -1,0 +1,352 @@
+#include "art/sheets.h"
+
+#include "art/draw_settings.h"
+#include "art/image/image_file.h"
+#include "art/plot_remarks.h"
+#include "art/print_cell.h"
+#include "art/prints.h"
+#include "art/sheet/sheet.h"
+#include "art/style/length.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+enum class Titles { none, title, caption };
+
+struct SheetSettings {
+    double dpi = 300.0;
+    int columns = 0;
+    std::optional<double> gutter;
+    Titles titles = Titles::none;
+    bool same_scale = false;
+    std::string heading, subheading;
+    std::optional<Colour> ground;
+    bool has_ground = false;
+};
+
+/// Where a drawing is, in millimetres.
+struct PlaceSettings {
+    double dpi = 300.0;
+    std::optional<double> x, y, width, height;
+    std::optional<std::string> title;
+};
+
+double length(const char* option, const std::string& text, double dpi, double least) {
+    const auto value = parse_length(text, dpi);
+    if (!value || !(*value >= least && *value <= 10'000)) {
+        refuse_option(option, text,
+                      fmt::format("expected a length {}, at most 10 m",
+                                  least > 0 ? "of at least 1mm" : "such as 20mm, 0 or more"));
+    }
+    return *value;
+}
+
+using S = SheetSettings;
+using P = PlaceSettings;
+using Text = const std::string&;
+using enum OptionKind;
+
+const std::array sheet_rows = {
+    Option<S>{{.name = "columns",
+               .help = "number of columns (the number for which the drawings are largest)",
+               .value = "N",
+               .kind = whole,
+               .least = 1,
+               .most = 1000},
+              [](S& s, Text t) { s.columns = static_cast<int>(to_number(t)); }},
+    Option<S>{
+        {.name = "gutter", .help = "space between the drawings (about a tenth of their width)", .value = "LENGTH"},
+        [](S& s, Text t) { s.gutter = length("gutter", t, s.dpi, 0); }},
+    Option<S>{{.name = "titles",
+               .help = "text below each drawing: none, its title, or a caption with its productions (none)",
+               .value = "none|title|caption"},
+              [](S& s, Text t) {
+                  const std::array<std::pair<const char*, Titles>, 3> known = {
+                      {{"none", Titles::none}, {"title", Titles::title}, {"caption", Titles::caption}}};
+                  for (const auto& [name, titles] : known) {
+                      if (t == name) return void(s.titles = titles);
+                  }
+                  refuse_option("titles", t, "expected none, title or caption");
+              }},
+    Option<S>{
+        {.name = "same-scale",
+         .help = "draw all in one scale, in which the largest fills its place, instead of each as large as fits",
+         .kind = flag},
+        [](S& s, Text t) { s.same_scale = t == "true"; }},
+    Option<S>{{.name = "heading", .help = "title of the sheet, above the drawings", .value = "TEXT"},
+              [](S& s, Text t) { s.heading = t; }},
+    Option<S>{{.name = "subheading", .help = "smaller line below the heading", .value = "TEXT"},
+              [](S& s, Text t) { s.subheading = t; }},
+    Option<S>{{.name = "sheet-ground",
+               .help = "colour between the drawings, or none (that of the drawings if they share one, or paper)",
+               .value = "COLOUR"},
+              [](S& s, Text t) {
+                  s.has_ground = true;
+                  if (lower_case(trimmed(t)) == "none") return;
+                  s.ground = parse_colour(trimmed(t));
+                  if (!s.ground)
+                      refuse_option("sheet-ground", t, "expected a colour such as navy or #8c3b2a, or none");
+              }},
+};
+
+const std::array place_rows = {
+    Option<P>{{.name = "x", .help = "distance of its place from the left edge of the sheet", .value = "LENGTH"},
+              [](P& p, Text t) { p.x = length("x", t, p.dpi, 0); }},
+    Option<P>{{.name = "y", .help = "distance of its place from the top edge", .value = "LENGTH"},
+              [](P& p, Text t) { p.y = length("y", t, p.dpi, 0); }},
+    Option<P>{{.name = "width", .help = "width of its place (up to the right margin)", .value = "LENGTH"},
+              [](P& p, Text t) { p.width = length("width", t, p.dpi, 1); }},
+    Option<P>{{.name = "height", .help = "height of its place (up to the bottom margin)", .value = "LENGTH"},
+              [](P& p, Text t) { p.height = length("height", t, p.dpi, 1); }},
+    Option<P>{{.name = "title", .help = "title of the drawing, instead of the pattern's", .value = "TEXT"},
+              [](P& p, Text t) { p.title = t; }},
+};
+
+template <typename Rows>
+std::vector<const OptionInfo*> infos(const Rows& rows) {
+    std::vector<const OptionInfo*> list;
+    for (const auto& row : rows) list.push_back(&row.info);
+    return list;
+}
+
+/// Values of the options in a table; the rest stays.
+OptionValues take(OptionValues& values, std::span<const OptionInfo* const> table) {
+    OptionValues taken;
+    for (const OptionValue& value : values) {
+        if (find_option(table, value.name)) taken.push_back(value);
+    }
+    std::erase_if(values, [&](const OptionValue& value) { return find_option(table, value.name); });
+    return taken;
+}
+
+/// Options of prints that a sheet cannot have.
+void refuse_alone(const OptionValues& values) {
+    for (const OptionValue& value : values) {
+        if (value.name == "tile" || value.name == "overlap") {
+            refuse_option(value.name, "", "a sheet of several drawings cannot be cut into tiles");
+        }
+        if (value.name == "window") refuse_option("window", "", "a place on a sheet shows a whole drawing");
+        for (const char* growth : {"generations", "frames", "frame-time", "hold", "fit-frames"}) {
+            if (value.name == growth)
+                refuse_option(growth, "", "a sheet shows one derivation length of each drawing");
+        }
+    }
+}
+
+/// Settings that the sheet and its prints share.
+struct Shared {
+    SheetSettings sheet;
+    DrawSettings page;
+    OptionValues cells;  ///< options of each drawing
+};
+
+Shared read_shared(OptionValues values) {
+    Shared shared;
+    refuse_alone(values);
+    const OptionValues own = take(values, sheet_options());
+    OptionValues wide;
+    for (OptionValue& value : values) (is_sheet_wide(value.name) ? wide : shared.cells).push_back(value);
+    check_names(prints().options(), shared.cells);
+    shared.page = read_draw_settings(wide);
+    shared.sheet.dpi = shared.page.dpi;
+    apply_options(std::span<const Option<S>>(sheet_rows), own, shared.sheet);
+    return shared;
+}
+
+PrintFormat known_format(std::string_view name) {
+    const auto format = named_format(name);
+    if (!format || info(*format).kind == FormatKind::animation || info(*format).kind == FormatKind::model) {
+        refuse_option("format", std::string(name), "a sheet is SVG, PDF, a picture, HP-GL or G-code");
+    }
+    return *format;
+}
+
+/// A planned sheet.
+class SheetWork : public Work {
+public:
+    SheetWork(const std::vector<SheetItem>& items, std::string_view format, const OptionValues& values,
+              const std::filesystem::path& folder)
+        : format_(known_format(format)), shared_(read_shared(values)) {
+        if (items.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
+        DrawSettings& page = shared_.page;
+        if (!page.press.cmyk.empty()) page.press.cmyk = folder / page.press.cmyk;
+        check_draw_settings(page, format_);
+        for (const SheetItem& item : items) add_cell(item, folder);
+        set_options(items);
+    }
+
+    Cost forecast() const override {
+        Cost cost;
+        cost.memory = sheet_memory(cells_, options_);
+        return cost;
+    }
+
+    Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
+              int threads) override {
+        if (!options_.press.cmyk.empty()) check_cmyk_profile(options_.press.cmyk);
+        SheetOptions options = options_;
+        if (threads > 0) options.threads = threads;
+        options.monitor = monitor;
+        options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
+        Made made;
+        const SheetLayout layout = draw_sheet(cells_, options, name, destination);
+        if (layout.plot) report_plot(*layout.plot, shared_.page.speeds, made);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            if (layout.windows[i].clips) {
+                made.warn(fmt::format("'{}' is larger than its place and is cut off", cells_[i].title));
+            }
+        }
+        return made;
+    }
+
+private:
+    void add_cell(const SheetItem& item, const std::filesystem::path& folder) {
+        OptionValues own = item.values;
+        PlaceSettings place;
+        place.dpi = shared_.page.dpi;
+        apply_options(std::span<const Option<P>>(place_rows), take(own, place_options()), place);
+        refuse_alone(own);
+        for (const OptionValue& value : own) {
+            if (is_sheet_wide(value.name)) {
+                refuse_option(value.name, value.text, "applies to the whole sheet, not to one drawing");
+            }
+        }
+        Assignment assigned = assign(prints(), item.document, own);
+        OptionValues values = shared_.cells;
+        std::erase_if(values, [&](const OptionValue& value) {
+            return std::any_of(assigned.options.begin(), assigned.options.end(),
+                               [&](const OptionValue& other) { return other.name == value.name; });
+        });
+        values.insert(values.end(), assigned.options.begin(), assigned.options.end());
+        values.push_back({"dpi", fmt::format("{}", shared_.page.dpi)});
+        const DrawSettings settings = read_draw_settings(values);
+        check_draw_settings(settings, format_);
+        const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
+        SheetCell cell = print_cell(document, settings, folder);
+        cell.dot_spacing = settings.dot_spacing;
+        if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
+        if (place.title) cell.title = *place.title;
+        if (shared_.sheet.titles == Titles::title || (place.title && shared_.sheet.titles == Titles::none)) {
+            cell.caption = {cell.title};
+        } else if (shared_.sheet.titles == Titles::caption) {
+            cell.caption = caption_of(*cell.grammar, cell.title, document.pattern());
+        }
+        set_slot(place, cell);
+        cells_.push_back(std::move(cell));
+    }
+
+    void set_slot(const PlaceSettings& place, SheetCell& cell) const {
+        if (!place.x && !place.y) {
+            if (place.width) refuse_option("width", "", "needs 'x' and 'y'");
+            if (place.height) refuse_option("height", "", "needs 'x' and 'y'");
+            return;
+        }
+        const Page& page = shared_.page.page;
+        Window slot;
+        slot.left = place.x.value_or(page.margin);
+        slot.top = place.y.value_or(page.margin);
+        slot.width = place.width.value_or(page.width - page.margin - slot.left);
+        slot.height = place.height.value_or(page.height - page.margin - slot.top);
+        if (!(slot.width >= 1 && slot.height >= 1 && slot.left + slot.width <= page.width + 1e-9 &&
+              slot.top + slot.height <= page.height + 1e-9)) {
+            throw SettingError(place.x ? "x" : "y", "",
+                               fmt::format("the place of '{}' does not lie on the sheet of {:g} x {:g} mm",
+                                           cell.title, page.width, page.height));
+        }
+        cell.slot = slot;
+    }
+
+    void set_options(const std::vector<SheetItem>& items) {
+        const DrawSettings& page = shared_.page;
+        options_.format = format_;
+        options_.page = page.page;
+        options_.dpi = page.dpi;
+        options_.title = shared_.sheet.heading;
+        options_.subtitle = shared_.sheet.subheading;
+        options_.columns = shared_.sheet.columns;
+        options_.gap = shared_.sheet.gutter;
+        options_.same_scale = shared_.sheet.same_scale;
+        options_.press = page.press;
+        options_.animation = page.animation;
+        options_.threads = page.threads;
+        options_.compression = page.compression;
+        const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
+            return item.document.source().text() == items.front().document.source().text();
+        });
+        // Several patterns are not one.
+        if (is_one) options_.pattern = items.front().document.source().text();
+        options_.made = fmt::format("sikku {}, sheet of {}", SIKKU_VERSION, counted(items.size(), "drawing"));
+        set_ground();
+        if (!page.plotter && !is_for_plotters(format_)) return;
+        PlotOptions& plot = options_.plot.emplace();
+        plot.split = page.split;
+        plot.hatch = page.hatch;
+        plot.pen_width = page.pen_width;
+        plot.pens = page.pens;
+        options_.hpgl.paper = page.paper;
+        options_.shows_travel = page.travel;
+        options_.gcode = page.gcode;
+    }
+
+    /// One ground under all drawings if they share it; texts stand out from it.
+    void set_ground() {
+        const std::optional<Colour> first = cells_.front().style.ground;
+        const bool is_shared = std::all_of(cells_.begin(), cells_.end(),
+                                           [&](const SheetCell& cell) { return cell.style.ground == first; });
+        if (shared_.sheet.has_ground) {
+            options_.ground = shared_.sheet.ground;
+        } else if (is_shared) {
+            options_.ground = first;
+        }
+        if (options_.ground && options_.ground->alpha > 0 && lightness(*options_.ground) < 0.6) {
+            options_.ink = {0xff, 0xfa, 0xf0, 255};
+            options_.pale_ink = {0xe6, 0xd8, 0xc8, 255};
+        }
+    }
+
+    PrintFormat format_;
+    Shared shared_;
+    std::vector<SheetCell> cells_;
+    SheetOptions options_;
+};
+
+}  // namespace
+
+std::span<const OptionInfo* const> sheet_options() {
+    static const std::vector<const OptionInfo*> table = infos(sheet_rows);
+    return table;
+}
+
+std::span<const OptionInfo* const> place_options() {
+    static const std::vector<const OptionInfo*> table = infos(place_rows);
+    return table;
+}
+
+bool is_sheet_wide(std::string_view option) {
+    constexpr std::array<std::string_view, 6> page = {"size", "landscape", "margin", "animate", "plotter", "dpi"};
+    constexpr std::array<std::string_view, 3> groups = {"Plotters", "Press", "Pictures"};
+    const OptionInfo* row = find_option(prints().options(), option);
+    return std::find(page.begin(), page.end(), option) != page.end() ||
+           (row && std::find(groups.begin(), groups.end(), row->group) != groups.end());
+}
+
+void check_sheet(std::string_view format, const OptionValues& values) {
+    const Shared shared = read_shared(values);
+    check_draw_settings(shared.page, known_format(format));
+    check_draw_settings(read_draw_settings(shared.cells), known_format(format));
+}
+
+std::unique_ptr<Work> plan_sheet(const std::vector<SheetItem>& items, std::string_view format,
+                                 const OptionValues& values, const std::filesystem::path& folder) {
+    return std::make_unique<SheetWork>(items, format, values, folder);
+}
+
+}  // namespace sikku

@@ -1,0 +1,79 @@
+// tests/program/sheet_test.cpp: runs `sikku sheet`, and draws with borders, repeats and lines of text.
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+class SheetProgram : public ::testing::Test {
+protected:
+    SheetProgram() {
+        here_.folder = folder_.path();
+        folder_.write("a.lsys",
+                      "title: A\naxiom: F-F-F-F\nF --> F-F+F\nderivation length: 1\nstroke: 0.2 step navy\n");
+        folder_.write("with@sign.lsys", "axiom: F+F\n");
+    }
+    Outcome sheet(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "sheet");
+        return run(arguments, here_);
+    }
+    void expect_mistake(const std::vector<std::string>& arguments, const std::string& part) {
+        const Outcome outcome = sheet(arguments);
+        EXPECT_EQ(outcome.status, 2) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, part)) << outcome.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "x.svg"));
+    }
+    ScratchFolder folder_;
+    Surroundings here_;
+};
+
+TEST_F(SheetProgram, WritesEveryFormat) {
+    for (const char* format : {"svg", "pdf", "png", "tif", "jpg", "exr", "hpgl", "gcode"}) {
+        const std::string file = std::string("x.") + format;
+        const Outcome outcome = sheet({"a.lsys@n=2,border=rope,rotate=30", "with@sign.lsys",
+                                       "snake-kolam@repeat=ring:3,gap=5%,dots", "--columns", "2", "--gutter", "9mm",
+                                       "--titles", "title", "--heading", "All", "--dpi", "40", "-o", file});
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        EXPECT_GT(std::filesystem::file_size(folder_ / file), 500u);
+    }
+}
+
+TEST_F(SheetProgram, ReportsMistakes) {
+    expect_mistake({"a.lsys@sise=3", "-o", "x.svg"}, "sise");
+    expect_mistake({"a.lsys@size=A3", "-o", "x.svg"}, "--size A3: applies to the whole sheet");
+    expect_mistake({"a.lsys@x=-3mm", "-o", "x.svg"}, "--x -3mm: expected a length");
+    expect_mistake({"a.lsys@border=kavi", "-o", "x.svg"}, "expected kaavi, padi, lotus, rope, diamonds, waves");
+    expect_mistake({"a.lsys", "--repeat", "p5", "-o", "x.svg"}, "p31m");
+    expect_mistake({"a.lsys", "--columns", "0", "-o", "x.svg"}, "--columns");
+    expect_mistake({"a.lsys", "-o", "x.gif"}, "a sheet is SVG");
+    expect_mistake({"a.lsys", "-o", "x.txt"}, "expected a file of SVG");
+    expect_mistake({"no-such-pattern", "-o", "x.svg"}, "no-such-pattern");
+}
+
+TEST_F(SheetProgram, BordersAndLinesOfTextComeFromThePattern) {
+    folder_.write("tooth.lsys", "axiom: +F--F\nangle increment: 45\nstroke: 0.1 step lime\n");
+    folder_.write("b.lsys", "title: Framed\naxiom: F+F+F+F\nborder: tooth.lsys\nstroke: 1mm navy\n");
+    const auto draw = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"draw", "b.lsys", "-o", "b.svg"});
+        const Outcome outcome = run(more, here_);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return contents(folder_ / "b.svg");
+    };
+    EXPECT_TRUE(has(draw({}), "#00ff00"));
+    EXPECT_FALSE(has(draw({"--border", "none"}), "#00ff00"));
+    EXPECT_FALSE(has(draw({"--border", "lotus"}), "#00ff00"));
+    EXPECT_FALSE(has(draw({"--window", "0,0,1,1"}), "#00ff00"));
+    const std::string plain = draw({"--border", "none"});
+    EXPECT_GT(draw({"--border", "none", "--title-line"}).size(), plain.size() + 300);
+    EXPECT_GT(draw({"--border", "none", "--edition", "3/50"}).size(), plain.size() + 200);
+    EXPECT_EQ(run({"draw", "b.lsys", "-o", "b.glb"}, here_).status, 0);
+    EXPECT_EQ(run({"draw", "b.lsys", "-o", "b.svg", "--border", "pipe.lsys"}, here_).status, 2);
+}
+
+}  // namespace
+}  // namespace sikku
