@@ -277,7 +277,9 @@ private:
         options_.press = page.press;
         options_.animation = page.animation;
         options_.threads = page.threads;
-        options_.compression = page.compression;
+        const bool has_hand =
+            std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return cell.style.hand > 0; });
+        options_.compression = page.compression.value_or(has_hand ? 4 : 6);
         const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
             return item.document.source().text() == items.front().document.source().text();
         });
