@@ -46,8 +46,8 @@ std::vector<Window> grounds(const std::string& svg) {
         const pugi::xml_node rect = found.node();
         // The sheet's own ground has the size of the page.
         if (rect.attribute("x").empty() && rect.attribute("y").empty()) continue;
-        windows.push_back({rect.attribute("x").as_double() / 1000, rect.attribute("y").as_double() / 1000,
-                           rect.attribute("width").as_double() / 1000, rect.attribute("height").as_double() / 1000});
+        windows.push_back({rect.attribute("x").as_double(), rect.attribute("y").as_double(),
+                           rect.attribute("width").as_double(), rect.attribute("height").as_double()});
     }
     return windows;
 }

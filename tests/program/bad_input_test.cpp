@@ -553,7 +553,7 @@ TEST(BadInput, PagesAndLengths) {
         expect_refused(run({"draw", "hilbert", "-o", folder.file("x.svg"), option, value}), 2, option);
     };
     for (const char* size : {"0mm", "0x0mm", "0x300mm", "10kmx10km", "10km", "10000000x10000000mm", "-5x5mm",
-                             "nanxnanmm", "infxinfmm", "1e400x1mm", "A9", "", "x", "mm", "10001x1mm", "0.5x5mm"}) {
+                             "nanxnanmm", "infxinfmm", "1e400x1mm", "A11", "", "x", "mm", "10001x1mm", "0.5x5mm"}) {
         with("--size", size);
     }
     for (const char* step : {"nan", "inf", "nanmm", "-1mm", "0", "0mm", "1e308mm", "", "mm", "5km"}) {

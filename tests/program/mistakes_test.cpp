@@ -44,7 +44,7 @@ TEST_F(Mistakes, WordsOfTheCommandLine) {
          "PATTERN is missing: 'mine.lsys' was read as the value of --dots; put PATTERN first, or write --dots=…"},
         {{"draw", "mine.lsys", "--dots", "2mm", "white", "-o", "m.svg"},
          "unexpected argument 'white'; quote a value with blanks: --dots='2mm white'"},
-        {{"draw", "mine.lsys", "--border", "-o", "m.svg"}, "--border needs a value: kaavi"},
+        {{"draw", "mine.lsys", "--border", "-o", "m.svg"}, "--border needs a value: NAME"},
         {{"draw", "mine.lsys", "-o"}, "-o needs a value: FILE"},
         {{"draw", "mine.lsys", "--dots", "-x", "-o", "m.svg"}, "unknown option '-x'"},
         {{"draw", "mine.lsys", "--size", "A4", "--size", "A3", "-o", "m.svg"}, "--size is given twice"},
