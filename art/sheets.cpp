@@ -148,14 +148,15 @@ struct Shared {
     OptionValues cells;  ///< options of each drawing
 };
 
-Shared read_shared(OptionValues values) {
+/// @param folder  of the file that describes a plotter; null: it is not read
+Shared read_shared(OptionValues values, const std::filesystem::path* folder = nullptr) {
     Shared shared;
     refuse_alone(values);
     const OptionValues own = take(values, sheet_options());
     OptionValues wide;
     for (OptionValue& value : values) (is_sheet_wide(value.name) ? wide : shared.cells).push_back(value);
     check_names(prints().options(), shared.cells);
-    shared.page = read_draw_settings(wide);
+    shared.page = read_draw_settings(wide, folder);
     shared.sheet.dpi = shared.page.dpi;
     apply_options(std::span<const Option<S>>(sheet_rows), own, shared.sheet);
     return shared;
@@ -174,7 +175,7 @@ class SheetWork : public Work {
 public:
     SheetWork(const std::vector<SheetItem>& items, std::string_view format, const OptionValues& values,
               const std::filesystem::path& folder)
-        : format_(known_format(format)), shared_(read_shared(values)) {
+        : format_(known_format(format)), shared_(read_shared(values, &folder)) {
         if (items.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
         DrawSettings& page = shared_.page;
         if (!page.press.cmyk.empty()) page.press.cmyk = folder / page.press.cmyk;
@@ -288,14 +289,12 @@ private:
         options_.made = fmt::format("sikku {}, sheet of {}", SIKKU_VERSION, counted(items.size(), "drawing"));
         set_ground();
         if (!page.plotter && !is_for_plotters(format_)) return;
-        PlotOptions& plot = options_.plot.emplace();
-        plot.split = page.split;
-        plot.hatch = page.hatch;
-        plot.pen_width = page.pen_width;
-        plot.pens = page.pens;
-        options_.hpgl.paper = page.paper;
+        PlotSetup setup = plot_setup(page, format_);
+        options_.plot = std::move(setup.plot);
         options_.shows_travel = page.travel;
-        options_.gcode = page.gcode;
+        options_.gcode = std::move(setup.gcode);
+        options_.hpgl = std::move(setup.hpgl);
+        options_.layer_codes = setup.layer_codes;
     }
 
     /// One ground under all drawings if they share it; texts stand out from it.

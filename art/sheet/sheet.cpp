@@ -598,6 +598,7 @@ DrawReport Sheet::write_plot(Output& output) const {
     options.shows_travel = options_.shows_travel;
     options.gcode = options_.gcode;
     options.hpgl = options_.hpgl;
+    options.layer_codes = options_.layer_codes;
     options.monitor = options_.monitor;
     const SheetDrawing all(
         std::move(drawings), print_, [this](PathSink& sink) { write_texts(0.0, options_.page.height, sink); },

@@ -52,10 +52,11 @@ struct SheetOptions {
     bool shows_travel = false;        ///< draw pen-up travel of the plot in a separate layer
     GcodeOptions gcode;
     HpglOptions hpgl;
-    int threads = 0;       ///< 0: all cores
-    int compression = 6;   ///< PNG compression, 1 (fast) to 9 (small)
-    double memory = 0;     ///< bytes for the pixels and cells of a picture at a time; 0: no limit
-    Monitor monitor = {};  ///< polled in long stages that read no words
+    LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
+    int threads = 0;           ///< 0: all cores
+    int compression = 6;       ///< PNG compression, 1 (fast) to 9 (small)
+    double memory = 0;         ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};      ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
