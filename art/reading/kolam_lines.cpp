@@ -274,7 +274,7 @@ public:
                 const std::size_t cell = stack.back();
                 stack.pop_back();
                 ++face.cells;
-                face.sum += glm::dvec2(static_cast<double>(cell % width_), static_cast<double>(cell / width_));
+                face.sum += glm::dvec2(cell % width_, cell / width_);
                 for (const std::size_t next : {cell - 1, cell + 1, cell - width_, cell + width_}) {
                     if (is_inside[next] == 0 || is_seen[next] != 0) continue;
                     is_seen[next] = 1;
@@ -285,6 +285,7 @@ public:
         }
         if (faces.empty()) return {};
         std::vector<double> sizes;
+        sizes.reserve(faces.size());
         for (const Face& face : faces) sizes.push_back(face.cells);
         const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
         std::nth_element(sizes.begin(), middle, sizes.end());

@@ -6,6 +6,7 @@
 #include "tests/files.h"
 #include "tests/photograph_maker.h"
 
+#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -111,19 +112,54 @@ TEST(Photograph, DoubtsWhatIsWrongAtStrongDistortion) {
     EXPECT_GE(3 * score.grids, 2 * score.pictures);
 }
 
+/// The corner that is red when the picture is upright, stored as each of the eight EXIF orientations says.
 TEST(Photograph, IsUprightWhateverTheCamera) {
     const ScratchFolder folder;
-    MadePhotograph made = made_photograph(4, 0.5);
-    made.width = 700;
-    made.height = 500;
-    const auto path = folder.path() / "photo.jpg";
-    write_photograph(made, path);
-    const DecodedPicture plain = read_picture(path, 1500, 1'000'000);
-    EXPECT_EQ(plain.width, 700);
-    EXPECT_EQ(plain.file_height, 500);
-    const DecodedPicture smaller = read_picture(path, 300, 1'000'000);
-    EXPECT_EQ(smaller.width, 233);
-    EXPECT_EQ(smaller.height, 166);
+    const std::string path = folder.file("turned.tif");
+    constexpr int width = 6;
+    constexpr int height = 4;
+    // Where the first stored pixel of a picture is seen: top left, top right, bottom right, bottom left, then with
+    // rows and columns exchanged. Source: Exif 2.32, tag 274.
+    const std::vector<std::pair<bool, bool>> seen_right_and_below = {{false, false}, {true, false},  {true, true},
+                                                                     {false, true},  {false, false}, {true, false},
+                                                                     {true, true},   {false, true}};
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+        std::vector<std::uint8_t> pixels(std::size_t{3} * width * height, 200);
+        pixels[1] = pixels[2] = 0;
+        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+        spec.attribute("Orientation", orientation);
+        const auto output = OIIO::ImageOutput::create("tiff");
+        ASSERT_TRUE(output && output->open(path, spec) && output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) &&
+                    output->close());
+        const DecodedPicture read = read_picture(path, 1500, 1'000'000);
+        EXPECT_EQ(read.width, orientation < 5 ? width : height) << orientation;
+        EXPECT_EQ(read.height, orientation < 5 ? height : width) << orientation;
+        const auto [is_right, is_below] = seen_right_and_below[static_cast<std::size_t>(orientation - 1)];
+        const int x = is_right ? read.width - 1 : 0;
+        const int y = is_below ? read.height - 1 : 0;
+        for (int i = 0; i < read.width * read.height; ++i) {
+            const bool is_red = read.pixels[3 * static_cast<std::size_t>(i) + 1] < 100;
+            EXPECT_EQ(is_red, i == y * read.width + x) << orientation << ", pixel " << i;
+        }
+    }
+}
+
+TEST(Photograph, IsMadeSmallerByAveraging) {
+    const ScratchFolder folder;
+    ImageSpec spec;
+    spec.format = "png";
+    spec.width = 7;
+    spec.height = 5;
+    std::vector<std::uint8_t> pixels(std::size_t{3} * 7 * 5);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = i / 3 % 2 == 0 ? 100 : 200;
+    const auto writer = open_image(folder.path() / "grey.png", spec);
+    writer->rows(0, 5, pixels);
+    writer->close();
+    const DecodedPicture read = read_picture(folder.path() / "grey.png", 4, 1000);
+    EXPECT_EQ(read.width, 3);
+    EXPECT_EQ(read.height, 2);
+    EXPECT_EQ(read.file_width, 7);
+    EXPECT_EQ(read.pixels, std::vector<std::uint8_t>(18, 150));
 }
 
 TEST(Photograph, OverlayShowsDotsAndDoubts) {
