@@ -1,10 +1,17 @@
 #include "art/image/picture_reader.h"
 
+#include "art/image/bare_picture.h"
+#include "engine/base/input_file.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -12,23 +19,7 @@ namespace {
 
 /// What a decoder may hold at once.
 constexpr std::uint64_t most_bytes = 800'000'000;
-
-/// The reader for the format that a file begins as: OpenImageIO would try every format that it knows, movies
-/// included.
-const char* format_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(path) || !file) throw std::runtime_error("not a file that can be read");
-    std::string bytes(32, '\0');
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    if (bytes.starts_with("\xFF\xD8\xFF")) return "jpeg";
-    if (bytes.starts_with("\x89PNG")) return "png";
-    if (bytes.starts_with("II") || bytes.starts_with("MM")) return "tiff";
-    if (bytes.starts_with("RIFF")) return "webp";
-    if (bytes.starts_with("BM")) return "bmp";
-    if (bytes.size() >= 8 && bytes.compare(4, 4, "ftyp") == 0) return "heif";
-    throw std::runtime_error("not a picture: expected JPEG, PNG, TIFF, WebP, HEIF or BMP");
-}
+constexpr std::size_t most_file_bytes = 256'000'000;
 
 /// Turns a picture as its EXIF orientation says (1 to 8). Source: Exif 2.32, tag 274.
 void turn(DecodedPicture& picture, int orientation) {
@@ -104,13 +95,24 @@ private:
 }  // namespace
 
 PictureReader::PictureReader(const std::filesystem::path& path, std::uint64_t most_pixels) {
-    const char* format = format_of(path);
-    input_ = OIIO::ImageInput::create(format);
+    if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("not a file that can be read");
+    std::string bytes = read_file(path, path.string(), most_file_bytes);
+    if (bytes.size() > most_file_bytes) throw std::runtime_error("pictures are at most 256 MB large");
+    BarePicture bare = bare_picture(std::move(bytes), most_pixels);
+    orientation_ = bare.orientation;
+    input_ = OIIO::ImageInput::create(bare.format);
     if (!input_) {
         OIIO::geterror();
-        throw std::runtime_error(std::string("this OpenImageIO does not read ") + format);
+        throw std::runtime_error(std::string("this OpenImageIO does not read ") + bare.format);
     }
-    if (!input_->open(path.string(), spec_)) fail("the picture cannot be opened");
+    // Readers take a path: that of a file in memory.
+    memory_ = memfd_create("picture", MFD_CLOEXEC);
+    for (std::size_t at = 0; at < bare.bytes.size();) {
+        const ssize_t written = memory_ < 0 ? -1 : ::write(memory_, bare.bytes.data() + at, bare.bytes.size() - at);
+        if (written <= 0) throw std::runtime_error("there is no memory for the picture");
+        at += static_cast<std::size_t>(written);
+    }
+    if (!input_->open("/proc/self/fd/" + std::to_string(memory_), spec_)) fail("the picture cannot be opened");
     if (spec_.width < 1 || spec_.height < 1 || spec_.depth > 1 || spec_.nchannels < 1 || spec_.nchannels > 5) {
         throw std::runtime_error("not a picture in colours or grey");
     }
@@ -125,6 +127,11 @@ PictureReader::PictureReader(const std::filesystem::path& path, std::uint64_t mo
     if (tile * spec_.pixel_bytes(true) > most_bytes || spec_.tile_depth > 1) {
         throw std::runtime_error("the tiles of the picture are too large");
     }
+}
+
+PictureReader::~PictureReader() {
+    input_.reset();
+    if (memory_ >= 0) ::close(memory_);
 }
 
 void PictureReader::fail(const std::string& what) {
@@ -159,7 +166,7 @@ DecodedPicture PictureReader::read(int longest_side, const Monitor& monitor) {
         for (int row = y; row < stop; ++row) averager.row(pixels.data() + stride * static_cast<std::size_t>(row - y));
     }
     DecodedPicture picture = averager.take();
-    turn(picture, spec_.get_int_attribute("Orientation", 1));
+    turn(picture, orientation_);
     return picture;
 }
 

@@ -17,12 +17,17 @@ class PictureReader {
 public:
     /// @throws std::runtime_error as read_picture()
     PictureReader(const std::filesystem::path& path, std::uint64_t most_pixels);
+    ~PictureReader();
+    PictureReader(const PictureReader&) = delete;
+    PictureReader& operator=(const PictureReader&) = delete;
     DecodedPicture read(int longest_side, const Monitor& monitor);
 
 private:
     [[noreturn]] void fail(const std::string& what);
     std::unique_ptr<OIIO::ImageInput> input_;
     OIIO::ImageSpec spec_;
+    int orientation_ = 1;
+    int memory_ = -1;  ///< descriptor of the file in memory
 };
 
 }  // namespace sikku

@@ -184,7 +184,7 @@ TEST_F(Hpgl, UprightPagesAreTurnedOntoTheLongSide) {
     expect_points(lying, "PU-5140,-3400;\nPD-1140,-3400,-1140,-1400;\n");
     options_.paper = parse_hpgl_paper("A1,centre", 96);
     expect_points(lying, "PU-5140,-3400;\nPD-1140,-3400,-1140,-1400;\n");
-    for (const char* wrong : {"", "A9", "A4,left", "0x5mm", ",centre", "400x300mm,centre,"}) {
+    for (const char* wrong : {"", "A11", "A4,left", "0x5mm", ",centre", "400x300mm,centre,"}) {
         EXPECT_FALSE(parse_hpgl_paper(wrong, 96)) << wrong;
     }
 }

@@ -40,7 +40,7 @@ TEST(Keys, AreReadByTheirOwner) {
         if (key.owner == KeyOwner::engine) continue;
         Diagnostics none;
         const Document document =
-            Document::compile("keys.lsys", fmt::format("axiom: F\n{}: ?!\n", key.name), {}, none);
+            Document::compile("keys.lsys", fmt::format("axiom: F\n{}: ,?!\n", key.name), {}, none);
         EXPECT_TRUE(none.list().empty());
         Diagnostics art;
         read_style(document.pattern(), 96, art);

@@ -1,0 +1,23 @@
+// art/image/bare_picture.h: strips picture files of what their decoders need not see.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sikku {
+
+/// A picture file without metadata, and what is needed of these.
+struct BarePicture {
+    const char* format = "";  ///< name of OpenImageIO's reader
+    std::string bytes;
+    int orientation = 1;  ///< EXIF, 1 to 8; of JPEG
+};
+
+/// Removes colour profiles, EXIF, comments and other metadata from JPEG, PNG, WebP and TIFF, whose readers parse them
+/// without sufficient checks, and checks the sizes that the file claims before a decoder reserves memory for them: a
+/// progressive JPEG holds all its coefficients, and each further scan passes over them. HEIF and BMP stay as they
+/// are. Cost: linear in the file.
+/// @throws std::runtime_error for other files, damaged headers, more than `most_pixels`, and too many scans
+BarePicture bare_picture(std::string bytes, std::uint64_t most_pixels);
+
+}  // namespace sikku
