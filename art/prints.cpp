@@ -296,7 +296,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
             print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
     }
     if (report.plot) report_plot(*report.plot, settings_.speeds, made);
-    if (report.plot && settings_.hatch && report.plot->fills == 0) {
+    if (report.plot && settings_.hatch && report.plot->fills == 0 && report.fields == 0) {
         made.warn("'hatch' has no effect: this drawing has no fills");
     }
     if (report.plot && format_ == PrintFormat::hpgl) {

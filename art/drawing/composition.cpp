@@ -120,9 +120,11 @@ const DrawnExtent& Composition::seen() {
 void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
     NotedDiscs noted(sink, print.style);
     PathSink& own = dots_.empty() ? sink : noted;
-    // A plot without hatching draws outlines, which are the lines.
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
-    if (work_ && !(is_plot && !(options_.plot && options_.plot->hatch))) work_->draw_fields(sink);
+    if (work_ && !is_plot) work_->draw_fields(sink);
+    if (work_ && is_plot && options_.plot && options_.plot->hatch) {
+        work_->hatch_fields(print, *options_.plot->hatch, options_.monitor, sink);
+    }
     if (work_ && work_->draws_lines()) {
         OnlyAreas areas(own);
         OldColours old(areas, drawn_);

@@ -69,16 +69,20 @@ void LineWork::add_colours(std::vector<Colour>& palette, std::span<const Colour>
     }
 }
 
-void LineWork::draw_fields(PathSink& sink) const {
-    // By colour, as layers and pens are.
+/// The fields that are filled, by colour, as layers and pens are.
+std::vector<std::size_t> LineWork::fields_by_colour() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
         if (colours_[i] >= 0) order.push_back(i);
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return colours_[a] < colours_[b]; });
+    return order;
+}
+
+void LineWork::draw_fields(PathSink& sink) const {
     std::vector<glm::dvec2> corners;
-    for (const std::size_t i : order) {
+    for (const std::size_t i : fields_by_colour()) {
         const Field& field = fields_[i];
         const Pen pen{.colour = colours_[i]};
         if (!field.is_straight) {
@@ -88,6 +92,34 @@ void LineWork::draw_fields(PathSink& sink) const {
         corners.clear();
         for (std::size_t k = 0; k + 1 < field.outline.size(); k += 3) corners.push_back(field.outline[k]);
         if (corners.size() > 2) sink.polygon(corners, pen);
+    }
+}
+
+void LineWork::hatch_fields(const Print& print, const Hatch& hatch, const Monitor& monitor, PathSink& sink) const {
+    const double step = print.placement.step;
+    const double width = print.style.line_width({}, step) / step;
+    const double band = bands_ ? bands_->look(print).band() : width;
+    const double spacing = hatch.spacing > 0 ? hatch.spacing / step : width;
+    const double inset = band / 2 + std::min(spacing, width) / 2;
+    constexpr double tolerance = 0.01;  // millimetres
+    std::vector<glm::dvec2> outline;
+    for (const std::size_t i : fields_by_colour()) {
+        monitor.check();
+        const std::vector<glm::dvec2>& curves = fields_[i].outline;
+        outline.clear();
+        for (std::size_t k = 0; k + 3 < curves.size(); k += 3) {
+            outline.push_back(curves[k]);
+            flatten(curves[k], curves[k + 1], curves[k + 2], curves[k + 3], tolerance / step,
+                    [&](glm::dvec2 at) { outline.push_back(at); });
+            outline.pop_back();
+        }
+        for (const glm::dvec2 along : hatch_directions(hatch, print.placement)) {
+            for (const auto& line : hatch_lines(outline, along, spacing, inset, monitor)) {
+                sink.begin_stroke(line.front(), Pen{.colour = colours_[i]});
+                sink.lines(std::span(line).subspan(1));
+                sink.end_stroke(false);
+            }
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include "art/drawing/word_drawing.h"
 #include "art/kolam/fields.h"
 #include "art/kolam/kolam.h"
+#include "art/plotter/shading.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,9 @@ public:
     void add_colours(std::vector<Colour>& palette, std::span<const Colour> others);
     /// Fills the fields, with colours of that palette.
     void draw_fields(PathSink& sink) const;
+    /// Fills the fields for a plotter: with lines that keep clear of the drawing's lines, without outlines, which
+    /// would run along them. @param print  placed
+    void hatch_fields(const Print& print, const Hatch& hatch, const Monitor& monitor, PathSink& sink) const;
     /// @param colours  palette indices of the orbits of lines, repeated from the end; empty: of the pens
     void draw_lines(const Print& print, std::span<const int> colours, PathSink& sink) const;
     /// How much wider a band of parallel lines is than its pen, at most; in the measure of the style's stroke.
@@ -49,6 +53,8 @@ public:
     BandLook look(const Print& print) const { return bands_->look(print); }
 
 private:
+    std::vector<std::size_t> fields_by_colour() const;
+
     Style style_;
     CurvedLines lines_;
     CurveMeetings meetings_;
