@@ -115,7 +115,7 @@ TEST_F(KolamRead, MistakesAreNamed) {
     expect({"--read", "text.txt", "-o", "a.lsys"}, 1, "text.txt: not a kolam that can be read");
     expect({"--read", "broken.json", "-o", "a.lsys"}, 1, "broken.json: not a .kolam.json file");
     expect({"--read", "broken.csv", "-o", "a.lsys"}, 1, "broken.csv: row 3: expected two numbers");
-    expect({"--read", "fake.jpg", "-o", "a.lsys"}, 1, "fake.jpg: the picture cannot be opened");
+    expect({"--read", "fake.jpg", "-o", "a.lsys"}, 1, "fake.jpg: the picture is damaged");
     expect({"--read", "ring.json", "-o", "a.svg"}, 2, "a kolam is written as .lsys");
     expect({"--read", "ring.json", "-o", "a.yaml"}, 1, "joined gaps, as in row 1, gap 1");
     expect({"--read", "ring.json", "--overlay", "a.png"}, 2, "--overlay is for photographs");
