@@ -34,6 +34,24 @@ constexpr int most_path_points = 8192;
 /// Distance of the control points of a quarter circle's Bézier, of its radius.
 constexpr double quarter_circle = 0.5522847498307936;
 
+/// A zlib stream of the bytes, as small as zlib makes it.
+std::string packed_profile(const std::vector<std::uint8_t>& bytes) {
+    z_stream stream{};
+    if (deflateInit2(&stream, 9, Z_DEFLATED, 15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+        throw std::runtime_error("zlib: no memory");
+    }
+    std::string packed(bytes.size() + bytes.size() / 1000 + 64, '\0');
+    stream.next_in = const_cast<Bytef*>(bytes.data());
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    const bool is_packed = deflate(&stream, Z_FINISH) == Z_STREAM_END;
+    packed.resize(packed.size() - stream.avail_out);
+    deflateEnd(&stream);
+    if (!is_packed) throw std::runtime_error("zlib: no memory");
+    return packed;
+}
+
 /// Compresses pieces of streams, each for itself, so that one compressor serves any number of them at a time.
 class Deflater {
 public:
@@ -324,7 +342,8 @@ private:
         if (print_.press.inks) {
             for (std::size_t at = 0; at < text.size(); at += std::size_t{1} << 30) {
                 const std::string_view part = text.substr(at, std::size_t{1} << 30);
-                content_ = crc32_z(content_, reinterpret_cast<const Bytef*>(part.data()), part.size());
+                content_ =
+                    crc32(content_, reinterpret_cast<const Bytef*>(part.data()), static_cast<uInt>(part.size()));
             }
         }
         file_.write(text);
@@ -691,16 +710,11 @@ private:
     /// Writes the output intent and the metadata of PDF/X-4; returns their entries in the catalogue.
     std::string write_press(const std::string& title, const std::string& id) {
         const PressInks& inks = *print_.press.inks;
-        uLongf size = compressBound(static_cast<uLong>(inks.profile.size()));
-        std::string packed(size, '\0');
-        if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, inks.profile.data(),
-                      static_cast<uLong>(inks.profile.size()), 9) != Z_OK) {
-            throw std::runtime_error("zlib: no memory");
-        }
+        const std::string packed = packed_profile(inks.profile);
         const int profile = new_object();
         begin_object(profile);
-        write(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", size));
-        write(std::string_view(packed).substr(0, size));
+        write(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()));
+        write(packed);
         write("\nendstream\nendobj\n");
         const int intent = new_object();
         begin_object(intent);
