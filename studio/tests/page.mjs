@@ -539,7 +539,7 @@ test("patterns that the program wrote into the page are open and in the gallery"
     await page.getByRole("tab", { name: "Gallery" }).click();
     await page.locator(".cost", { hasText: "8 segments" }).waitFor();
     await page.getByRole("button", { name: "yours", exact: true }).click();
-    await page.locator(".gallery-count", { hasText: "1 of 108" }).waitFor();
+    await page.locator(".gallery-count", { hasText: "1 of 208" }).waitFor();
     await page.context().close();
     rmSync(folder, { recursive: true });
 });
