@@ -129,7 +129,9 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
                   bool quiet) {
     check_output(options);
     const MadeKolam made = make_kolam(options, grid, symmetries);
-    const std::string name = printable(grid.text(), 80);
+    // A shape is too long to name.
+    const std::string dots = counted(grid.dots().size(), "dot");
+    const std::string name = grid.is_solid() ? printable(grid.text(), 80) + " dots" : dots;
     const std::size_t lines = count_lines(grid, made.states, stop_monitor());
     const auto nullity = second_count(grid, made.states);
     if (nullity && *nullity != lines) {
@@ -137,9 +139,8 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     }
 
     KolamPatternOptions pattern;
-    pattern.title = fmt::format("Kolam on {} dots", name);
-    pattern.description =
-        fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), gaps_told(made.states), counted(lines, "line"));
+    pattern.title = fmt::format("Kolam on {}", name);
+    pattern.description = fmt::format("{}, {}, {}", dots, gaps_told(made.states), counted(lines, "line"));
     if (!options.crossings) {
         pattern.description +=
             fmt::format("; seed {}, density {}", options.seed, options.density.value_or(RandomKolam().density));
@@ -171,7 +172,8 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
         if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
-        tell_unless(quiet, "sikku: {}: {}{}\n", name, pattern.description, note);
+        tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
+                    pattern.description, note);
     }
 }
 

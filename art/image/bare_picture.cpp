@@ -88,6 +88,7 @@ BarePicture bare_jpeg(const std::string& bytes, std::uint64_t most_pixels) {
         at += length;
         if (marker != 0xDA) continue;
         if (pixels == 0) refuse("the picture is damaged: it has no size");
+        if (bytes.find("\xFF\xD9", at) == std::string::npos) refuse("the picture is damaged: it ends too early");
         std::uint64_t scans = 1;
         for (std::size_t next = bytes.find("\xFF\xDA", at); next != std::string::npos;
              next = bytes.find("\xFF\xDA", next + 2)) {

@@ -210,6 +210,7 @@ constexpr std::array<GridSymmetry, 14> symmetry_list = {
 GridSymmetry parse_grid_symmetry(std::string_view text) {
     std::string word = lower_case(text);
     std::replace(word.begin(), word.end(), ' ', '-');
+    if (word == "c1") word = "none";
     if (word == "d1") word = "mirror-x";
     if (word == "d2") word = "mirrors";
     for (const GridSymmetry symmetry : symmetry_list) {

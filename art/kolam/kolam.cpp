@@ -9,6 +9,7 @@
 #include "art/kolam/symmetry.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lattice.h"
+#include "engine/geometry/point_tree.h"
 #include "engine/geometry/turtle.h"
 
 #include <fmt/format.h>
@@ -29,6 +30,7 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
     result.is_exact = Plane::is_exact;
     result.tolerance = Plane::is_exact ? 0.0 : steps_are_one;
     result.is_spline = options.spline;
+    result.drawn_dots = strokes.discs;
     result.strokes = strokes.count();
     result.segments = strokes.nodes.size() - strokes.count();
 
@@ -163,6 +165,14 @@ KolamExamination examine_kolam(const Grammar& given, const KolamOptions& options
 std::vector<glm::dvec2> dot_places(const KolamExamination& examination) {
     std::vector<glm::dvec2> places;
     for (const KolamDot& mark : examination.dots) places.push_back(mark.at);
+    if (examination.drawn_dots.size() < 3) return places;
+    // A pattern that draws dots where none would be set knows its dots better.
+    const PointTree set(places);
+    std::vector<PointTree::Near> found;
+    for (const glm::dvec2 drawn : examination.drawn_dots) {
+        set.nearest(drawn, 0.25, 1, found);
+        if (found.empty()) return examination.drawn_dots;
+    }
     return places;
 }
 

@@ -78,7 +78,8 @@ struct KolamExamination {
     KolamSymmetry symmetry;
     glm::dvec2 centre{0.0};  ///< centre of symmetry
 
-    std::vector<KolamDot> dots;  ///< sorted by y, then by x
+    std::vector<KolamDot> dots;          ///< sorted by y, then by x
+    std::vector<glm::dvec2> drawn_dots;  ///< discs that the pattern draws itself, in its order
 
     std::uint64_t loose_dots() const;  ///< dots not enclosed or not alone
 
@@ -110,7 +111,8 @@ struct KolamOptions {
 /// @throws BudgetError, WordError; std::runtime_error if no segment is drawn
 KolamExamination examine_kolam(const Grammar& grammar, const KolamOptions& options);
 
-/// The positions of the dots of an examination.
+/// The positions of the dots: those that the examination sets, or those that the pattern draws itself if there are
+/// three or more and one lies elsewhere, as in radial kolams, whose lines run through their dots.
 std::vector<glm::dvec2> dot_places(const KolamExamination& examination);
 
 }  // namespace sikku

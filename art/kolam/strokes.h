@@ -20,6 +20,7 @@ struct Strokes {
     std::vector<std::uint32_t> nodes;
     std::vector<std::size_t> begins;  ///< into `nodes`; one more than there are strokes
     std::vector<bool> closed;
+    std::vector<glm::dvec2> discs;  ///< centres of visible discs
     std::size_t count() const { return closed.size(); }
     std::span<const std::uint32_t> stroke(std::size_t i) const {
         return {nodes.data() + begins[i], begins[i + 1] - begins[i]};
@@ -75,7 +76,9 @@ public:
         is_seen_ = false;
     }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
+    void disc(glm::dvec2 centre, double, const Pen& pen) override {
+        if (!draws_ || draws_(pen)) strokes.discs.push_back(centre);
+    }
 
     Strokes finish() {
         strokes.begins.push_back(strokes.nodes.size());

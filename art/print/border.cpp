@@ -4,9 +4,12 @@
 #include "art/print/ornaments.h"
 #include "engine/geometry/moved_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace sikku {
@@ -207,6 +210,13 @@ std::vector<Colour> border_colours(const Border& border, const std::optional<Col
 
 BorderRepeats border_repeats(double across, double down, double length) {
     const auto count = [](double side, double each) { return std::max(1.0, std::round(side / each)); };
+    constexpr double most_repeats = 10'000;
+    if (!(across < most_repeats * length && down < most_repeats * length)) {
+        throw std::runtime_error(
+            fmt::format("the pattern of the border is too thin: a side would repeat it more than "
+                        "{} times",
+                        most_repeats));
+    }
     const double usual = count(across, length);
     BorderRepeats best;
     double least = 1e300;

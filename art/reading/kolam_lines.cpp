@@ -90,6 +90,9 @@ public:
             const double length = glm::distance(from, to);
             if (!(length < 1e7)) continue;
             const auto pieces = static_cast<std::size_t>(std::ceil(length * 6)) + 1;
+            pieces_ += pieces;
+            if (pieces_ > most_pieces)
+                throw std::runtime_error("the lines are too long for the distances of their dots");
             for (std::size_t k = i == 0 ? pieces : 1; k <= pieces; ++k) {
                 go(from + (to - from) * (static_cast<double>(k) / static_cast<double>(pieces)));
             }
@@ -201,6 +204,8 @@ private:
     std::optional<Part> last_;
     glm::dvec2 at_{0.0};
     bool lost_ = false;
+    static constexpr std::size_t most_pieces = 50'000'000;
+    std::size_t pieces_ = 0;
     std::uint64_t strayed_ = 0;
 };
 

@@ -193,7 +193,11 @@ private:
         }
         points_ += path.points.size();
         if (points_ > most_points) throw std::runtime_error("too many points");
-        for (glm::dvec2& point : path.points) point = around.transform(point);
+        for (glm::dvec2& point : path.points) {
+            point = around.transform(point);
+            if (!(std::fabs(point.x) < 1e9 && std::fabs(point.y) < 1e9))
+                throw std::runtime_error("a place is too far away");
+        }
         lines.push_back(std::move(path.points));
     }
 

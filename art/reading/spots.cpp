@@ -107,6 +107,9 @@ std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
 
 Spot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
     Spot best{at, radius, 0.0};
+    if (blurred_.empty() || !(reach >= 0)) return best;
+    // A degenerate map of a lattice asks for places without limit.
+    reach = std::min(reach, 60.0);
     for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
         if (radii_[scale] < 0.5 * radius || radii_[scale] > 2 * radius) continue;
         const double step = std::max(1.0, 0.4 * radii_[scale]);
