@@ -275,7 +275,8 @@ private:
         if (!is_to && std::any_of(items_.begin(), items_.end(), [](const Item& i) { return i.separator == 't'; })) {
             refuse(text_);
         }
-        if (items_.size() == 2 && (is_to || (items_[1].separator == '-' && dots(0) >= dots(1)))) {
+        if (items_.size() == 2 &&
+            (is_to || (items_[1].separator == '-' && (dots(0) >= dots(1) || sort_ != Sort::unknown)))) {
             return spindle(dots(0), 1, dots(1));
         }
         const bool is_there_and_back = items_.size() == 3 && dots(0) == dots(2) && dots(0) < dots(1);

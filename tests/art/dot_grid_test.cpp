@@ -83,6 +83,7 @@ TEST(DotGrid, ReadsTheNotationsOfPractitioners) {
                               {"15 to 8", "15-8 idukku", 169, 462},
                               {"15x8 Sandhu Pulli", "15-8 idukku", 169, 462},
                               {"15–8", "15-8 idukku", 169, 462},
+                              {"8-15 idukku", "15-8 idukku", 169, 462},
                               {"5-3", "5-3 idukku", 19, 42},
                               {"3-4-5-4-3", "5-3 idukku", 19, 42},
                               {"5-3 ner", "3-5-3", 11, 14},
