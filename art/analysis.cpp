@@ -17,6 +17,7 @@ Style style_of(const Document& document) {
 }  // namespace
 
 DrawnLines drawn_lines(const Document& document, double budget, const Monitor& monitor) {
+    require_turtle(document, "it draws no lines");
     const Style style = style_of(document);
     TraceOptions options;
     options.moves_draw = style.moves_draw();
@@ -28,6 +29,7 @@ DrawnLines drawn_lines(const Document& document, double budget, const Monitor& m
 }
 
 KolamExamination examine_kolam(const Document& document, double budget, const Monitor& monitor) {
+    require_turtle(document, "it is not a kolam");
     const Style style = style_of(document);
     KolamOptions options;
     options.spline = style.line == Line::spline;

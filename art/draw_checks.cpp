@@ -24,9 +24,11 @@ void refuse_first(std::initializer_list<Conflict> conflicts) {
 }
 
 void check_model(const DrawSettings& settings) {
-    constexpr const char* reason = "a model has no page and no camera; this option is for prints";
+    constexpr const char* reason = "a model has no page and no camera; this option applies only to prints";
     refuse_first({{settings.window.has_value(), "window", reason},
                   {!settings.view.empty(), "view", reason},
+                  {!settings.light.empty(), "light", reason},
+                  {settings.profile.has_value(), "profile", reason},
                   {settings.plotter, "plotter", reason},
                   {settings.hatch.has_value(), "hatch", reason},
                   {settings.pen_width > 0, "pen-width", reason},
@@ -48,6 +50,8 @@ void check_model(const DrawSettings& settings) {
                   {settings.hold.has_value(), "hold", reason},
                   {settings.fit_frames, "fit-frames", reason},
                   {settings.lesson.has_value(), "lesson", reason},
+                  {settings.fills_page, "fill-page", reason},
+                  {settings.names_tiles, "name-tiles", "only SVG has elements with names"},
                   {settings.border.has_value(), "border", reason},
                   {settings.title_line.has_value(), "title-line", reason},
                   {settings.repeat.has_value(), "repeat", reason},
@@ -72,6 +76,11 @@ void check_placement(const DrawSettings& settings) {
     refuse_first(
         {{settings.fit && settings.step, "step", both},
          {settings.fit && settings.window, "window", both},
+         {settings.fills_page && (settings.fit || settings.window || settings.dot_spacing || settings.repeat ||
+                                  settings.composes || settings.generations || settings.rotate != 0),
+          "fill-page",
+          "sets the place and the size of the drawing, and cannot be combined with 'fit', 'window', 'dot-spacing', "
+          "'repeat', 'compose', 'generations' and 'rotate'"},
          {settings.fit && settings.composes, "compose", "cannot be combined with 'fit', which fills the margins"},
          {settings.window && settings.composes, "compose", "a window fills the page"},
          {settings.window && settings.repeat, "repeat", "a window shows a part of one drawing, not of its copies"},
@@ -96,6 +105,7 @@ void check_pens(const DrawSettings& settings, PrintFormat format) {
 }
 
 void check_plot(const DrawSettings& settings, PrintFormat format) {
+    constexpr const char* no_plot = "a plot is SVG, PDF, HP-GL, G-code or DXF";
     const bool is_plot = settings.plotter || is_for_plotters(format);
     const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
     const GcodeOptions defaults = settings.profile ? settings.profile->gcode : GcodeOptions{};
@@ -109,21 +119,30 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
                 "profile", settings.profile->name,
                 fmt::format("this plotter reads {}, not {}", language_name(language), language_name(spoken)));
         }
-        if (language == PlotLanguage::svg && !is_plot) refuse_option("profile", "", "needs 'plotter'");
+        if (language == PlotLanguage::svg && !is_vector(format)) {
+            refuse_option("profile", settings.profile->name, no_plot);
+        }
         if (language == PlotLanguage::svg && format == PrintFormat::pdf) {
             refuse_option("profile", settings.profile->name, "this plotter reads SVG, not PDF");
         }
     }
+    if (format == PrintFormat::dxf) {
+        constexpr const char* no_pen = "a .dxf describes lines, not the pens that draw them";
+        refuse_first({{settings.profile.has_value(), "profile", no_pen},
+                      {!settings.pen_rules.empty(), "pen", no_pen},
+                      {settings.refill.has_value(), "refill", no_pen},
+                      {settings.park.has_value(), "park", no_pen}});
+    }
     refuse_first(
-        {{settings.plotter && !is_vector(format), "plotter", "a plot is SVG, PDF, HP-GL or G-code"},
+        {{settings.plotter && !is_vector(format), "plotter", no_plot},
          {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
          {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
-         {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL or G-code"},
-         {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL or G-code"},
-         {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL or G-code"},
-         {!settings.pen_rules.empty() && !is_plot, "pen", "needs 'plotter', HP-GL or G-code"},
-         {settings.refill && !is_plot, "refill", "needs 'plotter', HP-GL or G-code"},
-         {settings.resume > 0 && !is_plot, "resume", "needs 'plotter', HP-GL or G-code"},
+         {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL, G-code or DXF"},
+         {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL, G-code or DXF"},
+         {settings.pens > 0 && !is_plot, "pens", "needs 'plotter', HP-GL, G-code or DXF"},
+         {!settings.pen_rules.empty() && !is_plot, "pen", "needs 'plotter', HP-GL, G-code or DXF"},
+         {settings.refill && !is_plot, "refill", "needs 'plotter', HP-GL, G-code or DXF"},
+         {settings.resume > 0 && !is_plot, "resume", "needs 'plotter', HP-GL, G-code or DXF"},
          {settings.park && !is_for_plotters(format), "park", "applies only to HP-GL and G-code"},
          {settings.gcode.arcs != defaults.arcs && format != PrintFormat::gcode, "arcs", "applies only to G-code"},
          {settings.gcode.least_arc != defaults.least_arc && format != PrintFormat::gcode, "min-arc",
@@ -131,6 +150,7 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
          {settings.paper && format != PrintFormat::hpgl, "hpgl-paper", "applies only to HP-GL"},
          {settings.tile && is_plot, "tile", "tiles would cut the strokes of a plot"},
          {settings.overlap && !settings.tile, "overlap", "needs 'tile'"},
+         {settings.fills_page && is_plot, "fill-page", "the edges of the page would cut the strokes of a plot"},
          {settings.window && is_plot, "window", "a window would cut the strokes of a plot"}});
     check_pens(settings, format);
 }
@@ -140,9 +160,8 @@ void check_gif(const DrawSettings& settings) {
     refuse_first({{settings.press.bleed > 0, "bleed", screen}, {settings.tile.has_value(), "tile", screen}});
     const PixelSize size = pixel_size(settings.page, settings.dpi);
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
-        refuse_option(
-            "dpi", fmt::format("{:g}", settings.dpi),
-            "a .gif has at most 65,535 pixels per side and 100 million in all; a smaller size or dpi is needed");
+        refuse_option("dpi", fmt::format("{:g}", settings.dpi),
+                      "a .gif has at most 65,535 pixels per side and 100 million in all; use a smaller size or dpi");
     }
 }
 
@@ -173,8 +192,7 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
     const bool is_gif = format == PrintFormat::gif;
     const bool is_sheet = settings.generations && !is_gif && !settings.frames;
     refuse_first(
-        {{is_gif && !settings.generations && !settings.lesson, "generations",
-          "needed for a .gif, an animation of growth: A:B"},
+        {{is_gif && !settings.generations && !settings.lesson, "generations", "required for a .gif; expected A:B"},
          {settings.frames && !settings.generations, "frames", "needs 'generations'"},
          {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
          {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
@@ -209,7 +227,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     check_placement(settings);
     if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
         refuse_option("dpi", fmt::format("{:g}", settings.dpi),
-                      "the picture would be over 200,000 pixels wide or high; a smaller size or dpi is needed");
+                      "the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
     }
     try {
         if (settings.tile) tiling_of(settings.page, tile_options(settings));
@@ -220,12 +238,15 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     check_plot(settings, format);
     constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
     const bool is_untrimmed = settings.plotter || settings.tile;
-    refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
-                  {is_untrimmed && settings.press.marks, "marks", trimmed},
-                  {is_untrimmed && settings.press.registration, "registration", trimmed},
-                  {settings.window && settings.border && *settings.border != "none", "border",
-                   "a border frames the whole drawing; a window shows only part of it"},
-                  {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"}});
+    refuse_first(
+        {{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
+         {is_untrimmed && settings.press.marks, "marks", trimmed},
+         {is_untrimmed && settings.press.registration, "registration", trimmed},
+         {settings.window && settings.border && *settings.border != "none", "border",
+          "a border frames the whole drawing; a window shows only part of it"},
+         {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"},
+         {settings.names_tiles && format != PrintFormat::svg, "name-tiles", "only SVG has elements with names"},
+         {settings.names_tiles && settings.plotter, "name-tiles", "a plot has lines only, no tiles"}});
     check_lesson(settings, format);
     check_growth(settings, format);
 }

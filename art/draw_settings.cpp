@@ -72,10 +72,11 @@ void set_repeat(DrawSettings& settings, const std::string& text) {
     if (settings.repeat) return;
     std::string names;
     for (const std::string_view name : repeat_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-    refuse_option("repeat", text,
-                  fmt::format("expected a group and its cells, such as frieze:5, p4m:3x4 or ring:8, up to {} copies, "
-                              "then ,gap=2 in steps or ,gap=5%; groups are {}",
-                              most_copies, names));
+    refuse_option(
+        "repeat", text,
+        fmt::format("expected a group and its cells, such as frieze:5, p4m:3x4, p4m:fill or ring:8, up to {} copies, "
+                    "then ,gap=2 in steps or ,gap=5%; groups are {}",
+                    most_copies, names));
 }
 
 /// Parses `only`, `SIZE COLOUR`, or `only SIZE COLOUR`.
@@ -175,6 +176,8 @@ void set_tile(DrawSettings& settings, const std::string& text) {
 void use_profile(DrawSettings& settings, PlotterProfile profile) {
     settings.speeds = profile.speeds;
     settings.gcode = profile.gcode;
+    // A plotter that reads SVG is one only by its profile.
+    if (profile.language == PlotLanguage::svg) settings.plotter = true;
     settings.profile = std::move(profile);
 }
 
@@ -202,9 +205,17 @@ void read_as(const char* option, const std::string& text, const Parse& parse) {
         parse();
     } catch (const SettingError&) {
         throw;
+    } catch (const PatternError&) {
+        throw;
     } catch (const std::runtime_error& error) {
         refuse_option(option, text, error.what());
     }
+}
+
+void set_lines(const char* option, const std::string& text, std::string& lines) {
+    const std::string_view word = unreachable_word(text);
+    if (!word.empty()) refuse_option(option, std::string(word), "expected a place within 10 m of the origin");
+    lines = text;
 }
 
 void set_word(const char* option, std::string_view word, const std::string& text, bool& value) {
@@ -262,6 +273,12 @@ const std::array own_rows = {
                .help = "length of one turtle step on paper, instead of fitting the page",
                .value = "LENGTH"},
               set_step},
+    Option<S>{{.name = "fill-page",
+               .help = "cover the whole page with a tiling, at the length of a step that --step sets (a 40th of the "
+                       "page's shorter side): a place is found, with the derivation length that it takes",
+               .kind = flag,
+               .is_alone = true},
+              [](S& s, Text t) { s.fills_page = is_true(t); }},
     Option<S>{{.name = "window",
                .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
                        "derivation length",
@@ -282,6 +299,14 @@ const std::array own_rows = {
                .sets_more = true,
                .is_key = true},
               [](S& s, Text t) { s.view = t; }},
+    Option<S>{
+        {.name = "light",
+         .help = "light of pictures of drawings in space: flat, sun or sky; or the sun's degrees to the right of "
+                 "the eye and up, and its share of the light, 0 to 1 (0.6)",
+         .value = "flat|sun|sky|AZIMUTH,ELEVATION[,SUN]",
+         .sets_more = true,
+         .is_key = true},
+        [](S& s, Text t) { s.light = t; }},
     Option<S>{{.name = "dots",
                .help = "draw the dots of a kolam, in a size and colour such as 2mm white; or only the dots, for "
                        "practising",
@@ -295,17 +320,18 @@ const std::array own_rows = {
                .value = "LENGTH",
                .group = kolams},
               set_dot_spacing},
-    Option<S>{{.name = "border",
-               .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, or a pattern file, whose drawing is "
-                       "repeated, with another for the corners",
-               .value = "NAME|FILE[,CORNER]",
-               .group = kolams,
-               .is_key = true},
-              [](S& s, Text t) { s.border = t; }},
+    Option<S>{
+        {.name = "border",
+         .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, or a pattern file to repeat along the "
+                 "sides, optionally with another for the corners",
+         .value = "NAME|FILE[,CORNER]",
+         .group = kolams,
+         .is_key = true},
+        [](S& s, Text t) { s.border = t; }},
     Option<S>{{.name = "repeat",
                .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "
-                       "wallpaper group p1 to p6m with its cells such as p4m:3x4, or ring:8; gap in steps or percent "
-                       "(8%)",
+                       "wallpaper group p1 to p6m with its cells such as p4m:3x4 (p4m:fill and p4m:5xfill cover the "
+                       "page), or ring:8; gap in steps or percent (8%)",
                .value = "GROUP[:COUNT][,gap=GAP]",
                .group = kolams},
               set_repeat},
@@ -366,15 +392,22 @@ const std::array own_rows = {
                .group = kolams,
                .unit = "s"},
               set_animation},
-    Option<S>{{.name = "lesson",
-               .help = "drawing lesson: the dots, then stroke after stroke as a hand draws them, with numbers and "
-                       "arrows; pages of a PDF, an animated SVG or .gif with so many seconds per stroke (3), or the "
-                       "cells of a picture",
-               .value = "[SECONDS]",
+    Option<S>{{.name = "name-tiles",
+               .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
+                       "direction and colour",
                .group = kolams,
-               .unit = "s",
-               .is_alone = true},
-              set_lesson},
+               .kind = flag},
+              [](S& s, Text t) { s.names_tiles = is_true(t); }},
+    Option<S>{
+        {.name = "lesson",
+         .help = "drawing lesson: the dots, then stroke after stroke as a hand draws them, with numbers and "
+                 "arrows; pages of a PDF, an animated SVG or .gif with this many seconds per stroke (3), or the "
+                 "cells of a picture",
+         .value = "[SECONDS]",
+         .group = kolams,
+         .unit = "s",
+         .is_alone = true},
+        set_lesson},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
                        "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
@@ -388,12 +421,13 @@ const std::array own_rows = {
                .group = kolams,
                .is_alone = true},
               [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
-    Option<S>{{.name = "plotter",
-               .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL and G-code always do",
-               .group = plotters,
-               .kind = flag},
-              [](S& s, Text t) { s.plotter = is_true(t); }},
-    // Before the options that replace what it sets.
+    Option<S>{
+        {.name = "plotter",
+         .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL, G-code and DXF always do",
+         .group = plotters,
+         .kind = flag},
+        [](S& s, Text t) { s.plotter = is_true(t); }},
+    // Stands before the options that override its settings.
     Option<S>{{.name = "profile",
                .help = "plotter: axidraw, grbl, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
                .value = "NAME|FILE",
@@ -468,7 +502,7 @@ const std::array own_rows = {
               }},
     Option<S>{{.name = "hpgl-paper",
                .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "
-                       ",centre if its origin is in the middle (the page from its corner)",
+                       ",centre if its origin is in the middle (the page, with the origin in its corner)",
                .value = "SIZE[,centre]",
                .group = plotters},
               set_paper},
@@ -503,10 +537,10 @@ const std::array own_rows = {
               [](S& s, Text t) { s.speeds.lift = to_number(t); }},
     Option<S>{
         {.name = "gcode-start", .help = "G-code lines before the first stroke", .value = "LINES", .group = plotters},
-        [](S& s, Text t) { s.gcode.start = t; }},
+        [](S& s, Text t) { set_lines("gcode-start", t, s.gcode.start); }},
     Option<S>{
         {.name = "gcode-end", .help = "G-code lines after the last stroke", .value = "LINES", .group = plotters},
-        [](S& s, Text t) { s.gcode.end = t; }},
+        [](S& s, Text t) { set_lines("gcode-end", t, s.gcode.end); }},
     Option<S>{{.name = "bleed",
                .help = "extension of the ground beyond the page, up to 100mm (0mm)",
                .value = "LENGTH",
@@ -570,7 +604,7 @@ const std::array own_rows = {
                .most = 10'000},
               [](S& s, Text t) { s.dpi = to_number(t); }},
     Option<S>{{.name = "compression",
-               .help = "PNG compression, 1 (fast) to 9 (small) (6, or 4 for lines drawn by hand)",
+               .help = "PNG compression, 1 (fast) to 9 (small) (6, or 4 for hand-drawn lines)",
                .value = "LEVEL",
                .group = pictures,
                .kind = whole,
@@ -594,7 +628,9 @@ const std::array own_rows = {
 namespace {
 
 void set_key(S& settings, std::string_view name, Text text) {
-    settings.keys.push_back({std::string(name), std::string(name), text});
+    std::string key(name);
+    std::replace(key.begin(), key.end(), '-', ' ');
+    settings.keys.push_back({std::string(name), std::move(key), text});
 }
 
 /// The rows above, and one for each further key of the language that art reads.
@@ -620,7 +656,7 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
     DrawSettings settings;
     for (const OptionValue& value : values) {
         if (folder && value.name == "profile" && is_profile_file(value.text)) {
-            use_profile(settings, read_profile(*folder / value.text));
+            read_as("profile", value.text, [&] { use_profile(settings, read_profile(*folder / value.text)); });
         }
     }
     // The resolution comes first: lengths in px and halftone screens depend on it.
@@ -667,9 +703,10 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
 }
 
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
-    const std::optional<PlotterProfile>& profile = settings.profile;
     PlotSetup setup;
-    PlotOptions& plot = setup.plot;
+    if (!settings.plotter && !is_for_plotters(format)) return setup;
+    const std::optional<PlotterProfile>& profile = settings.profile;
+    PlotOptions& plot = setup.plot.emplace();
     plot.split = settings.split;
     plot.hatch = settings.hatch;
     plot.pen_width = settings.pen_width;
@@ -681,6 +718,7 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     plot.resume = settings.resume;
     plot.park = settings.park;
     if (!plot.park && profile && is_for_plotters(format)) plot.park = profile->park;
+    setup.shows_travel = settings.travel;
     setup.gcode = settings.gcode;
     setup.gcode.rules = plot.rules;
     setup.gcode.park = plot.park;
@@ -704,6 +742,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
     if (settings.border) set("border", *settings.border);
     if (!settings.view.empty()) set("view", settings.view);
+    if (!settings.light.empty()) set("light", settings.light);
     Diagnostics diagnostics;
     Style style = read_style(drawn.pattern(), settings.dpi, diagnostics);
     diagnostics.throw_if_errors();

@@ -29,7 +29,7 @@ namespace sikku {
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 struct DrawSettings {
-    std::vector<Setting> keys;  ///< of the language, as options: `stroke`, `fill`, …
+    std::vector<Setting> keys;  ///< keys of the language given as options: `stroke`, `fill`, …
     double dpi = 300.0;         ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
     Page page;                  ///< A4 with margins of 10 mm
     bool landscape = false;
@@ -40,6 +40,7 @@ struct DrawSettings {
     double rotate = 0.0;               ///< anticlockwise
     bool mirror = false;               ///< before the rotation
     std::string view;                  ///< value for `view:`; empty: the pattern's
+    std::string light;                 ///< value for `light:`; empty: the pattern's
     std::optional<std::string> dots;   ///< value for `dots:`; empty: default size and colour
     bool only_dots = false;
     std::optional<double> dot_spacing;                                 ///< distance between the nearest dots
@@ -55,6 +56,8 @@ struct DrawSettings {
     std::optional<double> hold;        ///< minimum display time of the last generation
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
+    bool fills_page = false;           ///< cover the page with a tiling
+    bool names_tiles = false;          ///< identifiers and classes for the polygons of an SVG
     std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;          ///< sheet of a tiled print
     std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
@@ -65,15 +68,15 @@ struct DrawSettings {
     int pens = 0;                           ///< maximum number of pens; 0: no limit
     std::optional<HpglPaper> paper;         ///< sheet or limits of an HP-GL plotter
     bool travel = false;                    ///< show pen-up travel
-    std::optional<PlotterProfile> profile;  ///< of the plotter, with which speeds and G-code begin
+    std::optional<PlotterProfile> profile;  ///< the plotter, whose speeds and G-code are the defaults
     std::vector<PenRule> pen_rules;         ///< settings of single pens, which replace those of the profile
-    std::optional<Refill> refill;           ///< of pens without a rule of their own
+    std::optional<Refill> refill;           ///< refill of pens without their own
     std::optional<glm::dvec2> park;         ///< place of the pen while it is changed
     double resume = 0.0;                    ///< length that was drawn before the plot was interrupted
     PlotSpeeds speeds;
     GcodeOptions gcode;
     Press press;
-    std::optional<int> compression;  ///< of PNG, 1 to 9; absent: 6, or 4 with grain, which takes long
+    std::optional<int> compression;  ///< level for PNG, 1 to 9; absent: 6, or 4 with grain, which compresses slowly
     double budget = 200e6;           ///< maximum number of derivation nodes visited in one pass
     int threads = 0;                 ///< for pictures; 0: one for each core
 };
@@ -83,11 +86,11 @@ std::span<const Option<DrawSettings>> draw_options();
 
 /// Reads options. @throws SettingError for unknown names and values that cannot be read
 /// @param folder  folder of the file that describes a plotter, if any; null: that file is not read.
-///                @throws PatternError for that file, std::runtime_error if it cannot be read
+///                @throws PatternError for that file
 DrawSettings read_draw_settings(const OptionValues& values, const std::filesystem::path* folder = nullptr);
 
-/// Reads the style of a document, with `dots` and `view` as the settings override them. @throws SettingError,
-/// PatternError
+/// Reads the style of a document, with `dots`, `view` and `light` as the settings override them. @throws
+/// SettingError, PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
 
 /// The options of the drawing, on its own page or in the cell of a sheet. The patterns of a border are not loaded:
@@ -97,14 +100,7 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
 
-/// How a drawing or a sheet is arranged for a plotter, and what its writers need to know of the machine.
-struct PlotSetup {
-    PlotOptions plot;
-    GcodeOptions gcode;
-    HpglOptions hpgl;
-    LayerCodes layer_codes;
-};
-/// Combines the settings with those of the plotter's profile.
+/// Combines the settings with those of the plotter's profile. Empty if the print is not for a plotter.
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);
 
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError

@@ -5,18 +5,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sikku {
 
-void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
+namespace {
+
+void warn_of_unused(const PlotReport& plot, std::span<const PenRule> rules, Made& made) {
+    for (const PenRule& rule : rules) {
+        const bool is_used = std::any_of(plot.pens.begin(), plot.pens.end(), [&](const PenTally& pen) {
+            return rule.colour ? pen.colour == *rule.colour : pen.number == rule.number;
+        });
+        if (is_used) continue;
+        made.warn(rule.colour
+                      ? fmt::format("'pen' {} has no effect: no pen has this colour", colour_name(*rule.colour))
+                      : fmt::format("'pen' {} has no effect: the plot uses {}", rule.number,
+                                    counted(plot.pens.size(), "pen")));
+    }
+}
+
+}  // namespace
+
+void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made) {
+    warn_of_unused(plot, rules, made);
     const auto line = [&](const PlotTally& tally, double seconds) {
         return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,
                            tally.travelled / 1000, plot.returns ? ", return included" : "",
                            counted(tally.lifts, "lift"), time_text(seconds));
     };
-    // Pens have the same speeds and pauses in both.
-    const double of_pens = plot_seconds(plot, speeds) - plot_seconds(plot.after, speeds);
-    made.fact("before: " + line(plot.before, plot_seconds(plot.before, speeds) + of_pens));
-    made.fact("plot:   " + line(plot.after, plot_seconds(plot, speeds)));
+    made.fact("before: " + line(plot.before, plot_seconds(plot.before, plot.pens_before, speeds)));
+    made.fact("plot:   " + line(plot.after, plot_seconds(plot.after, plot.pens, speeds)));
     if (plot.duplicates > 0) {
         made.fact(fmt::format("{} drawn twice in the pattern, once here", counted(plot.duplicates, "segment")));
     }
@@ -28,6 +46,57 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made) {
         made.fact(fmt::format("  {} ({:.2f} m) is drawn with pen {}, {}", colour_name(merged.colour),
                               merged.drawn / 1000, merged.number, colour_name(merged.pen)));
     }
+}
+
+void report_hpgl(const PlotReport& plot, const Page& page, const HpglOptions& options, Made& made) {
+    made.fact("HP-GL: " + describe_hpgl(page, options));
+    constexpr std::size_t most = 8;
+    const std::size_t pens = plot.colours - plot.merged.size();
+    if (pens <= most) return;
+    made.warn(fmt::format(
+        "the plot needs {} pens, but HP-GL plotters hold up to {}: the option 'pens' merges colours", pens, most));
+}
+
+std::vector<std::string> drawing_warnings(const DrawReport& report, const Style& style, const DrawSettings& settings,
+                                          bool is_plot) {
+    std::vector<std::string> warnings;
+    if (style.dots && report.dots == 0 && report.sheets == 0) {
+        warnings.emplace_back("no dots were drawn: the lines enclose none");
+    }
+    if (style.fields && report.fields == 0 && !settings.only_dots) {
+        warnings.emplace_back("no fields were filled: the drawing has no closed line");
+    }
+    if (is_plot && report.fields > 0 && !settings.hatch) {
+        warnings.emplace_back("plots fill fields only by hatching: set 'hatch'");
+    }
+    if (!style.powders.empty() && !style.fields) {
+        warnings.emplace_back("'powders' has no effect: powders colour fields; set 'fields', for example to kind");
+    }
+    if (report.woven && *report.woven == 0) warnings.emplace_back("'weave' has no effect: the lines do not cross");
+    if (report.parallel && style.parallel.is_spaced && report.parallel->spacing < 0.999 * report.parallel->wanted) {
+        warnings.push_back(fmt::format(
+            "'parallel': {:.2g} mm from line to line do not fit between the turns and the neighbours of the "
+            "lines; they are drawn {:.2g} mm apart and {:.2g} mm wide",
+            report.parallel->wanted, report.parallel->spacing, report.parallel->width));
+    }
+    return warnings;
+}
+
+std::vector<std::string> space_warnings(const DrawSettings& settings, bool is_spatial, PrintFormat format) {
+    std::vector<std::string> warnings;
+    if (!settings.view.empty() && !is_spatial) {
+        warnings.emplace_back("'view' has no effect: the drawing lies in the plane");
+    }
+    if (!is_spatial && std::any_of(settings.keys.begin(), settings.keys.end(),
+                                   [](const Setting& key) { return key.key == "sway"; })) {
+        warnings.emplace_back("'sway' has no effect: the drawing lies in the plane");
+    }
+    if (!settings.light.empty() && !is_spatial) {
+        warnings.emplace_back("'light' has no effect: the drawing lies in the plane");
+    } else if (!settings.light.empty() && is_vector(format)) {
+        warnings.emplace_back("'light' has no effect: only pictures have light; vectors have flat facets");
+    }
+    return warnings;
 }
 
 }  // namespace sikku

@@ -1,12 +1,34 @@
-// art/plot_remarks.h: the remarks about a finished plot.
+// art/plot_remarks.h: the remarks about a finished drawing and its plot.
 #pragma once
 
+#include "art/draw_settings.h"
+#include "art/drawing/draw_options.h"
+#include "art/plotter/hpgl.h"
 #include "art/plotter/plot.h"
+#include "art/print/page.h"
+#include "art/style/style.h"
 #include "engine/interpreter.h"
+
+#include <span>
+#include <string>
+#include <vector>
 
 namespace sikku {
 
 /// Adds the lengths and the time before and after arranging, and the merged pens.
-void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, Made& made);
+/// @param rules  requested for single pens; those for pens that the plot does not use are reported
+void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made);
+
+/// Reports the position of an HP-GL plot, and that it needs more pens than plotters hold.
+void report_hpgl(const PlotReport& plot, const Page& page, const HpglOptions& options, Made& made);
+
+/// Warnings that requested dots, fields, weaves or parallel lines were not drawn as requested.
+/// @param report  of this drawing, after it was drawn
+std::vector<std::string> drawing_warnings(const DrawReport& report, const Style& style, const DrawSettings& settings,
+                                          bool is_plot);
+
+/// Warnings that a requested camera or light has no effect.
+/// @param is_spatial  the drawing is one in space
+std::vector<std::string> space_warnings(const DrawSettings& settings, bool is_spatial, PrintFormat format);
 
 }  // namespace sikku

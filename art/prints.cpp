@@ -6,6 +6,8 @@
 #include "art/drawing/drawing.h"
 #include "art/drawing/growth.h"
 #include "art/drawing/lesson.h"
+#include "art/drawing/lesson_drawing.h"
+#include "art/drawing/window_drawing.h"
 #include "art/image/image_file.h"
 #include "art/plot_remarks.h"
 #include "art/print_cell.h"
@@ -13,6 +15,8 @@
 #include "art/sheet/sheet.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
+#include "engine/language/surface.h"
+#include "engine/map/map_measurement.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +34,8 @@ void report_sheets(const DrawReport& report, Made& made) {
     constexpr double least = 0.05;
     const auto left_out = [&](double length, const char* sides) {
         if (length < least) return;
-        made.fact(fmt::format("{:.1f} mm of the margin at the {} are left out: the sheets end there", length, sides));
+        made.fact(fmt::format("{:.1f} mm of the margin at the {} do not fit on the sheets and are left out", length,
+                              sides));
     };
     left_out(report.left_out.x, "left and right");
     left_out(report.left_out.y, "top and bottom");
@@ -60,12 +65,15 @@ public:
         print_.made = made_with(document.grammar());
         print_.press = settings_.press;
         print_.animation = settings_.animation;
+        print_.names_tiles = settings_.names_tiles;
         plan_drawing();
         check_drawing();
-        // A border frames a whole print.
-        if (settings_.window || settings_.lesson || is_model()) print_.style.border.reset();
+        drop_border();
         load_border(print_.style, document_, settings_, folder, drawing_,
                     [this](const std::string& name, const std::string& text) { files_.emplace_back(name, text); });
+        for (const auto& surface : document.grammar().surfaces()) {
+            if (surface->source) files_.emplace_back(surface->source->name(), surface->source->text());
+        }
     }
 
     Cost forecast() const override;
@@ -83,6 +91,7 @@ private:
         std::string own;
         if (!settings_.window_text.empty()) own += " --window " + settings_.window_text;
         if (!settings_.view.empty()) own += " --view " + settings_.view;
+        if (!settings_.light.empty()) own += " --light " + settings_.light;
         return recipe(document_, grammar, own);
     }
 
@@ -93,13 +102,30 @@ private:
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
-        if (!settings_.plotter && !is_for_plotters(format_)) return;
-        PlotSetup setup = plot_setup(settings_, format_);
-        drawing_.plot = std::move(setup.plot);
-        drawing_.shows_travel = settings_.travel;
-        drawing_.gcode = std::move(setup.gcode);
-        drawing_.hpgl = std::move(setup.hpgl);
-        drawing_.layer_codes = setup.layer_codes;
+        static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
+    }
+
+    /// A border frames a whole print: elsewhere that of the pattern is not drawn, and a warning says why.
+    void drop_border() {
+        if (!print_.style.border) return;
+        const char* why = settings_.window   ? "a window shows only part of the drawing"
+                          : settings_.lesson ? "a lesson teaches the lines of the drawing"
+                          : is_model()       ? "a model has no page"
+                                             : nullptr;
+        if (!why) return;
+        print_.style.border.reset();
+        dropped_border_ = fmt::format("the border of the pattern is not drawn: {}", why);
+    }
+
+    /// Checks that the settings apply to a map.
+    void check_map() const {
+        constexpr const char* kolams = "applies to the lines of a turtle, and a map has none";
+        if (is_model()) require_turtle(document_, "it cannot be a model");
+        if (settings_.dots || settings_.only_dots) refuse_option("dots", "", kolams);
+        if (settings_.dot_spacing) refuse_option("dot-spacing", "", kolams);
+        if (settings_.colours_strokes) refuse_option("colour-by", "", kolams);
+        if (settings_.lesson) refuse_option("lesson", "", kolams);
+        refuse_line_work("a map has");
     }
 
     /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
@@ -111,11 +137,13 @@ private:
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (is_model()) refuse_line_work("a model has");
+        if (document_.map()) check_map();
         if (!is_spatial) return;
-        require_plain("drawings that pitch, roll or bend have no hand-drawn lines; set hand to 0");
-        refuse_line_work("drawings that pitch, roll or bend have");
-        require_straight("drawings that pitch, roll or bend have straight lines, not splines; set line to straight");
-        constexpr const char* plane = "applies only to drawings in the plane; this one pitches, rolls or bends";
+        require_plain("drawings in space have no hand-drawn lines; set hand to 0");
+        refuse_line_work("drawings in space have");
+        require_straight("drawings in space have straight lines, not splines; set line to straight");
+        constexpr const char* plane =
+            "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
@@ -157,6 +185,8 @@ private:
         refuse(print_.style.fields.has_value(), "fields", "fields", "none");
         refuse(print_.style.weave.has_value(), "weave", "weave", "none");
         refuse(print_.style.parallel.count > 1, "parallel lines", "parallel", "1");
+        refuse(print_.style.tile_colours.has_value(), "colours of tiles", "tile colours", "none");
+        refuse(print_.style.tile_edges != TileEdges::each, "edges of tiles", "tile edges", "each");
     }
 
     void make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -178,7 +208,8 @@ private:
     Print print_;
     DrawOptions drawing_;
     std::filesystem::path folder_;
-    std::vector<std::pair<std::string, std::string>> files_;  ///< that the border was loaded from
+    std::string dropped_border_;                              ///< warning; empty: none
+    std::vector<std::pair<std::string, std::string>> files_;  ///< of borders and surfaces
 };
 
 void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -215,11 +246,15 @@ std::vector<SheetCell> PrintWork::generation_cells() const {
 std::vector<SheetCell> PrintWork::lesson_cells(const DrawOptions& options) const {
     DrawOptions drawing = options;
     drawing.begin = nullptr;
+    drawing.most_steps = most_lesson_cells;
+    drawing.lesson_memo = std::make_shared<LessonMemo>();
     const LessonLength length = lesson_length(document_.grammar(), print_, drawing);
     std::vector<SheetCell> cells;
     for (std::size_t step = length.first; step < length.count; ++step) {
         SheetCell& cell = cells.emplace_back(print_cell(document_, settings_, folder_));
         cell.lesson_step = step;
+        cell.most_steps = drawing.most_steps;
+        cell.lesson_memo = drawing.lesson_memo;
         cell.style.border.reset();
         cell.caption = {step == 0 ? "dots" : step + 1 == length.count ? "whole" : std::to_string(step)};
     }
@@ -236,6 +271,7 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.dpi = print_.dpi;
     sheet.title = print_.title;
     sheet.animation = print_.animation;
+    sheet.names_tiles = print_.names_tiles;
     sheet.press = print_.press;
     // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
@@ -258,7 +294,7 @@ void PrintWork::make_lesson(Destination& destination, const std::filesystem::pat
     lesson.pause = *settings_.lesson / 3;
     lesson.hold = settings_.hold.value_or(lesson.hold);
     const DrawReport report = draw_lesson(document_.grammar(), print_, options, lesson, name, destination);
-    if (report.dots == 0) made.warn("the lesson has no page of dots: the lines enclose none");
+    if (report.dots == 0) made.warn("the lesson has no page of dots, because the lines enclose none");
     if (report.overflows) made.warn("the drawing is larger than the page within its margins and is cut off");
 }
 
@@ -271,20 +307,17 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.copies > 0) {
         made.fact(fmt::format("{}: {}, {}", settings_.repeat->group,
                               report.copies == 1 ? "1 copy" : fmt::format("{} copies", report.copies),
-                              counted(report.strokes, "line")));
+                              counted(report.strokes.value_or(0), "line")));
     }
-    if (print_.style.dots && report.dots == 0 && report.sheets == 0) {
-        made.warn("no dots were drawn: the lines enclose none");
+    for (const std::string& warning : drawing_warnings(report, print_.style, settings_, report.plot.has_value())) {
+        made.warn(warning);
     }
-    if (print_.style.fields && report.fields == 0 && !settings_.only_dots) {
-        made.warn("no fields were filled: the drawing has no closed line");
+    if (document_.map()) {
+        const std::string remark = undivided_remark(report.cells, *document_.map(), document_.grammar().steps());
+        if (!remark.empty()) made.warn(remark);
     }
-    if (report.plot && report.fields > 0 && !settings_.hatch) {
-        made.warn("plots fill fields only by hatching: set 'hatch'");
-    }
-    if (report.parallel && report.parallel->spacing < 0.999 * report.parallel->wanted) {
-        made.fact(fmt::format("parallel lines are {:.2g} mm apart and {:.2g} mm wide: there is no room for {:.2g} mm",
-                              report.parallel->spacing, report.parallel->width, report.parallel->wanted));
+    if (report.crosses_itself) {
+        made.warn("the outline crosses itself, so that parts of the map overlap: a smaller 'growth' prevents that");
     }
     if (report.is_empty) {
         made.warn("the window contains no part of the drawing");
@@ -295,21 +328,11 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
             print_.style.line_width({}, report.step), 25.4 / print_.dpi,
             print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
     }
-    if (report.plot) report_plot(*report.plot, settings_.speeds, made);
+    if (report.plot) report_plot(*report.plot, settings_.speeds, settings_.pen_rules, made);
     if (report.plot && settings_.hatch && report.plot->fills == 0 && report.fields == 0) {
         made.warn("'hatch' has no effect: this drawing has no fills");
     }
-    if (report.plot && format_ == PrintFormat::hpgl) {
-        made.fact("HP-GL: " + describe_hpgl(print_.page, options.hpgl));
-        constexpr std::size_t most = 8;
-        const std::size_t pens = report.plot->colours - report.plot->merged.size();
-        if (pens > most) {
-            made.warn(
-                fmt::format("the plot needs {} pens, but HP-GL plotters hold up to {}: the option 'pens' merges "
-                            "colours",
-                            pens, most));
-        }
-    }
+    if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, print_.page, options.hpgl, made);
     if (report.sheets > 0) report_sheets(report, made);
     if (report.overflows && report.sheets == 0) {
         made.warn(fmt::format(
@@ -321,12 +344,13 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
 Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
                      int threads) {
     Made made;
+    if (!dropped_border_.empty()) made.warn(dropped_border_);
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;
     options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
     const auto& tables = document_.grammar().tables();
-    if (settings_.generations &&
+    if (settings_.generations && !document_.map() &&
         std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); })) {
         made.warn("'generations' has no effect: the pattern has no productions");
     }
@@ -342,8 +366,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     } else {
         make_print(destination, name, options, made);
     }
-    if (!settings_.view.empty() && !document_.grammar().is_spatial()) {
-        made.warn("'view' has no effect: this drawing lies in the plane");
+    for (const std::string& text : space_warnings(settings_, document_.grammar().is_spatial(), format_)) {
+        made.warn(text);
     }
     return made;
 }
@@ -408,6 +432,7 @@ Cost PrintWork::forecast(const Grammar& given) const {
             return result;
         case PrintFormat::hpgl:
         case PrintFormat::gcode:
+        case PrintFormat::dxf:
             result.seconds += cost.lines * 3e-6;
             result.bytes = 500 + cost.lines * (spline ? 60 : 12);
             return result;
@@ -422,12 +447,39 @@ Cost PrintWork::forecast(const Grammar& given) const {
     return result;
 }
 
+/// Sets the window of the settings to a place of a tiling that covers the page. Returns the document with the
+/// derivation length that it takes. @throws SettingError if there is none
+Document fill_page(const Document& document, DrawSettings& settings) {
+    constexpr double steps_across = 40;
+    const Page& page = settings.page;
+    const double step = settings.step.value_or(std::min(page.width, page.height) / steps_across);
+    const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
+    if (styled.grammar().is_spatial() || styled.grammar().map()) {
+        refuse_option("fill-page", "", "applies only to tilings in the plane");
+    }
+    DrawOptions options;
+    options.budget = settings.budget;
+    std::string why;
+    const glm::dvec2 size = (glm::dvec2(page.width, page.height) - 2 * page.margin) / step;
+    const double around = (page.margin + settings.press.bleed) / step;
+    const auto found =
+        find_filled_page(styled.grammar(), read_print_style(document, settings), size, around, options, why);
+    if (!found) refuse_option("fill-page", "", why);
+    settings.step.reset();
+    settings.window = found->window;
+    return document.with({Setting{"fill-page", "derivation length", std::to_string(found->steps)}});
+}
+
 /// @throws SettingError, PatternError
 std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
                                       const std::filesystem::path& folder = {}) {
     DrawSettings settings = read_draw_settings(values, &folder);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
+    if (settings.fills_page) {
+        const Document longer = fill_page(document, settings);
+        return std::make_unique<PrintWork>(longer, format, std::move(settings), folder);
+    }
     return std::make_unique<PrintWork>(document, format, std::move(settings), folder);
 }
 

@@ -2,6 +2,7 @@
 
 #include "art/draw_settings.h"
 #include "art/image/image_file.h"
+#include "art/kolam/dot_grid_pattern.h"
 #include "art/plot_remarks.h"
 #include "art/print_cell.h"
 #include "art/prints.h"
@@ -78,23 +79,26 @@ const std::array sheet_rows = {
               }},
     Option<S>{
         {.name = "same-scale",
-         .help = "draw all in one scale, in which the largest fills its place, instead of each as large as fits",
+         .help =
+             "draw all at one scale, at which the largest fills its place, instead of each as large as fits: with "
+             "one distance between dots if all have dots, otherwise with one step length",
          .kind = flag},
         [](S& s, Text t) { s.same_scale = t == "true"; }},
     Option<S>{{.name = "heading", .help = "title of the sheet, above the drawings", .value = "TEXT"},
               [](S& s, Text t) { s.heading = t; }},
     Option<S>{{.name = "subheading", .help = "smaller line below the heading", .value = "TEXT"},
               [](S& s, Text t) { s.subheading = t; }},
-    Option<S>{{.name = "sheet-ground",
-               .help = "colour between the drawings, or none (that of the drawings if they share one, or paper)",
-               .value = "COLOUR"},
-              [](S& s, Text t) {
-                  s.has_ground = true;
-                  if (lower_case(trimmed(t)) == "none") return;
-                  s.ground = parse_colour(trimmed(t));
-                  if (!s.ground)
-                      refuse_option("sheet-ground", t, "expected a colour such as navy or #8c3b2a, or none");
-              }},
+    Option<S>{
+        {.name = "sheet-ground",
+         .help =
+             "colour between the drawings, or none (the ground of the drawings if they share one, otherwise paper)",
+         .value = "COLOUR"},
+        [](S& s, Text t) {
+            s.has_ground = true;
+            if (lower_case(trimmed(t)) == "none") return;
+            s.ground = parse_colour(trimmed(t));
+            if (!s.ground) refuse_option("sheet-ground", t, "expected a colour such as navy or #8c3b2a, or none");
+        }},
 };
 
 const std::array place_rows = {
@@ -142,6 +146,17 @@ void refuse_alone(const OptionValues& values) {
     }
 }
 
+/// Title, grid, and the description up to its first semicolon: productions of kolams are long words.
+std::vector<std::string> kolam_caption(const Document& document, const std::string& title, const std::string& grid) {
+    std::vector<std::string> caption = {title};
+    // A shape is too long for a caption.
+    constexpr std::size_t most = 40;
+    if (!grid.empty() && grid.size() <= most && title.find(grid) == std::string::npos) caption.push_back(grid);
+    const std::string description = document.text("description");
+    if (!description.empty()) caption.push_back(description.substr(0, description.find(';')));
+    return caption;
+}
+
 /// Settings that the sheet and its prints share.
 struct Shared {
     SheetSettings sheet;
@@ -166,7 +181,8 @@ Shared read_shared(OptionValues values, const std::filesystem::path* folder = nu
 PrintFormat known_format(std::string_view name) {
     const auto format = named_format(name);
     if (!format || info(*format).kind == FormatKind::animation || info(*format).kind == FormatKind::model) {
-        refuse_option("format", std::string(name), "a sheet is SVG, PDF, a picture, HP-GL or G-code");
+        throw SettingError("", "",
+                           fmt::format("a sheet is SVG, PDF, a picture, HP-GL, G-code or DXF, not .{}", name));
     }
     return *format;
 }
@@ -181,7 +197,7 @@ public:
         DrawSettings& page = shared_.page;
         if (!page.press.cmyk.empty()) page.press.cmyk = folder / page.press.cmyk;
         check_draw_settings(page, format_);
-        for (const SheetItem& item : items) add_cell(item, folder);
+        for (const SheetItem& item : items) add_named_cell(item, folder);
         set_options(items);
     }
 
@@ -200,16 +216,57 @@ public:
         options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
         Made made;
         const SheetLayout layout = draw_sheet(cells_, options, name, destination);
-        if (layout.plot) report_plot(*layout.plot, shared_.page.speeds, made);
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            if (layout.windows[i].clips) {
-                made.warn(fmt::format("'{}' is larger than its place and is cut off", cells_[i].title));
-            }
+        if (layout.plot) report_plot(*layout.plot, shared_.page.speeds, shared_.page.pen_rules, made);
+        if (layout.plot && format_ == PrintFormat::hpgl) {
+            report_hpgl(*layout.plot, shared_.page.page, options_.hpgl, made);
         }
+        report_drawings(layout, made);
         return made;
     }
 
 private:
+    /// Warns once of each thing, with the titles of the drawings that it concerns.
+    void report_drawings(const SheetLayout& layout, Made& made) const {
+        std::vector<std::pair<std::string, std::string>> warnings;  // with titles
+        const auto warn = [&](const std::string& text, const std::string& title) {
+            const auto found =
+                std::find_if(warnings.begin(), warnings.end(), [&](const auto& one) { return one.first == text; });
+            if (found == warnings.end()) {
+                warnings.emplace_back(text, fmt::format("'{}'", title));
+            } else {
+                found->second += fmt::format(", '{}'", title);
+            }
+        };
+        bool has_fields = false;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const SheetCell& cell = cells_[i];
+            const DrawReport& report = layout.reports[i];
+            has_fields = has_fields || report.fields > 0;
+            const bool fills_page = cell.repeat && cell.repeat->fills;
+            if (layout.windows[i].clips && !fills_page) warn("larger than its place and cut off", cell.title);
+            for (const std::string& text :
+                 drawing_warnings(report, cell.style, settings_[i], layout.plot.has_value()))
+                warn(text, cell.title);
+            for (const std::string& text : space_warnings(settings_[i], cell.grammar->is_spatial(), format_)) {
+                warn(text, cell.title);
+            }
+        }
+        for (const auto& [text, titles] : warnings) made.warn(fmt::format("{}: {}", titles, text));
+        if (layout.plot && shared_.page.hatch && layout.plot->fills == 0 && !has_fields) {
+            made.warn("'hatch' has no effect: these drawings have no fills");
+        }
+    }
+
+    /// add_cell(), whose errors name the drawing.
+    void add_named_cell(const SheetItem& item, const std::filesystem::path& folder) {
+        try {
+            add_cell(item, folder);
+        } catch (const SettingError& error) {
+            const std::string name = std::filesystem::path(item.document.source().name()).filename().string();
+            throw SettingError(error.option(), error.value(), fmt::format("{} (drawing '{}')", error.what(), name));
+        }
+    }
+
     void add_cell(const SheetItem& item, const std::filesystem::path& folder) {
         OptionValues own = item.values;
         PlaceSettings place;
@@ -234,15 +291,21 @@ private:
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
         SheetCell cell = print_cell(document, settings, folder);
         cell.dot_spacing = settings.dot_spacing;
+        const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
+        if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;
         if (place.title) cell.title = *place.title;
         if (shared_.sheet.titles == Titles::title || (place.title && shared_.sheet.titles == Titles::none)) {
             cell.caption = {cell.title};
         } else if (shared_.sheet.titles == Titles::caption) {
-            cell.caption = caption_of(*cell.grammar, cell.title, document.pattern());
+            cell.caption = grid.empty() && cell.grammar->steps() > 0
+                               ? caption_of(*cell.grammar, cell.title, document.pattern())
+                               : kolam_caption(document, cell.title, grid);
         }
         set_slot(place, cell);
         cells_.push_back(std::move(cell));
+        settings_.push_back(settings);
+        settings_.back().hatch = shared_.page.hatch;
     }
 
     void set_slot(const PlaceSettings& place, SheetCell& cell) const {
@@ -268,6 +331,7 @@ private:
 
     void set_options(const std::vector<SheetItem>& items) {
         const DrawSettings& page = shared_.page;
+        options_.is_centred = true;
         options_.format = format_;
         options_.page = page.page;
         options_.dpi = page.dpi;
@@ -278,6 +342,7 @@ private:
         options_.same_scale = shared_.sheet.same_scale;
         options_.press = page.press;
         options_.animation = page.animation;
+        options_.names_tiles = page.names_tiles;
         options_.threads = page.threads;
         const bool has_hand =
             std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return cell.style.hand > 0; });
@@ -289,13 +354,7 @@ private:
         if (is_one) options_.pattern = items.front().document.source().text();
         options_.made = fmt::format("sikku {}, sheet of {}", SIKKU_VERSION, counted(items.size(), "drawing"));
         set_ground();
-        if (!page.plotter && !is_for_plotters(format_)) return;
-        PlotSetup setup = plot_setup(page, format_);
-        options_.plot = std::move(setup.plot);
-        options_.shows_travel = page.travel;
-        options_.gcode = std::move(setup.gcode);
-        options_.hpgl = std::move(setup.hpgl);
-        options_.layer_codes = setup.layer_codes;
+        static_cast<PlotSetup&>(options_) = plot_setup(page, format_);
     }
 
     /// One ground under all drawings if they share it; texts stand out from it.
@@ -317,6 +376,7 @@ private:
     PrintFormat format_;
     Shared shared_;
     std::vector<SheetCell> cells_;
+    std::vector<DrawSettings> settings_;  ///< of the drawings
     SheetOptions options_;
 };
 

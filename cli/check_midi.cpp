@@ -52,7 +52,7 @@ bool check_midi_file(const std::string& file) {
     const auto faults = check_midi(span_of(bytes));
     for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);
     if (faults.size() == most_midi_faults) {
-        fmt::print("{}: only the first {} faults are listed\n", printable(file), most_midi_faults);
+        fmt::print("{}: only the first {} errors are listed\n", printable(file), most_midi_faults);
     }
     return faults.empty();
 }

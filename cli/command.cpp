@@ -4,6 +4,7 @@
 #include "cli/link_argument.h"
 #include "cli/options.h"
 #include "engine/base/output_file.h"
+#include "engine/language/arrangement_library.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
 
@@ -76,6 +77,8 @@ NamedText read_pattern_text(const std::string& pattern) {
                             format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
         }
     } catch (const NotFound& error) {
+        if (bundled_arrangement(pattern))
+            throw UsageError(pattern + ": this is an arrangement; `sikku play` plays it");
         throw UsageError(std::string(error.what()) +
                          (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
     }

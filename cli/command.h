@@ -30,7 +30,7 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Prints to standard error. If that cannot be written there is nobody left to tell.
+/// Prints to standard error. Ignores failures to write, which cannot be reported.
 template <typename... Arguments>
 void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {
     try {
@@ -65,7 +65,7 @@ struct PatternOptions {
     std::string seed;
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
-/// Of `--seed`; 0 if it was not given. @throws UsageError
+/// The value of `--seed`; 0 if it was not given. @throws UsageError
 std::uint64_t seed_of(const PatternOptions& options);
 /// The same without PATTERN.
 void add_override_options(CLI::App& command, PatternOptions& options);
@@ -130,12 +130,14 @@ void add_measure(CLI::App& app, bool& quiet);
 void add_draw(CLI::App& app, bool& quiet);
 void add_sheet(CLI::App& app, bool& quiet);
 void add_kolam(CLI::App& app, bool& quiet);
+void add_tiling(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);
 void add_gallery(CLI::App& app, bool& quiet);
 void add_scales(CLI::App& app);
 void add_import(CLI::App& app, bool& quiet);
 void add_patterns(CLI::App& app);
 void add_plotters(CLI::App& app);
+void add_ports(CLI::App& app);
 void add_show(CLI::App& app, bool& quiet);
 void add_check(CLI::App& app);
 void add_studio(CLI::App& app, bool& quiet);

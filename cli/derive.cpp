@@ -1,7 +1,8 @@
-// cli/derive.cpp: `sikku derive`: the word itself.
+// cli/derive.cpp: `sikku derive`: the word or the map itself.
 #include "cli/command.h"
 #include "engine/base/memory.h"
 #include "engine/derivation/forecast.h"
+#include "engine/map/map_step.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,9 +12,24 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <string_view>
 
 namespace sikku {
 namespace {
+
+/// @throws std::runtime_error that names the cause; Interrupted
+void write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0) {
+            if (errno == EINTR && !interrupted()) continue;
+            if (interrupted()) throw Interrupted();
+            throw std::runtime_error(fmt::format("standard output: {}", std::strerror(errno)));
+        }
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
 
 /// Prints symbols to a file descriptor. Blocks that recur are turned into text once.
 class TextSink : public SymbolSink {
@@ -89,18 +105,7 @@ private:
     }
 
     void flush() {
-        const char* at = buffer_.data();
-        std::size_t left = buffer_.size();
-        while (left > 0) {
-            const ssize_t written = ::write(descriptor_, at, left);
-            if (written < 0) {
-                if (errno == EINTR && !interrupted()) continue;
-                if (interrupted()) throw Interrupted();
-                throw std::runtime_error(fmt::format("standard output: {}", std::strerror(errno)));
-            }
-            at += written;
-            left -= static_cast<std::size_t>(written);
-        }
+        write_all(descriptor_, buffer_);
         buffer_.clear();
     }
 
@@ -116,25 +121,34 @@ private:
     std::vector<std::string> blocks_;
 };
 
+void derive_as_text(const Document& document, Progress& progress) {
+    const MapLimits limits{std::numeric_limits<double>::infinity(), static_cast<double>(available_memory()) / 2};
+    const Map map = derive_map(document.grammar(), limits, progress.monitor());
+    print_map(map, *document.map(), [](std::string_view text) { write_all(STDOUT_FILENO, text); });
+}
+
 }  // namespace
 
 void add_derive(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("derive", "Print the derived word");
+    auto* command = app.add_subcommand("derive", "Print the derived word or map");
     auto options = std::make_shared<PatternOptions>();
     auto interpreted = std::make_shared<bool>(false);
     add_pattern_options(*command, *options);
     command->add_flag("--interpreted", *interpreted, "apply the productions under `interpret:`");
     command->footer(
-        "The word is streamed to standard output; its length has no limit.\n\n"
+        "The word is streamed to standard output; its length has no limit. Maps are printed as lines "
+        "`edge LABEL TAIL HEAD BORN` (the step of its wall) and `cell +0 -3 …`, the half-edges clockwise around a "
+        "cell: + from tail to head, - backwards; the last line is the outline.\n\n"
         "Examples:\n"
         "  sikku derive fibonacci-words\n"
         "  sikku derive koch-island -n 8 | wc -c");
     command->callback([options, interpreted, &quiet] {
         const Document loaded = load(*options, quiet);
-        const Grammar grammar = shorten(loaded.grammar());
         // Where the word itself goes to the terminal, a bar would be lost in it.
         const bool silent = quiet || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 0;
         Progress progress(silent);
+        if (loaded.map()) return derive_as_text(loaded, progress);
+        const Grammar grammar = shorten(loaded.grammar());
         if (!silent) progress.expect(expected_symbols(grammar, *interpreted));
         TextSink sink(grammar, STDOUT_FILENO);
         DerivationOptions derivation;

@@ -61,17 +61,16 @@ void run(const DrawCommand& command, bool quiet) {
         return prints().plan(assigned.document, format, assigned.options);
     });
     make(*work, command.output, quiet);
-    if (format != "png" && has_option(assigned.options, "compression")) {
-        tell_unless(quiet, "sikku: warning: --compression has no effect: it is for PNG\n");
-    }
+    report_compression(format, assigned.options, quiet);
 }
 
 }  // namespace
 
 void add_draw(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("draw",
-                                       "Draw a print (SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code) or a model "
-                                       "(OBJ, glTF)");
+    auto* command =
+        app.add_subcommand("draw",
+                           "Draw a print (SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, DXF) or a model "
+                           "(OBJ, glTF)");
     auto options = std::make_shared<DrawCommand>();
     add_pattern_options(*command, options->pattern);
     command->add_option("-o,--output", options->output, "output file; its extension selects the format")

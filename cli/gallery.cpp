@@ -28,7 +28,7 @@ namespace {
 
 struct Options {
     GalleryRequest request;
-    std::map<std::string, std::string> texts;  ///< of the keys of gallery files, as options
+    std::map<std::string, std::string> texts;  ///< values of the keys of gallery files, as options
     std::map<std::string, bool> flags;
     std::string output = "gallery";
     bool names_folder = false;  ///< true if -o was given
@@ -166,16 +166,16 @@ void submit(const Options& options, std::size_t jobs) {
     const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
                                          quoted(folder.string() + ".%j.log"));
     if (!is_in_path("sbatch")) {
-        tell("sikku: sbatch is not available here; submit {} where it is:\n  id=$({})\n  {}$id {}\n", script, array,
-             last, quoted(script));
+        tell("sikku: sbatch is not available here; to submit {} where it is:\n  id=$({})\n  {}$id {}\n", script,
+             array, last, quoted(script));
         return;
     }
     // Another cluster's name may follow behind a semicolon.
     const auto number = [](const std::string& text) { return text.substr(0, text.find(';')); };
     const std::string id = number(output_of(array));
     const std::string end = number(output_of(last + id + " " + quoted(script)));
-    fmt::print("Slurm has job {} with {}, and job {} that comes last; {} is their script\n", id,
-               counted(tasks, "task"), end, script);
+    fmt::print("submitted job {} with {}, followed by job {}; their script is {}\n", id, counted(tasks, "task"), end,
+               script);
 }
 
 /// Reports progress on standard error; on a terminal, as a bar with jobs per second and the time left.
@@ -311,7 +311,7 @@ void run(Options& options, bool quiet) {
     const GalleryResult result = gallery.make(reporter);
     if (!quiet) print_result(gallery, result, options, shard, now() - started);
     if (interrupted()) {
-        throw Interrupted(fmt::format("interrupted; {} of {} jobs are finished, the same command resumes",
+        throw Interrupted(fmt::format("interrupted; {} of {} jobs are finished; the same command resumes",
                                       result.finished.size(), gallery.chosen().size()));
     }
     for (const Failure& failure : result.failures) {
@@ -378,7 +378,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
         ->add_option("--memory", options->memory,
                      "maximum memory, such as 1G; jobs wait for it (half of the available memory)")
         ->type_name("BYTES");
-    command->add_option("-j,--jobs", options->threads, "jobs at a time; 0: one for each core (0)")
+    command->add_option("-j,--jobs", options->threads, "jobs at a time; 0: one per core (0)")
         ->check(whole_number(0, 1024))
         ->type_name("N");
     command

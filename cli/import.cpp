@@ -88,7 +88,7 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
         std::string name = plain;
         for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}-{}", plain, number);
         if (name != plain) {
-            tell_unless(quiet, "sikku: {}.lsys exists already: '{}' of line {} becomes {}.lsys\n", plain, system.name,
+            tell_unless(quiet, "sikku: {}.lsys already exists: '{}' on line {} becomes {}.lsys\n", plain, system.name,
                         system.line, name);
         }
         write_file(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
@@ -114,12 +114,12 @@ void import_file(const ImportOptions& options, bool quiet) {
     const auto format = import_format(file->text());
     if (!format) {
         throw UsageError(
-            fmt::format("{} is neither a file of cpfg, which has a line 'Lsystem:', nor a collection of Fractint, "
+            fmt::format("{} is neither a cpfg file, which has a line 'Lsystem:', nor a Fractint collection, "
                         "which has entries 'NAME {{'",
                         options.file));
     }
     if (*format != ImportFormat::cpfg && !options.view.empty()) {
-        throw UsageError("--view-file: a collection of Fractint has no view file");
+        throw UsageError("--view-file: a Fractint collection has no view file");
     }
     Diagnostics diagnostics;
     const SourcePointer view = *format == ImportFormat::cpfg ? view_of(options) : nullptr;
@@ -158,7 +158,7 @@ void import_file(const ImportOptions& options, bool quiet) {
 }  // namespace
 
 void add_import(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("import", "Turn L-systems of cpfg and Fractint into pattern files");
+    auto* command = app.add_subcommand("import", "Convert cpfg and Fractint L-systems into pattern files");
     auto options = std::make_shared<ImportOptions>();
     command->add_option("FILE", options->file, "cpfg file, Fractint collection, or - for standard input")->required();
     command->add_option("NAMES", options->names, "entries of a collection (all)");

@@ -25,12 +25,12 @@ void add_kolam(CLI::App& app, bool& quiet) {
     add_kolam_grid_options(*command, *grid);
     command
         ->add_option("-o,--output", grid->output,
-                     "pattern file (standard output); except of --radial also .kolam.json, .csv (single lines) or "
+                     "pattern file (standard output); without --radial also .kolam.json, .csv (single lines) or "
                      ".yaml (gestures)")
         ->type_name("FILE")
         ->group(grid_heading);
     add_kolam_read_options(*command, *read);
-    command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one for each core (0)")
+    command->add_option("-j,--jobs", grid->threads, "threads of --enumerate; 0: one per core (0)")
         ->check(whole_number(0, 1024))
         ->type_name("N")
         ->group(grid_heading);
@@ -38,15 +38,16 @@ void add_kolam(CLI::App& app, bool& quiet) {
     add_budget_option(*command, *budget);
     command->footer(
         "In a kolam every dot is encircled, every line is closed, and nothing is drawn twice. Violations of these "
-        "rules and unusual features are reported. Dots are placed as tradition does: one in each loop, none in the "
-        "gaps between loops. Positions are in turtle steps; the turtle starts at 0 0; the examination is exact where "
+        "rules and unusual features are reported. Dots are placed by tradition: one in each loop, none in the gaps "
+        "between loops; a pattern that has dots elsewhere, such as a radial kolam, keeps its own, and lines may run "
+        "through them. Positions are in turtle steps; the turtle starts at 0 0; the examination is exact where "
         "the angles allow it. With `line: spline`, the polygon that guides the spline is examined.\n\n"
         "With --grid or --radial, the command makes a kolam instead, as a pattern file. With --read, it reads one; "
         "with PATTERN and -o, it reads the kolam that the pattern draws. The report counts dots, gaps and lines, and "
         "lists doubtful gaps by row and number: rows of gaps count from the top, first the gaps within a row of "
         "dots, "
-        "then those to the next row; numbers count from the left. Photographs need visible dots; doubtful gaps take "
-        "the state of their images where the certain ones have a symmetry.\n\n"
+        "then those to the next row; numbers count from the left. Photographs need visible dots; where the "
+        "certain gaps have a symmetry, doubtful ones take the state of their images.\n\n"
         "The exit status is 0 whether or not the drawing is a kolam. Keys of --json: title, n, kolam, faults, "
         "remarks, "
         "exact, "
@@ -54,12 +55,12 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "meeting), "
         "vertices, edges, components, faces (bounded), reused_edges, meetings (points visited more than once: "
         "crossings, touchings, multiple, or ends of reused edges), crossings, skew (crossings not at right angles), "
-        "sixty_degrees (of these, those "
-        "at 60 degrees), "
-        "mid_crossings (crossings inside of segments), touchings, multiple, diagram (the lines as an alternating "
+        "sixty_degrees (skew crossings at 60 degrees), "
+        "mid_crossings (crossings inside segments), touchings, multiple, diagram (the lines as an alternating "
         "knot or link, or null: alternating, crossings, components, parts, nugatory, reduced, crossing_number, "
         "writhe, linked_pairs), symmetry, rotations, mirrors, centre, "
-        "loose_dots, dots. With --read: grid, dots, gaps, crossed, joined, lines, symmetry, doubtful and repaired "
+        "loose_dots, dots_on_lines, dots. With --read: grid, dots, gaps, crossed, joined, lines, symmetry, doubtful "
+        "and repaired "
         "(row, gap, state, certainty), notes, crossings.\n\n"
         "Examples:\n"
         "  sikku kolam snake-kolam\n"

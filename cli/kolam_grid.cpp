@@ -7,6 +7,7 @@
 #include "art/kolam/radial_kolam.h"
 #include "art/reading/kolam_file.h"
 #include "cli/command.h"
+#include "cli/kolam_read.h"
 #include "cli/mistakes.h"
 #include "engine/base/text.h"
 
@@ -19,7 +20,7 @@
 namespace sikku {
 namespace {
 
-/// What goes wrong with the value of an option is the caller's mistake.
+/// Turns failures to read the value of an option into usage errors.
 template <typename Work>
 auto of_option(const char* option, Work&& work) {
     try {
@@ -64,6 +65,8 @@ MadeKolam make_of_gaps(const KolamGridOptions& options, const DotGrid& grid) {
 
 MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, RandomKolam random,
                       const std::vector<GridSymmetry>& symmetries) {
+    // Large grids seldom have a symmetric line that can be found; seconds must do for all symmetries together.
+    std::uint64_t steps = 100'000'000;
     for (const GridSymmetry symmetry : symmetries) {
         random.symmetry = symmetry;
         if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
@@ -71,12 +74,12 @@ MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, Rand
         }
         // Where the symmetry is not requested, the next one is tried sooner.
         const int attempts = options.symmetry ? options.attempts : std::min(options.attempts, 100);
-        auto found = find_single_line(grid, random, attempts, stop_monitor());
+        auto found = find_single_line(grid, random, attempts, stop_monitor(), options.symmetry ? nullptr : &steps);
         if (found) return {std::move(found->states), symmetry, found->changed, found->attempt};
     }
     throw std::runtime_error(fmt::format(
-        "no single line with the symmetry {} was found in {}: another --seed or --density may find one, or more "
-        "--attempts; on a small grid --enumerate shows whether there is one",
+        "no single line with the symmetry {} was found in {}; try another --seed or --density, or more --attempts; "
+        "on a small grid --enumerate shows whether one exists",
         grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
 }
 
@@ -110,18 +113,22 @@ std::string gaps_told(const GapStates& states) {
     return text;
 }
 
-/// Refuses outputs that are not patterns, and JSON where the pattern goes.
+/// Refuses outputs that cannot hold the kolam, and JSON where the pattern goes.
 void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
-        throw UsageError("--json: standard output is the pattern's; give its file with -o");
+        throw UsageError("--json needs -o FILE for the pattern, because JSON goes to standard output");
     }
-    const std::string extension = std::filesystem::path(options.output).extension().string();
-    for (const Interpreter* interpreter : interpreters()) {
-        if (!extension.empty() && find_format(interpreter->formats(), extension.substr(1))) {
-            throw UsageError(
-                fmt::format("-o {}: a kolam is made as a pattern, NAME.lsys; `sikku {}` makes the file of it",
-                            options.output, interpreter->owner() == KeyOwner::art ? "draw" : "play"));
-        }
+    check_kolam_output(options.output);
+    if (is_pattern_file(options.output)) return;
+    if (!options.radial.empty()) {
+        throw UsageError(
+            fmt::format("-o {}: this format holds the gaps of a grid, and a radial kolam has none; "
+                        "expected NAME.lsys",
+                        options.output));
+    }
+    if (options.colours || options.dots) {
+        throw UsageError(fmt::format("{}: -o {} holds dots and gaps, not a drawing; expected NAME.lsys",
+                                     options.colours ? "--colours" : "--dots", options.output));
     }
 }
 
@@ -200,9 +207,9 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         command
             .add_option(
                 "--grid", options.grid,
-                "make a kolam on this grid of dots: 7x7, the dots of each row: 1-3-5-3-1, the longest row and "
-                "the last: '7 to 1 ner pulli', '15-8 idukku pulli', blocks: 15x9-9x3, or a shape of 'o' and "
-                "'.': oo./ooo/.oo; @FILE reads it from a file")
+                "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row and "
+                "the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), or a shape of 'o' and "
+                "'.' (oo./ooo/.oo); @FILE reads it from a file")
             ->type_name("DOTS")
             ->group(grid_heading);
     auto* symmetry =
@@ -225,7 +232,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* joined = command
                        .add_option("--joined", options.joined,
                                    "share of the other gaps in which lines run past both dots, 0 to 1; with "
-                                   "--enumerate any share above 0 lists them, too (0)")
+                                   "--enumerate, any share above 0 includes such kolams (0)")
                        ->type_name("SHARE")
                        ->check(number_between(0, 1))
                        ->group(grid_heading)
@@ -247,7 +254,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
             .add_flag(
                 "--single-line", options.single_line,
                 "make a single line, changing as few gaps as possible; with C4 and C6 the grid needs a dot in its "
-                "middle, with C2 or mirrors a dot or a gap; with D4 one dot at most on each diagonal")
+                "middle, with C2 or mirrors a dot or a gap; with D4 at most one dot on each diagonal")
             ->group(grid_heading)
             ->needs(grid);
     command
@@ -273,12 +280,12 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
         ->needs(radial);
     auto* colours = command
                         .add_flag("--colours", options.colours,
-                                  "give lines colours; lines that are images of each other share one")
+                                  "colour the lines; lines that are images of each other share a colour")
                         ->group(grid_heading);
     auto* dots = command.add_flag("--dots", options.dots, "draw the dots in the pattern")->group(grid_heading);
     auto* enumerate = command
                           .add_flag("--enumerate", options.enumerate,
-                                    "count and list all single-line kolams, with --symmetry only symmetric ones")
+                                    "count and list all single-line kolams; with --symmetry, only symmetric ones")
                           ->group(grid_heading)
                           ->needs(grid)
                           ->excludes(crossings)

@@ -19,8 +19,8 @@ struct KolamGridOptions {
     std::string order;   ///< in which its lines visit the dots of an arm
     std::uint64_t seed = 0;
     std::optional<std::string> symmetry;   ///< absent: the usual one
-    std::optional<double> density;         ///< of gaps that are crossings; absent: 0.7
-    double joined = 0.0;                   ///< of the other gaps that are joined
+    std::optional<double> density;         ///< share of crossed gaps; absent: 0.7
+    double joined = 0.0;                   ///< share of joined gaps among the others
     std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
     bool single_line = false;
     int attempts = 1000;  ///< at a single line with a symmetry
@@ -28,8 +28,8 @@ struct KolamGridOptions {
     bool dots = false;
     bool enumerate = false;
     std::size_t limit = 100;  ///< most kolams that an enumeration lists
-    int threads = 0;          ///< of an enumeration
-    bool as_json = false;     ///< what is told of it, on standard output
+    int threads = 0;          ///< threads of an enumeration
+    bool as_json = false;     ///< report it as JSON, on standard output
     std::string output;       ///< empty: standard output
 };
 

@@ -29,17 +29,6 @@ std::string extension_of(const std::string& output) {
     return lower_case(std::filesystem::path(output).extension().string());
 }
 
-void check_output(const std::string& output) {
-    const std::string extension = extension_of(output);
-    for (const char* known : {"", ".lsys", ".json", ".csv", ".yaml", ".yml"}) {
-        if (extension == known) return;
-    }
-    throw UsageError(
-        fmt::format("-o {}: a kolam is written as .lsys, .kolam.json, .csv or .yaml (gestures); `sikku "
-                    "draw` makes prints of .lsys",
-                    output));
-}
-
 /// The largest of the named symmetries that the kolam has.
 GridSymmetry symmetry_of(const ReadKolam& kolam) {
     GridSymmetry best = GridSymmetry::none;
@@ -174,19 +163,18 @@ FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
         ReadKolam kolam = photograph.kolam;
         return {std::move(kolam), std::move(photograph)};
     }
-    if (!options.overlay.empty()) throw UsageError("--overlay is for photographs");
     const std::string text = read_file(path, options.file, most_text, progress.monitor());
     if (text.size() > most_text) {
         throw std::runtime_error(fmt::format("larger than {} MB", most_text >> 20U));
     }
-    if (auto kolam = read_kolam_text(text, {options.number, lattice, !options.no_repair}, progress.monitor())) {
-        return {std::move(*kolam), std::nullopt};
-    }
-    if (text.find("axiom") == std::string::npos) {
+    auto kolam = read_kolam_text(text, {options.number, lattice, !options.no_repair}, progress.monitor());
+    if (!kolam && text.find("axiom") == std::string::npos) {
         throw std::runtime_error(
-            "not a kolam that can be read: expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV "
+            "unknown format; expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV "
             "of one-stroke kolams, an SVG, gestures or a pattern");
     }
+    if (!options.overlay.empty()) throw UsageError("--overlay applies only to photographs");
+    if (kolam) return {std::move(*kolam), std::nullopt};
     PatternOptions pattern;
     pattern.pattern = options.file;
     return {read_kolam_document(load(pattern, quiet), options.budget, progress.monitor()), std::nullopt};
@@ -206,6 +194,28 @@ void write(const ReadKolam& kolam, const Certificate& certificate, const std::st
 }
 
 }  // namespace
+
+bool is_pattern_file(const std::string& output) {
+    const std::string extension = extension_of(output);
+    return extension.empty() || extension == ".lsys";
+}
+
+void check_kolam_output(const std::string& output) {
+    if (is_pattern_file(output)) return;
+    const std::string extension = extension_of(output);
+    for (const char* known : {".json", ".csv", ".yaml", ".yml"}) {
+        if (extension == known) return;
+    }
+    for (const Interpreter* interpreter : interpreters()) {
+        if (find_format(interpreter->formats(), extension.substr(1))) {
+            throw UsageError(
+                fmt::format("-o {}: expected a pattern file, NAME.lsys; `sikku {}` makes this format from it", output,
+                            interpreter->owner() == KeyOwner::art ? "draw" : "play"));
+        }
+    }
+    throw UsageError(
+        fmt::format("-o {}: unknown extension; expected .lsys, .kolam.json, .csv or .yaml (gestures)", output));
+}
 
 void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
     auto* read = command
@@ -228,8 +238,8 @@ void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
         ->group(read_heading);
     command
         .add_option("--fix", options.fixes,
-                    "set gaps by hand: 'ROW,GAP: STATE', with the row and the number that the report and the overlay "
-                    "show, and cross, turn or join; several separated by semicolons; may be repeated")
+                    "set gaps by hand: 'ROW,GAP: STATE', with row and number as in the report and the overlay, and "
+                    "cross, turn or join; separate several by semicolons; may be repeated")
         ->type_name("GAPS")
         ->allow_extra_args(false)
         ->needs(read)
@@ -250,12 +260,12 @@ void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
 }
 
 void kolam_read(const KolamReadOptions& options, bool quiet) {
-    check_output(options.output);
+    check_kolam_output(options.output);
     if (options.as_json && options.output.empty()) {
-        throw UsageError("--json: standard output is the pattern's; give its file with -o");
+        throw UsageError("--json needs -o FILE for the pattern, because JSON goes to standard output");
     }
     if (!options.overlay.empty() && extension_of(options.overlay) != ".png") {
-        throw UsageError(fmt::format("--overlay {}: the overlay is a PNG, NAME.png", options.overlay));
+        throw UsageError(fmt::format("--overlay {}: expected a PNG, NAME.png", options.overlay));
     }
     FoundKolam found = [&] {
         try {
@@ -289,7 +299,7 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
 }
 
 void kolam_convert(const Document& document, const std::string& output, double budget, bool quiet) {
-    check_output(output);
+    check_kolam_output(output);
     Progress progress(quiet);
     const ReadKolam kolam = read_kolam_document(document, budget, progress.monitor());
     const Certificate certificate = certify(kolam);

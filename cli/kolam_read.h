@@ -29,7 +29,12 @@ struct KolamReadOptions {
 /// `--read` and all that belongs to it alone; `-o` and `--json` are for the command to add.
 void add_kolam_read_options(CLI::App& command, KolamReadOptions& options);
 
-/// Reads a kolam and writes it; tells what was found, with doubtful gaps.
+/// True for the name of a pattern file: `.lsys`, or no extension.
+bool is_pattern_file(const std::string& output);
+/// Checks that a kolam can be written in the format of that extension. @throws UsageError
+void check_kolam_output(const std::string& output);
+
+/// Reads a kolam, writes it, and reports grid, lines and doubtful gaps.
 /// @throws UsageError; std::runtime_error if no kolam is found, or a file cannot be written
 void kolam_read(const KolamReadOptions& options, bool quiet);
 

@@ -38,12 +38,14 @@ int run(int argc, char** argv) {
     add_draw(app, quiet);
     add_sheet(app, quiet);
     add_kolam(app, quiet);
+    add_tiling(app, quiet);
     add_play(app, quiet);
     add_gallery(app, quiet);
     add_derive(app, quiet);
     add_measure(app, quiet);
     add_patterns(app);
     add_plotters(app);
+    add_ports(app);
     add_import(app, quiet);
     add_scales(app);
     add_show(app, quiet);
@@ -94,8 +96,10 @@ int run(int argc, char** argv) {
         return fail(2, with_force(error.what()));
     } catch (const Stopped& stopped) {
         return fail(interruption_status(), stopped.what());
+    } catch (const BudgetError& error) {
+        return fail(1, with_dashes(error.what()));
     } catch (const std::bad_alloc&) {
-        return fail(1, "there is not enough memory for this");
+        return fail(1, "not enough memory");
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }

@@ -1,20 +1,13 @@
-// cli/measure.cpp: `sikku measure`: what is known of a word without deriving it.
+// cli/measure.cpp: `sikku measure`: quantities of words, without deriving them, and of maps.
 #include "cli/command.h"
-#include "engine/base/text.h"
-#include "engine/measure/extent.h"
-#include "engine/measure/measurement_text.h"
+#include "engine/measurement.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <vector>
 
 namespace sikku {
 
 void add_measure(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("measure", "Measure the word of a pattern: length, counts, box, end");
+    auto* command = app.add_subcommand("measure", "Measure the word or the map of a pattern");
     auto options = std::make_shared<PatternOptions>();
     auto as_json = std::make_shared<bool>(false);
     auto budget = std::make_shared<double>(200e6);
@@ -23,16 +16,18 @@ void add_measure(CLI::App& app, bool& quiet) {
     add_budget_option(*command, *budget);
     command->footer(
         "Lengths are in turtle steps; the turtle starts at 0 0. In space, positions have x, y and z. Systems without "
-        "contexts are measured without deriving them: n = 60 costs as little as n = 6.\n\n"
+        "contexts are measured without deriving them: n = 60 costs as little as n = 6. "
+        "Maps are derived: cells, edges, vertices, edges of the outline, edges by label, cells by number of "
+        "edges.\n\n"
         "Examples:\n"
         "  sikku measure snake-kolam\n"
         "  sikku measure hilbert -n 60 --json");
     command->callback([options, as_json, budget, &quiet] {
         const Document loaded = load(*options, quiet);
         Progress progress(quiet);
-        const Measurement measured = measure(loaded.grammar(), *budget, progress.watch());
-        const std::string title = loaded.pattern().text("title");
-        fmt::print("{}", *as_json ? measurement_json(title, measured) : measurement_text(title, measured));
+        const Monitor monitor = progress.monitor();
+        fmt::print("{}",
+                   *as_json ? measure_as_json(loaded, *budget, monitor) : measure_as_text(loaded, *budget, monitor));
     });
 }
 

@@ -1,4 +1,4 @@
-// cli/mistakes.h: what is wrong with a command line, in the program's own words.
+// cli/mistakes.h: messages about wrong command lines, in the program's own words.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include "cli/command.h"
+#include "cli/link_argument.h"
 
 #include <fmt/format.h>
 
@@ -81,8 +82,9 @@ std::string with_force(std::string message) {
 }
 
 std::string diagnostic_message(const Diagnostic& diagnostic) {
-    const bool is_option = diagnostic.where.line == 0 && !diagnostic.file.starts_with('-');
-    return (is_option ? "--" : "") + diagnostic.text();
+    if (diagnostic.where.line > 0) return diagnostic.text();
+    // A value from the command line.
+    return (diagnostic.file.starts_with('-') ? "sikku: " : "sikku: --") + diagnostic.text();
 }
 
 std::string pattern_message(const PatternError& error) {
@@ -93,6 +95,11 @@ std::string pattern_message(const PatternError& error) {
     std::string text;
     for (const Diagnostic& one : list) text += (text.empty() ? "" : "\n") + diagnostic_message(one);
     return text;
+}
+
+void report_compression(std::string_view format, const OptionValues& values, bool quiet) {
+    if (format == "png" || !has_option(values, "compression")) return;
+    tell_unless(quiet, "sikku: warning: --compression has no effect: it applies only to PNG\n");
 }
 
 std::string option_message(const SettingError& error) {

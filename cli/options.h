@@ -33,6 +33,9 @@ private:
     std::shared_ptr<Given> given_;
 };
 
+/// Warns of a compression for a format that has none.
+void report_compression(std::string_view format, const OptionValues& values, bool quiet);
+
 /// Formats a SettingError for the command line: `--size 3x: expected …`. Quoted names of options in the message,
 /// 'plotter', become `--plotter`.
 std::string option_message(const SettingError& error);

@@ -1,29 +1,52 @@
 // cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
 #include "art/provenance/provenance.h"
+#include "cli/arrangement_argument.h"
 #include "cli/command.h"
 #include "cli/link_argument.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
 #include "engine/check.h"
+#include "engine/language/arrangement_library.h"
 #include "music/scale/scale.h"
 #include "music/score/midi_texts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 namespace {
+
+/// Prints rows of three columns, each as wide as its longest entry.
+void print_rows(const std::vector<std::array<std::string, 3>>& rows) {
+    const auto width = [&](std::size_t column) {
+        std::size_t widest = 0;
+        for (const auto& row : rows) {
+            const auto is_start = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U; };
+            widest = std::max(
+                widest, static_cast<std::size_t>(std::count_if(row[column].begin(), row[column].end(), is_start)));
+        }
+        return widest;
+    };
+    const std::size_t names = width(0), titles = width(1);
+    for (const auto& row : rows) {
+        fmt::print("  {:<{}}  {:<{}}{}{}\n", row[0], names, row[1], row[2].empty() ? 0 : titles,
+                   row[2].empty() ? "" : "  ", row[2]);
+    }
+}
 
 void list_patterns(const std::string& kind, bool names_only) {
     std::string last;
     bool any = false;
     const auto& patterns = PatternLibrary::bundled().patterns();
+    std::vector<std::array<std::string, 3>> rows;  // of one kind
     for (const LibraryPattern& known : patterns) {
         if (!kind.empty() && known.kind != kind) continue;
         any = true;
@@ -31,17 +54,22 @@ void list_patterns(const std::string& kind, bool names_only) {
             fmt::print("{}\n", printable(known.name));
             continue;
         }
-        if (known.kind != last) fmt::print("{}{}\n", last.empty() ? "" : "\n", printable(known.kind));
+        if (known.kind != last) {
+            print_rows(rows);
+            rows.clear();
+            fmt::print("{}{}\n", last.empty() ? "" : "\n", printable(known.kind));
+        }
         last = known.kind;
         Diagnostics diagnostics;
         const Pattern pattern = parse_pattern(known.name, read_pattern_text(known.file.string()).text, diagnostics);
-        fmt::print("  {:<22} {:<42} {}\n", printable(known.name), printable(pattern.text("title")),
-                   printable(pattern.text("source")));
+        rows.push_back({printable(known.name), printable(pattern.text("title")), printable(pattern.text("source"))});
     }
+    print_rows(rows);
     if (any) return;
     std::set<std::string_view> kinds;
     for (const LibraryPattern& known : patterns) kinds.insert(known.kind);
     if (kinds.empty()) throw UsageError("no patterns were found");
+    kinds.insert("arrangements");
     const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
     throw UsageError(fmt::format("unknown kind of patterns '{}'; {}", kind,
                                  near.empty() ? fmt::format("there are: {}", fmt::join(kinds, ", "))
@@ -65,6 +93,11 @@ void show(const std::string& what, bool quiet) {
         if (!found->made.empty() && !quiet) tell("made with {}\n", printable(found->made, std::string::npos));
         return;
     }
+    if (is_arrangement(what)) {
+        const std::string text = read_arrangement_argument(what).arrangement.text;
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        return;
+    }
     NamedText text = read_pattern_text(what);
     if (text.text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", text.name));
     if (text.text.size() > most_pattern_bytes) throw UsageError(what + ": a pattern file is at most 64 MB");
@@ -75,6 +108,38 @@ void show(const std::string& what, bool quiet) {
         throw std::runtime_error(fmt::format("{}: this text is not a pattern: it has no axiom", what));
     }
     std::fwrite(source->text().data(), 1, source->text().size(), stdout);
+}
+
+/// True if the arrangement and its patterns are without mistakes.
+bool check_arrangement(const std::string& file) {
+    try {
+        read_arrangement_argument(file);
+        return true;
+    } catch (const FileError& error) {
+        fmt::print("{}\n", error.what());
+    } catch (const PatternError& error) {
+        for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print("{}\n", diagnostic.text());
+    }
+    return false;
+}
+
+/// Adds the bundled arrangements to the list. False if the kind is another.
+bool list_arrangements(const std::string& kind, bool names_only) {
+    if (!kind.empty() && kind != "arrangements") return false;
+    std::vector<std::array<std::string, 3>> rows;
+    for (const std::string& name : bundled_arrangements()) {
+        if (names_only) {
+            fmt::print("{}\n", name);
+            continue;
+        }
+        const Arrangement arrangement = read_arrangement_argument(name).arrangement;
+        rows.push_back({name, printable(arrangement.title), printable(arrangement.source)});
+    }
+    if (!names_only) {
+        fmt::print("{}arrangements\n", kind.empty() ? "\n" : "");
+        print_rows(rows);
+    }
+    return true;
 }
 
 /// True if the file is without mistakes.
@@ -109,10 +174,14 @@ void add_patterns(CLI::App& app) {
     auto* command = app.add_subcommand("patterns", "List the bundled patterns");
     auto kind = std::make_shared<std::string>();
     auto names_only = std::make_shared<bool>(false);
-    command->add_option("KIND", *kind, "kolams, tilings, curves, plants, words or melodies (all)");
+    command->add_option(
+        "KIND", *kind, "kolams, kolam-library, tilings, curves, plants, maps, words, melodies or arrangements (all)");
     command->add_flag("--names", *names_only, "print names only, one in each line");
     command->footer("Examples:\n  sikku patterns\n  sikku patterns kolams");
-    command->callback([kind, names_only] { list_patterns(*kind, *names_only); });
+    command->callback([kind, names_only] {
+        if (*kind != "arrangements") list_patterns(*kind, *names_only);
+        list_arrangements(*kind, *names_only);
+    });
 }
 
 void add_show(CLI::App& app, bool& quiet) {
@@ -129,12 +198,14 @@ void add_show(CLI::App& app, bool& quiet) {
 }
 
 void add_check(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("check", "Report every error of pattern, Scala and MIDI files, with its place");
+    auto* command = app.add_subcommand(
+        "check", "Report every error of patterns, arrangements, Scala and MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();
     command
-        ->add_option("FILE", *files,
-                     "pattern files, bundled patterns, studio links, -, scales (.scl), key maps (.kbm) or MIDI files")
+        ->add_option(
+            "FILE", *files,
+            "pattern files, bundled patterns, studio links, -, arrangements (.toml), scales (.scl), key maps (.kbm) "
+            "or MIDI files")
         ->required();
     command->footer(
         "Exits with 0 and prints nothing if the files have no errors. Errors in MIDI files exit with 1, other errors "
@@ -145,7 +216,9 @@ void add_check(CLI::App& app) {
         bool is_score_good = true;
         for (const std::string& file : *files) {
             const std::string name = lower_case(file);
-            if (name.ends_with(".scl") || name.ends_with(".kbm")) {
+            if (is_arrangement(file)) {
+                good = check_arrangement(file) && good;
+            } else if (name.ends_with(".scl") || name.ends_with(".kbm")) {
                 good = check_scale_file(file) && good;
             } else if (name.ends_with(".mid") || name.ends_with(".midi") || is_midi_file(file)) {
                 is_score_good = check_midi_file(file) && is_score_good;

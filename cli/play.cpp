@@ -1,7 +1,9 @@
 // cli/play.cpp: `sikku play`: a curve as music.
 #include "art/print/format.h"
+#include "cli/arrangement_argument.h"
 #include "cli/command.h"
 #include "cli/link_argument.h"
+#include "cli/live.h"
 #include "cli/options.h"
 #include "music/scores.h"
 
@@ -17,6 +19,7 @@ struct PlayCommand {
     PatternOptions pattern;  ///< but for its name
     std::vector<std::string> patterns;
     std::string output;
+    LiveOptions live;
     TableOptions options;
 };
 
@@ -26,24 +29,13 @@ std::string format_of(const std::string& output) {
     const FormatName* format = find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1));
     if (format) return std::string(format->extension);
     if (print_format(output)) {
-        throw UsageError(fmt::format(
-            "-o {}: this is a print; `sikku draw` draws the curve; for a printed score write .ly and run lilypond",
-            output));
+        throw UsageError(
+            fmt::format("-o {}: this is a print; `sikku draw` draws the curve; a printed score is .pdf", output));
     }
-    throw UsageError(
-        fmt::format("-o {}: {}; a score is .mid, .musicxml or .ly; sound is .wav or .flac; .svg and .html show it",
-                    output, extension.empty() ? "no extension" : "unknown extension"));
-}
-
-void make_score(const PlayCommand& command, const std::string& format, const std::vector<Document>& documents,
-                const OptionValues& values, bool quiet) {
-    if (command.output.empty()) {
-        Progress progress(quiet);
-        fmt::print("{}", describe_score(documents, values, progress.monitor()));
-        return;
-    }
-    const auto work = plan_score(documents, format, values);
-    make(*work, command.output, quiet);
+    throw UsageError(fmt::format(
+        "-o {}: {}; a score is .mid, .pdf, .musicxml, .mxl, .ly, .abc, .csd, .sco or .strudel; sound is .wav or "
+        ".flac; .svg and .html show it",
+        output, extension.empty() ? "no extension" : "unknown extension"));
 }
 
 /// Uses the seed of the pattern for the options of the score, too. Those of a link have it already: see assign().
@@ -52,52 +44,190 @@ void add_seed(const PatternOptions& options, OptionValues& values) {
     values.push_back({"seed", std::to_string(seed_of(options))});
 }
 
-void run(const PlayCommand& command, bool quiet) {
-    const std::string format = command.output.empty() ? "mid" : format_of(command.output);
-    const OptionValues given = command.options.values();
-    if (!command.pattern.seed.empty()) seed_of(command.pattern);            // throws if it is not a number
-    if (!is_link(command.patterns.front())) scores().check(format, given);  // before the patterns are read
-    OptionValues shared;  // options of the link, if the first pattern is one
-    OptionValues values = given;
+/// The values after `@` of a part, such as `start=4,rhythm=E(3,8)`. Commas within parentheses separate nothing.
+std::vector<Setting> part_settings(const std::string& name, std::string_view text) {
+    std::vector<Setting> settings;
+    while (!text.empty()) {
+        std::size_t end = 0;
+        for (int open = 0; end < text.size() && (open > 0 || text[end] != ','); ++end) {
+            open += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
+        }
+        const std::string_view one = text.substr(0, end);
+        const std::size_t equals = one.find('=');
+        if (equals == std::string_view::npos || equals == 0) {
+            throw UsageError(
+                fmt::format("{}: expected KEY=VALUE after '@', such as hilbert@transposition=-12,start=4", name));
+        }
+        settings.push_back(part_setting(one.substr(0, equals), std::string(one.substr(equals + 1))));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return settings;
+}
+
+/// Where the values of a part begin in its name; its length if there are none.
+std::size_t end_of_name(const std::string& name) {
+    const std::size_t at = name.rfind('@');
+    if (at == std::string::npos || at == 0 || is_link(name) || std::filesystem::exists(name)) return name.size();
+    return at;
+}
+
+/// An arrangement file: it is played alone. @throws UsageError
+void check_arrangement(const PlayCommand& command) {
+    const std::string& name = command.patterns.front();
+    if (command.patterns.size() > 1) {
+        throw UsageError(name + ": an arrangement is played alone; its tracks name the patterns");
+    }
+    const PatternOptions& pattern = command.pattern;
+    if (!pattern.steps.empty() || !pattern.settings.empty() || !pattern.variant.empty() || !pattern.seed.empty()) {
+        throw UsageError(name +
+                         ": -n, --set, --variant and --seed belong to patterns; its tracks have n, set, variant "
+                         "and seed");
+    }
+}
+
+void play_arrangement(const PlayCommand& command, const std::string& format, const OptionValues& values, bool quiet) {
+    check_arrangement(command);
+    scores().check(format, values);
+    try {
+        const auto [arrangement, folder] = read_arrangement_argument(command.patterns.front());
+        if (command.output.empty()) {
+            Progress progress(quiet);
+            fmt::print("{}", describe_score(arrangement, values, progress.monitor(), folder));
+            return;
+        }
+        make(*plan_score(arrangement, format, values, folder), command.output, quiet);
+    } catch (const FileError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+/// The parts of a score.
+struct Parts {
     std::vector<Document> documents;
-    for (const std::string& name : command.patterns) {
+    OptionValues values;  ///< options of the command line, and of the link, if the first pattern is one
+    OptionValues shared;  ///< those of the link
+};
+
+Parts read_parts(const PlayCommand& command, const OptionValues& given, bool quiet) {
+    Parts parts;
+    parts.values = given;
+    std::vector<Document>& documents = parts.documents;
+    for (const std::string& given_name : command.patterns) {
+        const std::size_t name_end = end_of_name(given_name);
+        const std::string name = given_name.substr(0, name_end);
         PatternOptions one = command.pattern;
         one.pattern = name;
+        if (is_arrangement(name)) throw UsageError(name + ": an arrangement is played alone");
+        std::vector<Setting> own;
+        if (name_end < given_name.size()) {
+            own = part_settings(given_name, std::string_view(given_name).substr(name_end + 1));
+        }
+        for (const Setting& setting : own) {
+            if (setting.key == "variant") one.variant = setting.value;
+        }
         const auto link = read_link_argument(name);
         const SharedWork* work = link ? &*link : nullptr;
         documents.push_back(load(one, work, quiet));
+        for (const Setting& setting : own) {
+            if (setting.key == "variant") continue;
+            try {
+                documents.back() = documents.back().with({setting});
+            } catch (const PatternError& error) {
+                throw UsageError(
+                    fmt::format("{}: {}: {}", given_name, setting.key, error.diagnostics().front().message));
+            }
+        }
         if (work) {
             const Assignment assigned = blaming_link(work->play, given, [&] {
                 return assign(scores(), documents.back(), options_with(work->play, given, one));
             });
             documents.back() = assigned.document;
-            if (documents.size() == 1) values = assigned.options;
+            if (documents.size() == 1) parts.values = assigned.options;
         }
         if (documents.size() == 1) {
-            add_seed(one, values);
-            if (work) shared = work->play;
+            add_seed(one, parts.values);
+            if (work) parts.shared = work->play;
         }
     }
-    blaming_link(shared, given, [&] { make_score(command, format, documents, values, quiet); });
+    return parts;
+}
+
+/// The files that the command reads: patterns, and an arrangement with its patterns.
+std::vector<std::filesystem::path> files_of(const PlayCommand& command) {
+    std::vector<std::filesystem::path> files;
+    const auto add = [&](const std::string& name) {
+        try {
+            if (name != "-" && !is_link(name)) files.push_back(find_pattern(name).path);
+        } catch (const NotFound&) {
+            // An editor may be about to write it.
+        }
+    };
+    if (!is_arrangement(command.patterns.front())) {
+        for (const std::string& name : command.patterns) add(name.substr(0, end_of_name(name)));
+        return files;
+    }
+    files = files_of_arrangement(command.patterns.front());
+    return files;
+}
+
+void play_to_port(const PlayCommand& command, const OptionValues& given, bool quiet) {
+    const bool has_arrangement = is_arrangement(command.patterns.front());
+    if (has_arrangement) check_arrangement(command);
+    LiveScore score;
+    score.files = [&] { return files_of(command); };
+    score.open = [&, has_arrangement](const Monitor& monitor) {
+        if (has_arrangement) {
+            try {
+                const auto [arrangement, folder] = read_arrangement_argument(command.patterns.front());
+                return stream_notes(arrangement, given, monitor, folder);
+            } catch (const FileError& error) {
+                throw UsageError(error.what());
+            }
+        }
+        const Parts parts = read_parts(command, given, quiet);
+        return blaming_link(parts.shared, given,
+                            [&] { return stream_notes(parts.documents, parts.values, monitor); });
+    };
+    play_live(command.live, score, quiet);
+}
+
+void run(const PlayCommand& command, bool quiet) {
+    const std::string format = command.output.empty() ? "mid" : format_of(command.output);
+    const OptionValues given = command.options.values();
+    const bool to_port = is_live(command.live, command.output);
+    if (!command.pattern.seed.empty()) seed_of(command.pattern);  // throws if it is not a number
+    // Before the patterns are read.
+    if (!is_link(command.patterns.front())) scores().check(format, given);
+    if (to_port) return play_to_port(command, given, quiet);
+    if (is_arrangement(command.patterns.front())) return play_arrangement(command, format, given, quiet);
+    const Parts parts = read_parts(command, given, quiet);
+    blaming_link(parts.shared, given, [&] {
+        if (!command.output.empty())
+            return make(*plan_score(parts.documents, format, parts.values), command.output, quiet);
+        Progress progress(quiet);
+        fmt::print("{}", describe_score(parts.documents, parts.values, progress.monitor()));
+    });
 }
 
 }  // namespace
 
 void add_play(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("play", "Play a curve: MIDI, MusicXML, LilyPond, sound, a page that plays");
+    auto* command = app.add_subcommand("play", "Play a curve: MIDI, printed scores, sound, a page that plays");
     auto options = std::make_shared<PlayCommand>();
     command
         ->add_option(
             "PATTERN", options->patterns,
-            "pattern files, names of bundled patterns, studio links, or -; several become parts of one score")
+            "pattern files, names of bundled patterns, studio links, or -; several become parts of one score, each "
+            "perhaps with keys of its own: hilbert@transposition=-12,start=4; or an arrangement (.toml)")
         ->required();
     add_override_options(*command, options->pattern);
     command
-        ->add_option(
-            "-o,--output", options->output,
-            "output file: .mid, .musicxml, .ly, .wav, .flac, .svg or .html; without it, notes, bars, time and "
-            "range are reported")
+        ->add_option("-o,--output", options->output,
+                     "output file: .mid, .pdf, .musicxml, .mxl, .ly, .abc, .csd, .sco, .strudel, .wav, .flac, .svg "
+                     "or .html; without it, notes, bars, time and "
+                     "range are reported")
         ->type_name("FILE");
+    add_live_options(*command, options->live);
     options->options.add(*command, scores().options());
     command->footer(
         "Each horizontal run of the curve is a note: its height determines the pitch in the scale, its length the "
@@ -105,6 +235,9 @@ void add_play(CLI::App& app, bool& quiet) {
         "line replace them.\n\n"
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
+        "  sikku play hilbert-in-c --canon \"2 -12, 4 -24\" -o canon.mid\n"
+        "  sikku play piece.toml -o piece.mid\n"
+        "  sikku play hilbert --port FLUID --repeat\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"
         "  sikku play hilbert -n 40 --anchor piece --from-bar 1000000000 --bars 16 -o piece.musicxml");
     command->callback([options, &quiet] { run(*options, quiet); });

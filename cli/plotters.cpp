@@ -34,7 +34,7 @@ void add_plotters(CLI::App& app) {
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "plotter whose file is printed");
     command->footer(
-        "The file of a plotter is the beginning of your own: edit a copy and give it to `sikku draw --profile`.\n\n"
+        "To describe your own plotter, edit a copy of a bundled file and pass it to `sikku draw --profile`.\n\n"
         "Examples:\n  sikku plotters\n  sikku plotters marlin > mine.plotter\n"
         "  sikku draw snake-kolam --profile ./mine.plotter -o snake.gcode");
     command->callback([name] { name->empty() ? list() : show(*name); });

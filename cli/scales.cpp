@@ -36,7 +36,7 @@ struct ScalesOptions {
 
 void show_scales(const ScalesOptions& options) {
     const auto tonic = parse_note(options.tonic);
-    if (!tonic) throw UsageError(fmt::format("--tonic {}: expected a note, as C, F# or Eb", options.tonic));
+    if (!tonic) throw UsageError(fmt::format("--tonic {}: expected a note such as C, F# or Eb", options.tonic));
     const auto show = [&](const Scale& scale) {
         fmt::print("{}", options.as_json ? "[" + scale_json(scale) + "]\n" : scale_text(scale, *tonic));
     };

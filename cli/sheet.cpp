@@ -72,8 +72,8 @@ void run(const SheetCommand& command, bool quiet) {
     const auto format = print_format(command.output);
     if (!format) {
         throw UsageError(
-            fmt::format("-o {}: expected a file of SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code such "
-                        "as sheet.pdf",
+            fmt::format("-o {}: expected an SVG, PDF, PNG, TIFF, JPEG, EXR, HP-GL or G-code file such as "
+                        "sheet.pdf",
                         command.output));
     }
     OptionValues values = command.options.values();
@@ -84,6 +84,7 @@ void run(const SheetCommand& command, bool quiet) {
     for (const std::string& drawing : command.drawings) items.push_back(read_item(drawing, {}, quiet));
     const auto work = plan_sheet(items, name, values);
     make(*work, command.output, quiet);
+    report_compression(name, values, quiet);
 }
 
 }  // namespace
@@ -103,11 +104,9 @@ void add_sheet(CLI::App& app, bool& quiet) {
     options->options.add(*command, sheet_options());
     options->prints.add(*command, prints().options());
     command->footer(
-        "Each drawing has its own ground, dots and border. Options of drawings (--dots, --border, --rotate, …) hold "
-        "for all, unless a drawing has its own after @; keys of its pattern, n and variant may stand there, too.\n\n"
-        "A drawing with x and y after @ lies in that place, which is width by height; then all drawings need "
-        "places:\n"
-        "  title, x, y, width, height\n\n"
+        "Each drawing has its own ground, dots and border. Options of drawings (--dots, --border, --rotate, …) apply "
+        "to all drawings. After @, a drawing can set these options, keys of its pattern, n, variant and title for "
+        "itself, and its place by x, y, width and height; if one drawing has a place, all need one.\n\n"
         "Examples:\n"
         "  sikku sheet snake-kolam anklets-of-krishna --columns 2 --gutter 20mm -o two.pdf\n"
         "  sikku sheet a.lsys@dots,border=lotus b.lsys@rotate=90 --titles title -o page.svg\n"

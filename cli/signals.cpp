@@ -17,6 +17,7 @@ constexpr long patience_milliseconds = 500;
 
 std::atomic<int> signal_seen{0};
 std::atomic<bool> is_reported{false};
+std::atomic<bool> has_pause{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 timer_t patience;
 bool has_patience = false;
@@ -54,6 +55,10 @@ extern "C" void pipe_signal(int) {
     std::raise(SIGPIPE);
 }
 
+extern "C" void suspend_signal(int) {
+    has_pause = true;
+}
+
 /// Unless the signal is ignored.
 void handle(int signal, void (*handler)(int)) {
     struct sigaction action = {};
@@ -77,6 +82,23 @@ void catch_signals() {
     handle(SIGPIPE, pipe_signal);
     // A file that grows over the limit of the shell is an error like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void ignore_closed_pipes() {
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void catch_pause() {
+    handle(SIGTSTP, suspend_signal);
+}
+
+bool pause_wanted() {
+    return has_pause;
+}
+
+void pause_now() {
+    has_pause = false;
+    std::raise(SIGSTOP);
 }
 
 bool interrupted() {

@@ -22,6 +22,16 @@ bool interrupted();
 /// still cut short, but without a second message.
 int interruption_status();
 
+/// From now on a closed pipe is an error of the one who writes, not the end of the program.
+void ignore_closed_pipes();
+
+/// From now on ctrl-Z (SIGTSTP) asks for a pause.
+void catch_pause();
+/// True after ctrl-Z.
+bool pause_wanted();
+/// Stops the process as ctrl-Z does; returns when it is continued (fg).
+void pause_now();
+
 /// Monitor for library work: stops when interrupted() does.
 inline Monitor stop_monitor() {
     return Monitor([](void*) { return interrupted(); });

@@ -57,11 +57,12 @@ std::vector<Option<S>> make_table() {
           .most = 1},
          [](S& s, Text t) { read_whole("midi-format", t, s.format); }},
         {{.name = "tuning",
-          .help = "how microtones are written: bend (pitch bend) or mts (MIDI Tuning Standard) (bend)",
-          .value = "bend|mts"},
+          .help = "MIDI of microtones: bend (pitch bend), mts (MIDI Tuning Standard) or mpe (a channel for each "
+                  "note) (bend)",
+          .value = "bend|mts|mpe"},
          [](S& s, Text t) {
-             if (t != "bend" && t != "mts") refuse_option("tuning", t, "expected bend or mts");
-             s.tuning = t == "mts" ? Tuning::mts : Tuning::bend;
+             if (t != "bend" && t != "mts" && t != "mpe") refuse_option("tuning", t, "expected bend, mts or mpe");
+             s.tuning = t == "mts" ? Tuning::mts : t == "mpe" ? Tuning::mpe : Tuning::bend;
          }},
         {budget_option, [](S& s, Text t) { s.budget = read_budget(t); }},
     };

@@ -1,22 +1,32 @@
 #include "music/scores.h"
 
-#include "engine/base/chance.h"
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 #include "engine/base/memory.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
-#include "music/melody/mapping.h"
+#include "music/arrangement.h"
+#include "music/ensemble.h"
+#include "music/humaniser.h"
 #include "music/melody/melody.h"
+#include "music/note_stream.h"
+#include "music/performance.h"
 #include "music/play_settings.h"
+#include "music/players.h"
+#include "music/score/abc.h"
 #include "music/score/audio.h"
+#include "music/score/csound.h"
+#include "music/score/engraving.h"
 #include "music/score/lilypond.h"
 #include "music/score/midi.h"
 #include "music/score/music_page.h"
 #include "music/score/musicxml.h"
+#include "music/score/mxl.h"
 #include "music/score/notation.h"
 #include "music/score/spelling.h"
+#include "music/score/strudel.h"
+#include "music/score/unisons.h"
 
 #include <fmt/format.h>
 
@@ -26,91 +36,39 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <tuple>
 
 namespace sikku {
 namespace {
 
-enum class ScoreFormat { midi, musicxml, lilypond, wav, flac, svg, html };
+enum class ScoreFormat { midi, musicxml, mxl, lilypond, pdf, abc, wav, flac, csd, sco, strudel, svg, html };
 
-constexpr int most_voices = 15;  // channels but the drums'
+constexpr int widest_bend = 12;    // semitones, for gamakas
+constexpr int most_channels = 15;  // but the drums'
 
 struct ScoreFormatInfo {
     FormatName name;
     ScoreFormat format;
 };
 
-/// The formats of scores. A drawn score is named `notes.svg`, because `svg` is a print.
-constexpr std::array<ScoreFormatInfo, 7> format_table = {
+/// The formats of scores. A drawn score is named `notes.svg` and a printed one `score.pdf`, because `svg` and `pdf`
+/// are prints.
+constexpr std::array<ScoreFormatInfo, 13> format_table = {
     {{{"mid", "MIDI", "midi"}, ScoreFormat::midi},
      {{.extension = "musicxml", .label = "MusicXML", .alias = "xml", .is_text = true}, ScoreFormat::musicxml},
+     {{"mxl", "compressed MusicXML"}, ScoreFormat::mxl},
      {{.extension = "ly", .label = "LilyPond", .is_text = true}, ScoreFormat::lilypond},
+     {{"score.pdf", "printed score", "pdf"}, ScoreFormat::pdf},
+     {{.extension = "abc", .label = "ABC", .is_text = true}, ScoreFormat::abc},
      {{"wav", "sound"}, ScoreFormat::wav},
      {{"flac", "sound"}, ScoreFormat::flac},
+     {{.extension = "csd", .label = "Csound", .is_text = true}, ScoreFormat::csd},
+     {{.extension = "sco", .label = "Csound score", .is_text = true}, ScoreFormat::sco},
+     {{.extension = "strudel", .label = "Strudel", .is_text = true}, ScoreFormat::strudel},
      {{.extension = "notes.svg", .label = "the notes", .alias = "svg", .is_text = true}, ScoreFormat::svg},
      {{.extension = "html", .label = "play", .is_text = true}, ScoreFormat::html}}};
-
-/// A pattern that is a part of the score.
-struct Player {
-    Document document;
-    Melody melody;
-    int first_voice = 0;
-    std::vector<std::string> warnings;  ///< warnings about values of options
-};
-
-/// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
-class PartSink : public NoteSink {
-public:
-    PartSink(NoteSink& sink, int first_voice) : sink_(sink), first_voice_(first_voice) {}
-    void notes(std::span<const Note> notes) override {
-        if (first_voice_ == 0) return sink_.notes(notes);
-        moved_.assign(notes.begin(), notes.end());
-        for (Note& note : moved_) note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
-        sink_.notes(moved_);
-    }
-    void finish(std::int64_t) override {}
-
-private:
-    NoteSink& sink_;
-    int first_voice_;
-    std::vector<Note> moved_;
-};
-
-/// Notes begin a little late and are a little louder or softer, as a player's are; where they end stays.
-class Humaniser : public NoteSink {
-public:
-    /// @param amount  0 to 1: of 60 ticks and of 24 steps of velocity
-    /// @param from    ticks before the first: a piece from the middle sounds as it does in the whole, but for notes
-    ///                that its edges cut
-    Humaniser(NoteSink& sink, double amount, std::uint64_t seed, std::int64_t from)
-        : sink_(sink), amount_(amount), seed_(seed), from_(from) {}
-    void notes(std::span<const Note> notes) override {
-        changed_.assign(notes.begin(), notes.end());
-        for (Note& note : changed_) {
-            const std::uint64_t chance = next(seed_ ^ next(static_cast<std::uint64_t>(from_ + note.onset) * 16 +
-                                                           static_cast<std::uint64_t>(note.voice)));
-            const double late = static_cast<double>(chance >> 40) / 0x1p24;
-            const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
-            const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
-            note.onset += delay;
-            note.duration -= delay;
-            note.velocity = static_cast<std::uint8_t>(
-                std::clamp(static_cast<int>(note.velocity) + static_cast<int>(loud * amount_ * 24), 1, 127));
-        }
-        sink_.notes(changed_);
-    }
-    void finish(std::int64_t end) override { sink_.finish(end); }
-
-private:
-    /// Steele, Lea and Flood 2014: SplitMix64.
-    static std::uint64_t next(std::uint64_t value) { return scrambled(value + 0x9E3779B97F4A7C15); }
-    NoteSink& sink_;
-    double amount_;
-    std::uint64_t seed_;
-    std::int64_t from_;
-    std::vector<Note> changed_;
-};
 
 /// Only counts.
 class Nobody : public NoteSink {
@@ -119,246 +77,140 @@ public:
     void finish(std::int64_t) override {}
 };
 
-/// @param first, then  folders where it is looked for
-std::string read_small_file(const std::filesystem::path& first, const std::filesystem::path& then,
-                            const std::string& name) {
-    constexpr std::size_t most_bytes = std::size_t{1} << 20;
-    std::error_code error;
-    const bool is_there = std::filesystem::exists(first / name, error);
-    const std::filesystem::path path = (is_there ? first : then) / name;
-    if (std::filesystem::is_fifo(path, error)) throw std::runtime_error(fmt::format("{}: this is a pipe", name));
-    std::string text = read_file(path, name, most_bytes);
-    if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
-    if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
-    return text;
-}
+// Programs of General MIDI, counted from 0.
+constexpr int strings = 48;
+constexpr int sitar = 104;
 
-/// Takes the name of a file that was read and what it holds.
-using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
-
-Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
-                   const FileWitness& witness) {
-    Player player{given, {}, 0, {}};
-    for (const Setting& setting : settings.keys) {
-        try {
-            player.document = player.document.with({setting});
-        } catch (const PatternError& error) {
-            throw SettingError(setting.key, setting.value, error.diagnostics().front().message);
-        }
-    }
-    Diagnostics diagnostics;
-    const std::string& name = given.source().name();
-    const std::filesystem::path beside = name == "-" ? folder : std::filesystem::path(name).parent_path();
-    player.melody = read_melody(
-        player.document.pattern(),
-        [&](const std::string& file) {
-            // Files that the pattern names are beside it; files that options name are in the folder of the options.
-            const bool is_option = std::any_of(settings.keys.begin(), settings.keys.end(),
-                                               [&](const Setting& setting) { return setting.value == file; });
-            std::string text =
-                is_option ? read_small_file(folder, beside, file) : read_small_file(beside, folder, file);
-            if (witness) witness(file, text);
-            return text;
-        },
-        diagnostics);
-    diagnostics.throw_if_errors();
-    // Warnings about the pattern itself belong to the document.
-    for (const Diagnostic& warning : diagnostics.list()) {
-        if (warning.where.line == 0) player.warnings.push_back(warning.message);
-    }
-    transpose(player.melody, settings.transpose);
-    return player;
-}
-
-std::string made_with(const PlaySettings& settings, const std::vector<Player>& players) {
+std::string made_with(const PlaySettings& settings, const std::vector<Player>& players, bool is_arrangement) {
     std::string text;
     for (const Setting& setting : settings.keys) text += fmt::format(" --{} '{}'", setting.key, setting.value);
     if (settings.from_bar != 1) text += fmt::format(" --from-bar {}", settings.from_bar);
     if (settings.bars != 0) text += fmt::format(" --bars {}", settings.bars);
     if (settings.seconds != 0) text += fmt::format(" --seconds {}", settings.seconds);
     if (settings.transpose != 0) text += fmt::format(" --transpose {}", settings.transpose);
-    if (settings.tuning != Tuning::bend) text += " --tuning mts";
+    if (settings.tuning != Tuning::bend) {
+        text += settings.tuning == Tuning::mts ? " --tuning mts" : " --tuning mpe";
+    }
     if (settings.humanise != 0) {
         text += fmt::format(" --humanise {}", settings.humanise);
         if (!players.front().document.has_override("seed")) text += fmt::format(" --seed {}", settings.seed);
     }
     const Document& first = players.front().document;
-    return recipe(first, first.grammar(), "", text);
+    const std::string made = recipe(first, first.grammar(), "", text);
+    // An arrangement holds the settings of its patterns.
+    return is_arrangement ? made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text : made;
 }
 
-/// The piece that is wanted, in ticks.
-PlayOptions piece_of(const PlaySettings& options, const Melody& melody, const Monitor& monitor) {
-    PlayOptions playing;
-    playing.budget = options.budget;
-    playing.watch = [monitor](std::uint64_t symbols) { monitor.advance(symbols); };
-    const std::int64_t bar = melody.meter.bar();
-    if (options.from_bar - 1 > (INT64_MAX / 4) / bar) {
-        throw SettingError("from-bar", std::to_string(options.from_bar),
-                           "this bar is more than 2^60 ticks from the beginning");
-    }
-    playing.from = (options.from_bar - 1) * bar;
-    if (options.bars > 0) playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
-    if (options.seconds > 0) {
-        const double ticks = options.seconds * melody.tempo / 60 * static_cast<double>(ticks_per_quarter);
-        playing.to = std::min(playing.to, playing.from + static_cast<std::int64_t>(std::min(ticks, 4e18)));
-    }
-    return playing;
+/// Adds the texts of a pattern.
+void add_texts(const Player& player, std::vector<std::string>& titles, ScoreHead& head) {
+    const Pattern& pattern = player.document.pattern();
+    const std::string title = pattern.text("title");
+    if (!title.empty() && std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
+    if (head.composer.empty()) head.composer = pattern.text("composer");
+    if (head.source.empty()) head.source = pattern.text("source");
 }
 
-bool has_brackets(const Grammar& grammar) {
-    const std::vector<char> reached = grammar.reachable();
-    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
-        if (reached[symbol] && grammar.is_push(symbol)) return true;
-    }
-    return false;
+Part drum_part(int voices, bool has_chords) {
+    Part part;
+    part.has_chords = has_chords;
+    part.name = "Drums";
+    part.is_drums = true;
+    part.voices = voices;
+    part.spelling = spell(*find_scale("major"), {});
+    return part;
 }
 
-/// How many voices sound; where brackets make them, only playing tells.
-int voices_of(const Player& player, const PlayOptions& playing) {
-    const Melody& melody = player.melody;
-    if (!has_brackets(player.document.grammar())) {
-        if (melody.mapping == Mapping::counterpoint) return 2;
-        return melody.mapping == Mapping::runs && melody.vertical == Vertical::voice ? 2 : 1;
-    }
-    Nobody nobody;
-    return std::max(1, play(player.document.grammar(), melody, nobody, playing).voices);
-}
-
-std::string scale_of(const Melody& melody) {
-    const auto spelling = spell(melody.scale, melody.tonic_spelling);
-    return fmt::format("{} from {}", melody.scale.title, note_name(melody.tonic + melody.transpose, spelling));
-}
-
-ScoreHead head_of(const PlaySettings& options, std::vector<Player>& players, const PlayOptions& playing) {
+/// @param arrangement  null for a single pattern
+/// @param most         voices that the format can hold
+ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrangement* arrangement,
+                  const PlayOptions& playing, int most) {
     ScoreHead head;
-    const Melody& first = players.front().melody;
-    head.tempo = first.tempo;
-    head.meter = first.meter;
-    head.made = made_with(options, players);
+    std::vector<Player>& players = ensemble.players;
+    head.tempo = ensemble.tempo;
+    head.ritardando = ensemble.has_ritardando ? 2 * ensemble.meter.bar() : 0;
+    head.meter = ensemble.meter;
+    head.made = made_with(options, players, arrangement != nullptr);
+    if (arrangement) {
+        head.title = arrangement->title;
+        head.composer = arrangement->composer;
+        head.source = arrangement->source;
+    }
+    head.pattern = arrangement ? arrangement->text : players.front().document.source().text();
+    std::vector<std::string> titles;
     int voices = 0;
+    int pitched = 0;  // all but the drums
     for (Player& player : players) {
-        const Pattern& pattern = player.document.pattern();
         const Melody& melody = player.melody;
-        const std::string title = pattern.text("title");
-        head.title += (head.title.empty() || title.empty() ? "" : ", ") + title;
-        if (head.composer.empty()) head.composer = pattern.text("source");
-        if (!head.pattern.empty()) head.pattern += '\n';
-        head.pattern += pattern.source->text();
+        if (!player.is_bass) add_texts(player, titles, head);
         Part part;
         part.name = instrument_names()[static_cast<std::size_t>(melody.program)];
         part.scale = scale_of(melody);
         part.program = melody.program;
         part.key = key_signature(melody.scale, melody.tonic_spelling);
         part.spelling = spell(melody.scale, melody.tonic_spelling);
+        part.signature = print_signature(melody.scale, melody.tonic_spelling);
         player.first_voice = voices;
         PlayOptions counting = playing;
-        counting.most_voices = most_voices - voices;
-        part.voices = voices_of(player, counting);
-        voices += part.voices;
-        if (voices > most_voices) {
-            throw ScoreError(fmt::format("too many voices: the patterns have {} together, MIDI has channels for {}",
-                                         voices, most_voices));
+        counting.most_voices = most - voices;
+        if (ensemble.needs_whole()) {
+            counting.from = 0;
+            counting.to = INT64_MAX;
         }
-        head.parts.push_back(std::move(part));
+        part.voices = voices_of(player, counting);
+        const SoundKinds sounds = sound_kinds(player.document.grammar(), melody);
+        const int own_voices = part.voices;
+        const bool has_chords = melody.table.most_notes() > 1;
+        part.has_chords = has_chords;
+        // Drums alone are the only part of their pattern.
+        const bool is_drums_alone = sounds.has_drums && !sounds.has_pitches && melody.accompanying_voices() == 0;
+        player.has_drums = sounds.has_drums;
+        player.drums_from = is_drums_alone ? 0 : own_voices + melody.accompanying_voices();
+        voices += player.drums_from + (sounds.has_drums ? own_voices : 0);
+        pitched += is_drums_alone ? 0 : own_voices + melody.accompanying_voices();
+        if ((most == most_channels ? pitched : voices) > most) {
+            throw ScoreError(fmt::format("too many voices: the patterns have {} together, {}", voices,
+                                         most == most_channels
+                                             ? fmt::format("microtones have MIDI channels for {}", most)
+                                             : fmt::format("a score can have {}", most)));
+        }
+        if (!is_drums_alone) head.parts.push_back(part);
+        if (melody.accompanying_voices() > 0) {
+            part.has_chords = false;
+            part.voices = melody.accompanying_voices();
+            part.program = melody.harmony == Harmony::drone ? sitar : strings;
+            part.name = instrument_names()[static_cast<std::size_t>(part.program)];
+            head.parts.push_back(part);
+        }
+        if (sounds.has_drums) head.parts.push_back(drum_part(own_voices, has_chords));
     }
+    if (head.title.empty()) head.title = fmt::format("{}", fmt::join(titles, ", "));
     return head;
 }
 
-Integer bars_of(const Integer& ticks, const Meter& meter) {
-    return (ticks + meter.bar() - 1) / meter.bar();
+/// Voices that need MIDI channels of their own.
+int pitched_voices(const ScoreHead& head) {
+    int voices = 0;
+    for (const Part& part : head.parts) voices += part.is_drums ? 0 : part.voices;
+    return voices;
 }
 
-std::string time_of(const Integer& ticks, double tempo) {
-    return time_text(ticks.convert_to<double>() / static_cast<double>(ticks_per_quarter) * 60 / tempo);
+/// True if drums sound together on their channel.
+bool has_drum_voices(const ScoreHead& head) {
+    int voices = 0;
+    for (const Part& part : head.parts) voices += part.is_drums ? part.voices : 0;
+    return voices > 1;
 }
 
-std::string range_of(const PlayReport& report, const Melody& melody) {
-    const auto spelling = spell(melody.scale, melody.tonic_spelling);
-    return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
-}
-
-/// Why a melody has no notes, and what may help; empty if unknown.
-std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
-    if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
-    if (melody.mapping != Mapping::runs) return {};
-    return std::string(": the curve has no horizontal run there") +
-           (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
-                                               : "");
-}
-
-/// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
-std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
-    PlayOptions playing = piece;
-    playing.budget = std::min(piece.budget, 20e6);
-    std::string text;
-    for (const Player& player : players) {
-        const Melody& melody = player.melody;
-        const std::string title = player.document.text("title");
-        const auto known = is_whole ? census(player.document.grammar(), melody) : std::nullopt;
-        std::optional<PlayReport> played;
-        try {
-            Nobody nobody;
-            played = play(player.document.grammar(), melody, nobody, playing);
-        } catch (const BudgetError&) {
-            if (!known) throw;
-        }
-        const auto out = std::back_inserter(text);
-        fmt::format_to(out, "{}, n = {}\n", title.empty() ? "(untitled)" : printable(title),
-                       player.document.grammar().steps());
-        const Integer notes = played ? Integer(played->notes) : known->notes;
-        const Integer ticks = played ? Integer(played->end) : known->ticks;
-        fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
-                       bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
-        if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
-        if (played && played->notes == 0) {
-            fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(melody, played->lost));
-        }
-        if (known) fmt::format_to(out, "height    {}\n", counted(known->height.str(), "degree"));
-    }
-    return text;
-}
-
-/// Plays all parts into `sink`.
-PlayReport play_all(const std::vector<Player>& players, const PlayOptions& playing, NoteSink& sink) {
-    PlayReport all;
-    all.past = true;
-    for (const Player& player : players) {
-        PartSink part(sink, player.first_voice);
-        const PlayReport report = play(player.document.grammar(), player.melody, part, playing);
-        all.notes += report.notes;
-        all.moved += report.moved;
-        all.lost += report.lost;
-        all.lowest = std::min(all.lowest, report.lowest);
-        all.highest = std::max(all.highest, report.highest);
-        all.end = std::max(all.end, report.end);
-        all.past = all.past && report.past;
-    }
-    if (all.notes > 0) {
-        sink.finish(all.end);
-        return all;
-    }
-    if (playing.from > 0 && all.past) {
-        Integer ticks = 0;
-        for (const Player& player : players) {
-            const auto known = census(player.document.grammar(), player.melody);
-            if (!known) throw ScoreError("the requested bars contain no notes: the melody ends before them");
-            ticks = std::max(ticks, known->ticks);
-        }
-        throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
-                                     bars_of(ticks, players.front().melody.meter).str()));
-    }
-    throw ScoreError(
-        fmt::format("the {} no notes{}",
-                    playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains",
-                    reason_of_silence(players.front().melody, all.lost)));
-}
-
-void report_notes(const std::vector<Player>& players, const PlayOptions& playing, const PlayReport& report,
-                  Made& made) {
-    const Melody& first = players.front().melody;
+void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
+    const Melody& first = ensemble.players.front().melody;
     made.fact(fmt::format("{}, {}, {}, {}", counted(report.notes, "note"),
-                          counted(bars_of(report.end, first.meter).str(), "bar"), time_of(report.end, first.tempo),
+                          counted(bars_of(report.end, ensemble.meter).str(), "bar"),
+                          report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
                           range_of(report, first)));
+    if (report.is_strict) {
+        made.fact(fmt::format("counterpoint: {} moved, {} left", counted(report.counterpoint.moved, "note"),
+                              counted(report.counterpoint.left, "fault")));
+    }
     if (report.moved > 0) {
         const auto spelling = spell(first.scale, first.tonic_spelling);
         made.warn(fmt::format(
@@ -373,10 +225,16 @@ void report_notes(const std::vector<Player>& players, const PlayOptions& playing
     if (report.lost > 0) {
         made.warn(counted(report.lost, "note") + " too short for a tick, or without a key, left out");
     }
-    for (const Player& player : players) {
+    if (!report.skipped.empty()) made.fact("skipped: " + skipped_text(report.skipped));
+    for (const std::string& symbol : report.unused) {
+        made.warn(fmt::format("the pattern does not contain the symbol '{}' of the table{}", printable(symbol),
+                              symbol.size() > 1 ? "; names are listed under `symbols:`" : ""));
+    }
+    for (const Player& player : ensemble.players) {
         const Melody& melody = player.melody;
-        if (melody.tempo != first.tempo || melody.meter.beats != first.meter.beats ||
-            melody.meter.unit != first.meter.unit) {
+        if (player.is_bass || player.is_follower) continue;
+        const bool has_meter = melody.meter.beats == ensemble.meter.beats && melody.meter.unit == ensemble.meter.unit;
+        if (melody.tempo != ensemble.tempo || (!has_meter && !player.document.has_override("meter"))) {
             made.warn(printable(player.document.text("title")) +
                       " is played in the tempo and meter of the first pattern");
         }
@@ -386,13 +244,28 @@ void report_notes(const std::vector<Player>& players, const PlayOptions& playing
 void report_notation(const Notation& notation, Made& made) {
     if (notation.moved > 0) {
         made.warn(
-            fmt::format("{} not begin or end at a 64th and are written at the nearest; `unit: 1/8` or another "
-                        "power of two keeps the rhythm",
+            fmt::format("{} not begin or end at a 64th or in a tuplet of 3 or 5 and are written at the nearest "
+                        "64th; `unit: 1/8` keeps the rhythm",
                         notation.moved == 1 ? "1 note does" : counted(notation.moved, "note") + " do"));
     }
     if (notation.bent > 0) {
-        made.warn(fmt::format("{} written as the nearest quarter tone; MIDI, sound and the page keep the pitch",
+        made.warn(fmt::format("{} written as the nearest quarter tone, with the difference in cents",
                               notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are"));
+    }
+}
+
+/// True for scores of note values, which leave performance to the player.
+bool is_printed(ScoreFormat format) {
+    switch (format) {
+        case ScoreFormat::musicxml:
+        case ScoreFormat::mxl:
+        case ScoreFormat::lilypond:
+        case ScoreFormat::pdf:
+        case ScoreFormat::abc:
+        case ScoreFormat::strudel:
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -400,21 +273,17 @@ void report_notation(const Notation& notation, Made& made) {
 class ScoreWork : public Work {
 public:
     /// @throws SettingError, PatternError; std::runtime_error if a file that a pattern names cannot be read
-    ScoreWork(std::span<const Document> documents, ScoreFormat format, PlaySettings settings,
+    ScoreWork(const Document& document, ScoreFormat format, PlaySettings settings,
               const std::filesystem::path& folder)
-        : format_(format), settings_(std::move(settings)) {
-        const auto witness = [this](const std::string& name, const std::string& text) {
-            files_.emplace_back(name, text);
-        };
-        for (const Document& document : documents) {
-            players_.push_back(read_player(settings_, document, folder, witness));
-            Melody& melody = players_.back().melody;
-            // MusicXML cannot represent the lowest octave of MIDI.
-            if (format == ScoreFormat::musicxml) melody.lowest = std::max(melody.lowest, lowest_in_musicxml);
-            midi_.microtonal = midi_.microtonal || melody.is_microtonal();
-        }
-        midi_.format = settings_.format;
-        midi_.tuning = settings_.tuning;
+        : format_(format), settings_(std::move(settings)), folder_(folder) {
+        add(document, 0);
+        complete();
+    }
+    ScoreWork(Arrangement arrangement, ScoreFormat format, PlaySettings settings, const std::filesystem::path& folder)
+        : format_(format), settings_(std::move(settings)), folder_(folder), arrangement_(std::move(arrangement)) {
+        for (const Track& track : arrangement_->tracks) add(track.document, track.section);
+        ensemble_.form = arrangement_->form;
+        complete();
     }
 
     Cost forecast() const override;
@@ -422,8 +291,8 @@ public:
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
     NoteList list(const Monitor& monitor) {
-        const PlayOptions playing = piece_of(settings_, players_.front().melody, monitor);
-        const ScoreHead head = head_of(settings_, players_, playing);  // numbers the voices of the parts
+        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        const ScoreHead head = make_head(playing, most_voices);  // numbers the voices of the parts
         NoteCollector collector(static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)));
         play_into(collector, playing);
         NoteList result{collector.notes(), collector.end(), head.tempo, head.meter, head.parts};
@@ -432,24 +301,126 @@ public:
         });
         return result;
     }
-    std::string describe(const Monitor& monitor) const {
-        return description(players_, piece_of(settings_, players_.front().melody, monitor),
-                           settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
+    std::unique_ptr<NoteStream> stream(const Monitor& monitor) {
+        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        StreamedScore score;
+        const bool is_limited = midi_.microtonal && midi_.tuning != Tuning::mpe;
+        score.head = make_head(playing, is_limited ? most_channels : most_voices);
+        score.midi = midi_;
+        score.midi.share_channels = !is_limited && pitched_voices(score.head) > most_channels;
+        score.humanise = settings_.humanise;
+        score.seed = settings_.seed;
+        return stream_notes(std::move(score), ensemble_, playing);
+    }
+    std::string describe(const Monitor& monitor) {
+        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        std::string text = description(ensemble_.players, playing,
+                                       settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
+        if (!arrangement_ && !ensemble_.needs_whole()) return text;
+        make_head(playing, most_voices);  // numbers the voices of the parts
+        Nobody nobody;
+        Made made;
+        report_notes(ensemble_, playing, play_all(ensemble_, playing, nobody), made);
+        text += "together\n";
+        for (const Remark& remark : made.remarks) text += remark.text + "\n";
+        return text;
     }
 
 private:
+    void add(const Document& document, char section) {
+        const auto witness = [this](const std::string& name, const std::string& text) {
+            files_.emplace_back(name, text);
+        };
+        Player player = read_player(settings_, document, folder_, witness);
+        Melody& melody = player.melody;
+        player.section = section;
+        if (is_printed(format_)) {
+            melody.swing = 0.5;
+            melody.articulation = Articulation::legato;
+        }
+        // MusicXML cannot represent the lowest octave of MIDI.
+        if (format_ == ScoreFormat::musicxml || format_ == ScoreFormat::mxl) {
+            melody.lowest = std::max(melody.lowest, lowest_in_musicxml);
+        }
+        std::vector<Player>& players = ensemble_.players;
+        players.push_back(player);
+        if (melody.harmony == Harmony::bass) players.push_back(bass_of(player));
+        for (Player& follower : followers_of(player)) players.push_back(std::move(follower));
+    }
+
+    /// Tempo and meter are those of the first player, unless the arrangement or an option sets them.
+    void complete() {
+        const Melody& first = ensemble_.players.front().melody;
+        const auto is_option = [&](std::string_view key) {
+            return std::any_of(settings_.keys.begin(), settings_.keys.end(),
+                               [&](const Setting& setting) { return setting.key == key; });
+        };
+        ensemble_.tempo = first.tempo;
+        ensemble_.meter = first.meter;
+        ensemble_.has_ritardando = first.has_ritardando;
+        if (arrangement_ && arrangement_->tempo && !is_option("tempo")) ensemble_.tempo = *arrangement_->tempo;
+        if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
+        for (const Player& player : ensemble_.players) {
+            midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
+        }
+        if (ensemble_.has_bends() && !is_printed(format_)) {
+            if (settings_.tuning != Tuning::bend) {
+                throw SettingError("tuning", settings_.tuning == Tuning::mts ? "mts" : "mpe",
+                                   "gamakas are pitch bends of voices; expected bend");
+            }
+            midi_.microtonal = true;
+            midi_.bend_range = widest_bend;
+        }
+        if (is_printed(format_) && ensemble_.has_tempo_ratio()) {
+            throw SettingError("speed", "",
+                               "a part in a tempo of its own has no bars in common with the others, so it cannot be "
+                               "printed; MIDI, sound, Csound and pages play it");
+        }
+        midi_.format = settings_.format;
+        midi_.tuning = settings_.tuning;
+    }
+
+    ScoreHead make_head(const PlayOptions& playing, int most) {
+        return head_of(settings_, ensemble_, arrangement_ ? &*arrangement_ : nullptr, playing, most);
+    }
+
     void check_size(const PlayOptions& playing) const;
     void write(const ScoreHead& head, const PlayOptions& playing, Output& output, Made& made);
+    void write_notation(const Notation& notation, const ScoreHead& head, Output& output) const;
     /// @return peak level
-    double write_sound(const ScoreHead& head, const PlayOptions& playing, Output& output, PlayReport& report);
-    PlayReport play_into(NoteSink& sink, const PlayOptions& playing) const {
+    double write_sound(const ScoreHead& head, const PlayOptions& playing, Output& output, EnsembleReport& report);
+    EnsembleReport write_midi_file(const ScoreHead& head, const PlayOptions& playing, Output& output) const {
+        const auto writer = write_midi(head, output, midi_);
+        if (!midi_.share_channels && !has_drum_voices(head)) return play_into(*writer, playing);
+        UnisonMerger merger(*writer, head, static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)),
+                            midi_.share_channels);
+        return play_into(merger, playing);
+    }
+    EnsembleReport play_into(NoteSink& sink, const PlayOptions& playing) const {
         Humaniser human(sink, settings_.humanise, settings_.seed, playing.from);
-        return play_all(players_, playing, settings_.humanise > 0 ? static_cast<NoteSink&>(human) : sink);
+        return express_into(settings_.humanise > 0 ? static_cast<NoteSink&>(human) : sink, playing);
+    }
+    EnsembleReport express_into(NoteSink& sink, const PlayOptions& playing) const {
+        Curves curves;
+        EnsembleReport report;
+        if (ensemble_.has_expression()) {
+            PerformanceSink performance(sink, ensemble_, playing, is_printed(format_));
+            report = play_all(ensemble_, playing, performance);
+            curves.tempo = performance.curves().tempo;
+        } else {
+            report = play_all(ensemble_, playing, sink);
+        }
+        ScoreHead times;
+        times.ritardando = ensemble_.has_ritardando && !is_printed(format_) ? 2 * ensemble_.meter.bar() : 0;
+        report.seconds = seconds_at(report.end, ensemble_.tempo, tempo_map(times, curves, report.end));
+        return report;
     }
 
     ScoreFormat format_;
     PlaySettings settings_;
-    std::vector<Player> players_;
+    std::filesystem::path folder_;
+    std::optional<Arrangement> arrangement_;  // unless a single pattern is played
+    Ensemble ensemble_;
     std::vector<std::pair<std::string, std::string>> files_;
     MidiOptions midi_;
     Monitor monitor_;
@@ -459,7 +430,7 @@ private:
 void ScoreWork::check_size(const PlayOptions& playing) const {
     const bool as_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
     if (!as_midi || playing.to < INT64_MAX) return;
-    for (const Player& player : players_) {
+    for (const Player& player : ensemble_.players) {
         const auto known = census(player.document.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(
@@ -470,10 +441,10 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
     }
 }
 
-double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing, Output& output, PlayReport& report) {
+double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing, Output& output,
+                              EnsembleReport& report) {
     OutputFile score(output.temporary().string() + ".mid");  // never committed
-    const auto writer = write_midi(head, score, midi_);
-    report = play_into(*writer, playing);
+    report = write_midi_file(head, playing, score);
     const double seconds = static_cast<double>(report.end) / static_cast<double>(ticks_per_quarter) * 60 / head.tempo;
     if (seconds > most_audio_seconds) {
         throw ScoreError(
@@ -486,37 +457,64 @@ double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing,
                         [this](double) { monitor_.check(); });
 }
 
+void ScoreWork::write_notation(const Notation& notation, const ScoreHead& head, Output& output) const {
+    MemoryOutput whole;
+    switch (format_) {
+        case ScoreFormat::mxl:
+            write_musicxml(notation, head, whole);
+            write_mxl(whole.bytes(), output);
+            break;
+        case ScoreFormat::pdf:
+            write_lilypond(notation, head, whole);
+            engrave(whole.bytes(), head, output.temporary(), [this] { monitor_.check(); });
+            break;
+        case ScoreFormat::abc:
+            write_abc(notation, head, output);
+            break;
+        case ScoreFormat::lilypond:
+            write_lilypond(notation, head, output);
+            break;
+        default:
+            write_musicxml(notation, head, output);
+    }
+}
+
 void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output& output, Made& made) {
-    PlayReport report;
+    EnsembleReport report;
     std::optional<Notation> notation;
     bool is_silent = false;
     switch (format_) {
         case ScoreFormat::midi: {
-            const auto writer = write_midi(head, output, midi_);
-            report = play_into(*writer, playing);
+            report = write_midi_file(head, playing, output);
             break;
         }
         case ScoreFormat::musicxml:
-        case ScoreFormat::lilypond: {
+        case ScoreFormat::mxl:
+        case ScoreFormat::lilypond:
+        case ScoreFormat::pdf:
+        case ScoreFormat::abc: {
             Notator notator(head);
-            report = play_into(notator, playing);
+            report = express_into(notator, playing);  // never humanised
             notation = notator.notation();
-            if (format_ == ScoreFormat::musicxml) {
-                write_musicxml(*notation, head, output);
-            } else {
-                write_lilypond(*notation, head, output);
-            }
+            write_notation(*notation, head, output);
             break;
         }
+        case ScoreFormat::csd:
+        case ScoreFormat::sco:
+        case ScoreFormat::strudel:
         case ScoreFormat::svg:
         case ScoreFormat::html: {
             NoteCollector collector;
             report = play_into(collector, playing);
-            if (format_ == ScoreFormat::svg) {
-                write_music_svg(head, collector.notes(), collector.end(), output);
-            } else {
-                write_music_page(head, collector.notes(), collector.end(), output);
-            }
+            const std::vector<Note>& notes = collector.notes();
+            if (format_ == ScoreFormat::csd)
+                write_csound_file(head, notes, collector.end(), output, collector.curves());
+            if (format_ == ScoreFormat::sco)
+                write_csound_score(head, notes, collector.end(), output, collector.curves());
+            if (format_ == ScoreFormat::strudel) write_strudel(head, notes, collector.end(), output);
+            if (format_ == ScoreFormat::svg) write_music_svg(head, notes, collector.end(), output);
+            if (format_ == ScoreFormat::html)
+                write_music_page(head, notes, collector.end(), output, collector.curves());
             break;
         }
         case ScoreFormat::wav:
@@ -524,7 +522,7 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
             is_silent = write_sound(head, playing, output, report) == 0;
             break;
     }
-    report_notes(players_, playing, report, made);
+    report_notes(ensemble_, playing, report, made);
     if (notation) report_notation(*notation, made);
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
@@ -532,20 +530,26 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
 Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
                      int /*threads*/) {
     Made made;
-    for (const Player& player : players_) {
+    for (const Player& player : ensemble_.players) {
         for (const std::string& warning : player.warnings) made.warn(warning);
     }
     monitor_ = monitor;
-    const PlayOptions playing = piece_of(settings_, players_.front().melody, monitor);
+    const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
     monitor.expect(0);
     check_size(playing);
-    const ScoreHead head = head_of(settings_, players_, playing);
+    const bool is_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
+    const bool is_mpe = midi_.tuning == Tuning::mpe;
+    const bool is_limited = is_midi && midi_.microtonal && !is_mpe;
+    const ScoreHead head = make_head(playing, is_limited ? most_channels : most_voices);
+    midi_.share_channels = !midi_.microtonal && !is_mpe && pitched_voices(head) > most_channels;
     const auto output = destination.open(name);
     if (output->can_insert()) {
         write(head, playing, *output, made);
     } else {
-        if (format_ == ScoreFormat::wav || format_ == ScoreFormat::flac) {
-            throw std::runtime_error(fmt::format("cannot write '{}': sound needs a regular file", name.string()));
+        if (format_ == ScoreFormat::wav || format_ == ScoreFormat::flac || format_ == ScoreFormat::pdf) {
+            throw std::runtime_error(
+                fmt::format("cannot write '{}': {} a regular file", name.string(),
+                            format_ == ScoreFormat::pdf ? "a printed score needs" : "sound needs"));
         }
         // Writers of sound seek to the beginning, which pipes do not support.
         MemoryOutput whole;
@@ -559,7 +563,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
 Cost ScoreWork::forecast() const {
     constexpr double unknown_symbols = 1e6;  // assumed for words of unknown length
     Cost result;
-    for (const Player& player : players_) {
+    for (const Player& player : ensemble_.players) {
         const Grammar& grammar = player.document.grammar();
         const auto known = estimate(grammar, true);
         double nodes = std::min(known ? known->nodes : unknown_symbols, settings_.budget);
@@ -576,6 +580,7 @@ Cost ScoreWork::forecast() const {
             result.bytes += notes * 44'100;
             result.memory += 60e6;
         } else if (format_ != ScoreFormat::midi) {
+            if (format_ == ScoreFormat::pdf) result.seconds += 2 + notes * 0.002;
             result.seconds += notes * 1e-6;
             result.bytes += notes * 120;
             result.memory += notes * 300;
@@ -590,6 +595,13 @@ ScoreFormat known(std::string_view format) {
         if (find_format(std::span(&row.name, 1), format)) return row.format;
     }
     refuse_option("format", std::string(format), "unknown format");
+}
+
+/// Several documents are an arrangement.
+ScoreWork work_of(std::span<const Document> documents, ScoreFormat format, const OptionValues& values,
+                  const std::filesystem::path& folder) {
+    if (documents.size() == 1) return {documents.front(), format, read_play_settings(values), folder};
+    return {arrangement_of(documents), format, read_play_settings(values), folder};
 }
 
 class Scores : public Interpreter {
@@ -627,15 +639,39 @@ const Interpreter& scores() {
 
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,
                                  const OptionValues& values, const std::filesystem::path& folder) {
-    return std::make_unique<ScoreWork>(documents, known(format), read_play_settings(values), folder);
+    return std::make_unique<ScoreWork>(work_of(documents, known(format), values, folder));
+}
+
+std::unique_ptr<Work> plan_score(const Arrangement& arrangement, std::string_view format, const OptionValues& values,
+                                 const std::filesystem::path& folder) {
+    return std::make_unique<ScoreWork>(arrangement, known(format), read_play_settings(values), folder);
 }
 
 NoteList list_notes(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor) {
-    return ScoreWork(documents, ScoreFormat::midi, read_play_settings(values), {}).list(monitor);
+    return work_of(documents, ScoreFormat::midi, values, {}).list(monitor);
+}
+
+NoteList list_notes(const Arrangement& arrangement, const OptionValues& values, const Monitor& monitor) {
+    return ScoreWork(arrangement, ScoreFormat::midi, read_play_settings(values), {}).list(monitor);
+}
+
+std::unique_ptr<NoteStream> stream_notes(std::span<const Document> documents, const OptionValues& values,
+                                         const Monitor& monitor, const std::filesystem::path& folder) {
+    return work_of(documents, ScoreFormat::midi, values, folder).stream(monitor);
+}
+
+std::unique_ptr<NoteStream> stream_notes(const Arrangement& arrangement, const OptionValues& values,
+                                         const Monitor& monitor, const std::filesystem::path& folder) {
+    return ScoreWork(arrangement, ScoreFormat::midi, read_play_settings(values), folder).stream(monitor);
 }
 
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor) {
-    return ScoreWork(documents, ScoreFormat::midi, read_play_settings(values), {}).describe(monitor);
+    return work_of(documents, ScoreFormat::midi, values, {}).describe(monitor);
+}
+
+std::string describe_score(const Arrangement& arrangement, const OptionValues& values, const Monitor& monitor,
+                           const std::filesystem::path& folder) {
+    return ScoreWork(arrangement, ScoreFormat::midi, read_play_settings(values), folder).describe(monitor);
 }
 
 std::string play(const Document& document, std::string_view format, const OptionValues& values,

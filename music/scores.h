@@ -29,6 +29,14 @@ std::string play(const Document& document, std::string_view format, const Option
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,
                                  const OptionValues& values, const std::filesystem::path& folder = {});
 
+struct Arrangement;
+
+/// Plans a score of an arrangement: see music/arrangement.h. @throws as make(); SettingError for formats that cannot
+/// represent it
+/// @param folder  folder of files that patterns and `values` name
+std::unique_ptr<Work> plan_score(const Arrangement& arrangement, std::string_view format, const OptionValues& values,
+                                 const std::filesystem::path& folder = {});
+
 /// The notes of a score, with its meter and tempo.
 struct NoteList {
     std::vector<Note> notes;  ///< by onset, then by voice
@@ -42,7 +50,12 @@ struct NoteList {
 /// take more than a quarter of the memory
 NoteList list_notes(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
 
+NoteList list_notes(const Arrangement& arrangement, const OptionValues& values, const Monitor& monitor);
+
 /// Describes the music without writing a score: notes, bars, time and range, in a block of lines for each document.
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
+/// Likewise, for each track and for all together.
+std::string describe_score(const Arrangement& arrangement, const OptionValues& values, const Monitor& monitor,
+                           const std::filesystem::path& folder = {});
 
 }  // namespace sikku

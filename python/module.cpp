@@ -4,7 +4,7 @@
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
 #include "art/sheets.h"
-#include "engine/measure/measurement_text.h"
+#include "engine/measurement.h"
 #include "music/scores.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -97,10 +97,7 @@ py::list write_sheet(const std::vector<std::pair<Document, TextPairs>>& drawings
 }
 
 py::str measure_document(const Document& document, double budget) {
-    return to_text(long_call([&](const Monitor& monitor) {
-        const auto watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
-        return measurement_json(document.text("title"), measure(document.grammar(), budget, watch));
-    }));
+    return to_text(long_call([&](const Monitor& monitor) { return measure_as_json(document, budget, monitor); }));
 }
 
 py::str examine_document(const Document& document, double budget) {

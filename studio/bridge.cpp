@@ -7,7 +7,7 @@
 #include "engine/base/keys.h"
 #include "engine/check.h"
 #include "engine/language/command_table.h"
-#include "engine/measure/measurement_text.h"
+#include "engine/measurement.h"
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
 
@@ -128,8 +128,7 @@ Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes
 Json answer_measure(const Json& request, const Monitor& monitor, std::string& bytes) {
     constexpr double budget = 200e6;
     const Document document = document_of(request);
-    const auto watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
-    bytes = measurement_json(document.text("title"), measure(document.grammar(), budget, watch));
+    bytes = measure_as_json(document, budget, monitor);
     return Json::parse(bytes);
 }
 
@@ -172,8 +171,11 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
     }
     Json parts = Json::array();
     for (const Part& part : list.parts) {
-        parts.push_back(
-            {{"name", part.name}, {"scale", part.scale}, {"program", part.program}, {"voices", part.voices}});
+        parts.push_back({{"name", part.name},
+                         {"scale", part.scale},
+                         {"program", part.program},
+                         {"voices", part.voices},
+                         {"drums", part.is_drums}});
     }
     return {{"count", list.notes.size()}, {"end", list.end},         {"tempo", list.tempo},
             {"beats", list.meter.beats},  {"unit", list.meter.unit}, {"ticks", ticks_per_quarter},

@@ -57,6 +57,11 @@ inline std::string contents(const std::filesystem::path& path) {
     return text.str();
 }
 
+/// The file of a bundled pattern, such as tilings/chair.
+inline std::string bundled(const std::string& name) {
+    return std::string(SIKKU_SOURCE_DIR) + "/patterns/" + name + ".lsys";
+}
+
 /// The pattern files below a folder of the source, sorted.
 inline std::vector<std::filesystem::path> pattern_files(const std::string& folder) {
     std::vector<std::filesystem::path> list;

@@ -1,18 +1,19 @@
 # What Debian 12 packages the project needs; sourced by ./demo and ./check.
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
-    libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev)
+    libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev
+    libasound2-dev)
 # For tests: the framework, independent readers of the program's outputs, the linters, and the Python module.
 test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl
-    midicsv python3-mido clang-format clang-tidy
+    midicsv python3-mido python3-ezdxf clang-format clang-tidy
     pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)
-# For the studio: the compiler to WebAssembly, a library for what its C++ library lacks, and browsers for the tests. npm
-# may already be installed from elsewhere, with a newer version of node.
-studio_packages=(emscripten libfast-float-dev)
+# For the studio: the compiler to WebAssembly, a library for what its C++ library lacks, a compressor for the page, and
+# browsers for the tests. npm may already be installed from elsewhere, with a newer version of node.
+studio_packages=(emscripten libfast-float-dev zopfli)
 browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
-full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 fluidsynth
+full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth
     timgm6mb-soundfont flac slurm-wlm munge)
 command -v npm > /dev/null || studio_packages+=(npm)
 

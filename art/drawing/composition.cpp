@@ -28,6 +28,10 @@ Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> li
 
 void Composition::examine(const Grammar& grammar) {
     if (options_.may_be_empty && !lines_->has_ink()) return;
+    if (has_line_work(style_) && !style_.stroked) {
+        throw std::runtime_error(
+            "fields, weaves and parallel lines need lines, and 'stroke' is none; set a stroke such as 0.1mm");
+    }
     KolamOptions examined;
     examined.spline = style_.line == Line::spline;
     examined.moves_lift = style_.moves_lift;
@@ -46,6 +50,7 @@ void Composition::examine(const Grammar& grammar) {
     }
     if (!style_.dots) return;
     dots_ = dot_places(examination);
+    has_dots_on_lines_ = examination.dots_on_lines() > 0;
     distance_ = least_distance(dots_);
 }
 
@@ -166,7 +171,12 @@ void Composition::read_dots(const Print& print, const std::vector<glm::dvec2>& d
 double Composition::dot_radius(const Print& print) const {
     if (!print.style.dots) return 0;
     const auto& size = print.style.dots->size;
-    if (!size) return distance_ > 0 ? distance_ / 12 : 0.25;
+    if (!size) {
+        const double usual = distance_ > 0 ? distance_ / 12 : 0.25;
+        // A dot on a line has to stand out from it.
+        const double line = print.style.line_width({}, print.placement.step) / print.placement.step;
+        return has_dots_on_lines_ ? std::max(usual, line) : usual;
+    }
     return size->value / (size->in_steps ? 1.0 : print.placement.step) / 2;
 }
 
@@ -174,6 +184,8 @@ void Composition::report(DrawReport& report) const {
     lines_->report(report);
     report.dots = dots_.size();
     if (work_) report.fields = work_->fields();
+    if (work_ && style_.weave) report.woven = work_->crossings();
+    if (work_ && work_->draws_lines()) report.strokes = work_->lines();
     report.parallel = parallel_;
 }
 

@@ -29,6 +29,7 @@ public:
     const Style& style() const override { return style_; }
     double scale() const override { return lines_->scale(); }
     Balance balance() const override { return lines_->balance(); }
+    double dot_distance() const override { return distance_; }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     void report(DrawReport& report) const override;
@@ -48,6 +49,7 @@ private:
     Style style_;  ///< with the colours of dots and strands added
     std::vector<glm::dvec2> dots_;
     double distance_ = 0;  ///< between the nearest dots, in steps
+    bool has_dots_on_lines_ = false;
     Pen dot_pen_;
     std::vector<std::uint32_t> orbit_of_stroke_;  ///< orbit of the stroke's line
     std::vector<int> stroke_colours_;

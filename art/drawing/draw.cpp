@@ -6,6 +6,7 @@
 #include "art/drawing/tiled_print.h"
 #include "art/drawing/word_drawing.h"
 #include "art/image/image_file.h"
+#include "art/plotter/dxf.h"
 #include "art/plotter/hpgl.h"
 #include "art/space/model.h"
 #include "art/space/solids.h"
@@ -56,8 +57,9 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     plan.arrange();
     report.plot = plan.report();
     if (is_for_plotters(options.format)) {
-        const auto writer = options.format == PrintFormat::hpgl ? write_hpgl(plotted, options.hpgl, output)
-                                                                : write_gcode(plotted, options.gcode, output);
+        const auto writer = options.format == PrintFormat::hpgl    ? write_hpgl(plotted, options.hpgl, output)
+                            : options.format == PrintFormat::gcode ? write_gcode(plotted, options.gcode, output)
+                                                                   : write_dxf(plotted, output);
         std::vector<Pen> pens;
         for (const PlotPlan::PlottedPen& plotted_pen : plan.pens()) pens.push_back(plotted_pen.pen);
         writer->number_pens(pens);
@@ -134,8 +136,9 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
 
 ModelReport draw_model(const Grammar& given, Print print, const DrawOptions& options, PrintFormat format,
                        const std::filesystem::path& file, Destination& destination) {
+    if (given.map()) throw std::runtime_error("a model is of a turtle's lines and solids, and a map has no turtle");
     if (print.style.line == Line::spline) {
-        throw std::runtime_error("a model is of straight lines, and this drawing is of splines");
+        throw std::runtime_error("models have straight lines; this drawing has splines");
     }
     const Grammar grammar = resolved(given, options);
     require_affordable(grammar, true, options.budget);

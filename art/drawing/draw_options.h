@@ -22,10 +22,12 @@
 
 namespace sikku {
 
+class MapFrames;
+
 /// Bounds of the visible drawing in the orientation of the page: in turtle steps, y up, without the pen's width.
 struct DrawnExtent {
     Box box;
-    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
+    double widest = 0.0;  ///< width of pens and dots, in the unit of the style's stroke
     double around = 0.0;  ///< the same for lines that continue outside a window
 };
 
@@ -35,6 +37,8 @@ struct BorderPattern {
     Style style;
 };
 
+class LessonMemo;
+
 /// Options of a drawing that hold for a page of its own and for a cell of a sheet.
 struct DrawingOptions {
     PlacementOptions placement;
@@ -43,6 +47,8 @@ struct DrawingOptions {
     bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
     bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
     std::optional<std::size_t> lesson_step;                ///< show this step of a lesson, from 0: see LessonDrawing
+    std::size_t most_steps = 40;                           ///< of a lesson; more are joined
+    std::shared_ptr<LessonMemo> lesson_memo{};             ///< shared by the drawings of all steps; null: none
     std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
     std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
     std::optional<Repeat> repeat{};                        ///< draw it many times
@@ -52,16 +58,22 @@ struct DrawingOptions {
     double budget = 200e6;     ///< maximum number of derivation nodes visited in one pass
 };
 
-struct DrawOptions : DrawingOptions {
-    PrintFormat format = PrintFormat::svg;
-    std::optional<DrawnExtent> frame;   ///< extent to place on the page instead of the drawing's own
-    std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
+/// How a drawing or a sheet is arranged for a plotter, and the facts about the machine that its writers need.
+struct PlotSetup {
     /// Arranges the lines for a plotter, which HP-GL and G-code always do. The format sets start and home.
     std::optional<PlotOptions> plot;
     bool shows_travel = false;  ///< draw pen-up travel of the plot in a separate layer
     GcodeOptions gcode;
     HpglOptions hpgl;
     LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
+};
+
+struct DrawOptions : DrawingOptions, PlotSetup {
+    PrintFormat format = PrintFormat::svg;
+    std::shared_ptr<MapFrames> map_frames{};  ///< shared by all generations of a map; absent: made for each drawing
+    double map_share = 1;                     ///< how far a map is on its way from the step before, for animations
+    std::optional<DrawnExtent> frame;         ///< extent to place on the page instead of the drawing's own
+    std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.
     std::optional<TileOptions> tiles;
@@ -91,7 +103,7 @@ inline DrawOptions with_locked_watch(DrawOptions options) {
 struct ParallelReport {
     double spacing = 0.0;  ///< from the middle of one to the next
     double wanted = 0.0;   ///< the requested spacing, which is larger where there was no room
-    double width = 0.0;    ///< of each
+    double width = 0.0;    ///< width of each line
 };
 
 /// Report about a finished drawing.
@@ -101,15 +113,18 @@ struct DrawReport {
     glm::dvec2 room{0.0};                    ///< room on the page, within margins and border
     std::size_t dots = 0;                    ///< number of kolam dots drawn
     std::size_t copies = 0;                  ///< number of copies of a repeated drawing
-    std::size_t strokes = 0;                 ///< number of lines of all copies
+    std::optional<std::size_t> strokes;      ///< number of lines of all copies, or of a weave before it is cut
     std::size_t fields = 0;                  ///< number of fields between lines, filled or not
-    std::optional<ParallelReport> parallel;  ///< of lines drawn as several parallel ones
+    std::optional<std::size_t> woven;        ///< number of crossings of a weave
+    std::optional<ParallelReport> parallel;  ///< of lines drawn as several parallel lines
     bool overflows = false;          ///< the drawing is larger than the page within its margins (a step was given)
     int sheets = 0;                  ///< number of sheets of a tiled print
-    int sheet_rows = 0;              ///< rows of these sheets
+    int sheet_rows = 0;              ///< rows of sheets
     glm::dvec2 left_out{0.0};        ///< margin of the page, in millimetres on each side, that the sheets do not show
     std::optional<PlotReport> plot;  ///< report of a plot
     std::uint64_t replaced = 0;      ///< parts too small to be resolved, replaced by their appearance
+    std::size_t cells = 0;           ///< number of cells of a map
+    bool crosses_itself = false;     ///< the outline of a map crosses itself
     bool is_empty = false;           ///< the window contains no part of the drawing
     bool is_blank = false;           ///< the ink of a picture is too thin to be visible
     bool leaves_pattern_out = false;  ///< the pattern's text is too long for the format

@@ -5,8 +5,11 @@
 #include "art/drawing/hand_drawing.h"
 #include "art/drawing/ink_shape.h"
 #include "art/drawing/lesson_drawing.h"
+#include "art/drawing/map_drawing.h"
 #include "art/drawing/repeated_drawing.h"
 #include "art/drawing/seen_drawing.h"
+#include "art/drawing/tile_drawing.h"
+#include "art/drawing/window_drawing.h"
 #include "art/drawing/word_drawing.h"
 #include "art/print/clip.h"
 
@@ -80,7 +83,7 @@ PlacementOptions Drawing::placement() const {
 
 DrawReport Drawing::place(Print& print) {
     const DrawnExtent& placed = options_.frame ? *options_.frame : extent();
-    // Read for what is known of it in any case.
+    // Read in any case, to find its properties.
     around_ = seen().around;
     PlacementOptions placement = this->placement();
     placement.scale = scale();
@@ -105,34 +108,65 @@ std::unique_ptr<Rendering> Drawing::rendering(const Print& print, const Window& 
     return raster;
 }
 
+namespace {
+
+std::unique_ptr<Drawing> make_map_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
+    if (has_ornaments(style, options) || options.only_dots) {
+        throw std::runtime_error("dots, fields, weaves, parallel lines and colours by strand do not apply to maps");
+    }
+    auto frames = options.map_frames;
+    if (!frames) frames = std::make_shared<MapFrames>(grammar, options.budget, options.monitor, KeptFrames::last);
+    auto frame = frames->after(grammar.steps());
+    if (options.map_share < 1) frame = std::make_shared<const MapFrame>(frame->at(options.map_share));
+    return std::make_unique<MapDrawing>(std::move(frame), style, options, grammar.scale_percent());
+}
+
+/// Repeats, tiles, frames and hand-drawn lines around a drawing in the plane.
+std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const Style& style,
+                                    const DrawOptions& options) {
+    if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
+    if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), options);
+    if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
+    if (!(style.hand > 0) && !options.lesson_step) return drawing;
+    auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), seed, options);
+    if (!options.lesson_step) return by_hand;
+    return std::make_unique<LessonDrawing>(std::move(by_hand), options);
+}
+
+}  // namespace
+
 std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
+    if (grammar.map()) {
+        return surrounded(make_map_drawing(grammar, style, options), grammar.seed(), style, options);
+    }
     auto shared = std::make_shared<const Grammar>(resolved(grammar, options));
     std::string why;
     if (auto parts = seen_parts(*shared, style, options, why)) {
         return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);
     }
-    if (options.window) require_window(*shared, options, why);
-    DrawOptions one = options;
-    if (options.repeat) one.budget /= options.repeat->copies();
-    auto lines = std::make_unique<WordDrawing>(*shared, style, one);
-    std::unique_ptr<Drawing> drawing;
-    if (has_ornaments(style, options)) {
-        drawing = std::make_unique<Composition>(*shared, std::move(lines), one);
-    } else {
-        drawing = std::move(lines);
+    if (auto window = WindowDrawing::make(shared, style, options, why)) {
+        return surrounded(std::move(window), shared->seed(), style, options);
     }
+    if (options.window) require_window(*shared, options, why);
+    std::unique_ptr<Drawing> drawing;
+    make_one_copy(options, [&](const DrawOptions& one) {
+        auto lines = std::make_unique<WordDrawing>(*shared, style, one);
+        if (has_ornaments(style, options)) {
+            drawing = std::make_unique<Composition>(*shared, std::move(lines), one);
+        } else {
+            drawing = std::move(lines);
+        }
+    });
     if (shared->is_spatial() && (options.repeat || has_frame(style, options))) {
         throw std::runtime_error("repeats, borders and lines of text apply only to drawings in the plane");
     }
-    if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
-    if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
-    if (!(style.hand > 0) && !options.lesson_step) return drawing;
-    if (shared->is_spatial()) {
-        throw std::runtime_error("lines drawn by hand and lessons apply only to drawings in the plane");
+    if (shared->is_spatial() && has_tile_work(style)) {
+        throw std::runtime_error("'tile colours' and 'tile edges' apply only to drawings in the plane");
     }
-    auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), shared->seed(), options);
-    if (!options.lesson_step) return by_hand;
-    return std::make_unique<LessonDrawing>(std::move(by_hand), options);
+    if (shared->is_spatial() && (style.hand > 0 || options.lesson_step)) {
+        throw std::runtime_error("hand-drawn lines and lessons apply only to drawings in the plane");
+    }
+    return surrounded(std::move(drawing), shared->seed(), style, options);
 }
 
 }  // namespace sikku

@@ -53,6 +53,8 @@ public:
     virtual double foot_space(const Page&) const { return 0; }
     /// Bounds of all points of a drawing in space, without the width of pens; available after reading.
     virtual std::optional<SpaceBounds> bounds() const { return std::nullopt; }
+    /// Distance between the nearest dots that are drawn, in steps; 0 if there are fewer than two.
+    virtual double dot_distance() const { return 0; }
     /// Step length in millimetres, if the options or the dot spacing fix it.
     std::optional<double> fixed_step() const { return options_.placement.step; }
 

@@ -45,7 +45,8 @@ private:
 
 std::shared_ptr<const BorderMotif> motif_of(const BorderPattern& pattern, const DrawOptions& given) {
     if (pattern.grammar->is_spatial()) {
-        throw std::runtime_error("the pattern of a border has to lie in the plane; this one pitches, rolls or bends");
+        throw std::runtime_error(
+            "the pattern of a border has to lie in the plane; this one pitches, rolls, bends or has surfaces");
     }
     DrawOptions options;
     options.budget = std::min(given.budget, motif_budget);
@@ -112,13 +113,26 @@ double FramedDrawing::foot_space(const Page& page) const {
     return has_text(options_) ? foot_share * letters_of(page) : 0;
 }
 
+/// The part of a window that copies may fill.
+Window FramedDrawing::inside(const Window& window) const {
+    if (!options_.repeat || !options_.repeat->fills) return window;
+    const double foot = foot_space({window.width, window.height, window.margin});
+    const Page framed{window.width, window.height - foot, window.margin};
+    const double room = window.margin + (border_ ? border_depth(border_->kind, framed) : 0);
+    return {.left = window.left + room,
+            .top = window.top + room,
+            .width = window.width - 2 * room,
+            .height = framed.height - 2 * room,
+            .clips = true};
+}
+
 void FramedDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
     OldColours old(sink, drawn_);
     if (drawn_.stroked) {
-        inner_->read(print, window, old);
+        inner_->read(print, inside(window), old);
     } else {
         WithoutLines bare(old);
-        inner_->read(print, window, bare);
+        inner_->read(print, inside(window), bare);
     }
     if (border_) {
         Window framed = window;

@@ -20,6 +20,7 @@ public:
     const DrawnExtent& seen() override { return inner_->seen(); }
     const Style& style() const override { return style_; }
     double scale() const override { return inner_->scale(); }
+    double dot_distance() const override { return inner_->dot_distance(); }
     Balance balance() const override { return inner_->balance(); }
     double border_space(const Page& page) const override;
     double foot_space(const Page& page) const override;
@@ -28,6 +29,7 @@ public:
     void report(DrawReport& report) const override { inner_->report(report); }
 
 private:
+    Window inside(const Window& window) const;
     void read_text(const Print& print, const Window& window, PathSink& sink) const;
 
     std::unique_ptr<Drawing> inner_;

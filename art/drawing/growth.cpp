@@ -2,6 +2,7 @@
 
 #include "art/drawing/drawing.h"
 #include "art/drawing/gif_file.h"
+#include "art/drawing/map_frames.h"
 #include "art/image/image_file.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -19,6 +20,10 @@
 namespace sikku {
 namespace {
 
+// While a map grows from one generation to the next: the time of each frame in seconds, and the part of a
+// generation's time that the motion takes.
+constexpr double motion_seconds = 0.04, motion_share = 0.7;
+
 Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
     auto other = grammar.with_steps(steps);
     if (!other)
@@ -26,7 +31,7 @@ Grammar generation_of(const Grammar& grammar, std::int64_t steps) {
     return std::move(*other);
 }
 
-/// What the page has to hold of all generations; `bounds` grows by what they fill in space.
+/// The part of all generations that the page has to contain; `bounds` grows by their extent in space.
 DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions options, const GrowthOptions& growth,
                      std::optional<SpaceBounds>& bounds) {
     options.begin = nullptr;
@@ -85,16 +90,30 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
 void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
     // All generations are read as words, so the largest is checked before the first is drawn.
-    require_affordable(generation_of(grammar, growth.last), true, options.budget);
+    if (!grammar.map()) require_affordable(generation_of(grammar, growth.last), true, options.budget);
     const auto output = destination.open(file);
     GifFile gif(given, options, *output, file);
-    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+    const auto add = [&](std::int64_t n, const DrawOptions& drawn, double seconds) {
         Print print = given;
-        const auto drawing =
-            make_drawing(generation_of(grammar, n), print.style, framed(grammar, print.style, options, growth, n));
+        const auto drawing = make_drawing(generation_of(grammar, n), print.style, drawn);
         report = drawing->place(print);
         print.style = drawing->style();
-        gif.frame(*drawing, print, n == growth.last ? std::max(growth.seconds, growth.hold) : growth.seconds);
+        gif.frame(*drawing, print, seconds);
+    };
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        DrawOptions drawn = framed(grammar, given.style, options, growth, n);
+        double seconds = growth.seconds;
+        if (n > growth.first && options.map_frames && options.map_frames->after(n)->has_growth()) {
+            const int moving = static_cast<int>(motion_share * growth.seconds / motion_seconds);
+            for (int i = 1; i < moving; ++i) {
+                const double share = static_cast<double>(i) / moving;
+                drawn.map_share = share * share * (3 - 2 * share);
+                add(n, drawn, motion_seconds);
+            }
+            seconds -= motion_seconds * std::max(0, moving - 1);
+        }
+        drawn.map_share = 1;
+        add(n, drawn, n == growth.last ? std::max(seconds, growth.hold) : seconds);
     }
     gif.close();
     output->commit();
@@ -121,6 +140,10 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
     if (!is_vector(options.format)) prepare_images(options.threads);
+    if (grammar.map()) {
+        options.map_frames = std::make_shared<MapFrames>(generation_of(grammar, growth.last), options.budget,
+                                                         options.monitor, KeptFrames::all);
+    }
     if (options.dot_spacing) set_step(grammar, print.style, options, growth);
     std::optional<SpaceBounds> bounds;
     const DrawnExtent frame = frame_of(grammar, print.style, options, growth, bounds);

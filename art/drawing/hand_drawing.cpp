@@ -63,11 +63,12 @@ HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathS
                                  std::vector<LessonStep>* steps) const {
     const double step = print.placement.step;
     HandGatherer gatherer(fills, print.style, step, options_.budget / nodes_of_curve);
+    if (steps) gatherer.limit(most_lesson_lines, most_lesson_points);
     OldColours coloured(gatherer, drawn_);
     drawing_->read(print, window, coloured);
     HandStrokes strokes{std::move(gatherer.gathered), std::move(gatherer.dots)};
     order_by_hand(strokes.lines);
-    if (steps) *steps = lesson_steps(strokes.lines);
+    if (steps) *steps = lesson_steps(strokes.lines, options_.most_steps);
     draw_by_hand(strokes.lines, strokes.dots, hand_);
     return strokes;
 }

@@ -28,6 +28,7 @@ public:
     const DrawnExtent& seen() override;
     const Style& style() const override { return style_; }
     double scale() const override { return drawing_->scale(); }
+    double dot_distance() const override { return drawing_->dot_distance(); }
     Balance balance() const override { return drawing_->balance(); }
     double border_space(const Page& page) const override { return drawing_->border_space(page); }
     double foot_space(const Page& page) const override { return drawing_->foot_space(page); }
@@ -38,6 +39,7 @@ public:
     void report(DrawReport& report) const override { drawing_->report(report); }
 
     /// The strokes of a placed print. Fills pass on to a sink. @param steps  if not null, receives those of a lesson
+    /// @throws BudgetError, for a lesson also over its limits
     HandStrokes strokes(const Print& print, const Window& window, PathSink& fills,
                         std::vector<LessonStep>* steps = nullptr) const;
 
@@ -46,7 +48,7 @@ private:
     void read_outlines(const Print& print, const HandStrokes& strokes, PathSink& sink) const;
 
     std::unique_ptr<Drawing> drawing_;
-    Style drawn_;  ///< of the other drawing
+    Style drawn_;  ///< style of the other drawing
     Style style_;  ///< with the colour of its lines among those of its fills
     HandOptions hand_;
     std::optional<DrawnExtent> extent_;

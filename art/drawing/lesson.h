@@ -22,7 +22,7 @@ DrawReport draw_lesson(const Grammar& grammar, Print print, const DrawOptions& o
 
 /// The steps of a lesson.
 struct LessonLength {
-    std::size_t first = 0;  ///< 0, the dots; 1 if there are none
+    std::size_t first = 0;  ///< 0, the dots; 1 for drawings without dots
     std::size_t count = 0;  ///< one after the last, the whole drawing
 };
 /// @throws as draw()

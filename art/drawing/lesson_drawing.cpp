@@ -2,6 +2,7 @@
 
 #include "art/print/lettering.h"
 #include "art/print/ornaments.h"
+#include "engine/geometry/point_tree.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -19,7 +21,11 @@ namespace {
 
 constexpr double pale_share = 0.62;                        // of the ground in earlier lines
 constexpr double arrow_loops = 3.5;                        // between two arrow heads
-constexpr double least_letters = 2.6, most_letters = 9.0;  // millimetres
+constexpr double least_letters = 1.5, most_letters = 9.0;  // millimetres
+constexpr double letters_share = 0.42;                     // of the pitch
+constexpr double most_arm = 1.5, arm_share = 0.26;         // of arrow heads: millimetres, and of the pitch
+constexpr double most_mark = 0.8, mark_share = 0.16;       // radius of the mark at a start
+constexpr std::size_t most_numbers = 20;                   // of the lines of a step; the others follow each other
 constexpr double caption_letters = 3.2;
 constexpr double stem = 0.13;  // of letters, by their height
 constexpr double halo = 0.6;   // around them, by their stem, on either side
@@ -42,6 +48,19 @@ void add_layer(Style& style, Colour colour) {
     while (is_known()) colour.blue = static_cast<std::uint8_t>(colour.blue + step);
     style.palette.push_back(colour);
 }
+
+/// Takes nothing.
+class NoAreas : public PathSink {
+public:
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+};
 
 /// Takes points in millimetres of the page, y up from its top left corner.
 class OnPage : public PathFilter {
@@ -79,6 +98,30 @@ Pen pen_of(const Print& print, double millimetres, int colour) {
     return {millimetres / (stroke.in_steps ? print.placement.step : 1.0) / stroke.unit, true, colour};
 }
 
+/// The median distance between neighbouring dots, or without two of them the median loop.
+double pitch_of(const HandStrokes& strokes) {
+    std::vector<double> sizes;
+    if (strokes.dots.size() > 1) {
+        std::vector<glm::dvec2> places;
+        for (const HandDot& dot : strokes.dots) places.push_back(dot.at);
+        const PointTree tree(places);
+        std::vector<PointTree::Near> near;
+        for (const glm::dvec2 at : places) {
+            tree.nearest(at, 1e300, 2, near);
+            for (const PointTree::Near& one : near) {
+                if (one.square > 0) sizes.push_back(std::sqrt(one.square));
+            }
+        }
+    }
+    if (sizes.empty()) {
+        for (const HandLine& line : strokes.lines) sizes.push_back(line.loop);
+    }
+    if (sizes.empty()) return 1;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return *middle;
+}
+
 /// The colour that stands out most from the ground and the lines.
 Colour sign_colour(const Style& style, Colour ground) {
     constexpr std::array<Colour, 5> known = {{{0xf2, 0xb6, 0x32, 255},
@@ -101,14 +144,12 @@ Colour sign_colour(const Style& style, Colour ground) {
 
 }  // namespace
 
-struct LessonDrawing::Lesson {
-    HandStrokes strokes;
-    std::vector<LessonStep> steps;
-    bool has_dots() const { return !strokes.dots.empty(); }
-};
-
 LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOptions& options)
-    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
+    : Drawing(options),
+      drawing_(std::move(drawing)),
+      memo_(options.lesson_memo ? options.lesson_memo : std::make_shared<LessonMemo>()),
+      drawn_(drawing_->style()),
+      style_(drawn_) {
     options_.placement.step = drawing_->fixed_step();
     step_ = options.lesson_step.value_or(0);
     const Colour white{255, 255, 255, 255};
@@ -124,43 +165,40 @@ LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOpt
     add_layer(style_, sign_colour(drawn_, ground));
 }
 
-LessonDrawing::Lesson LessonDrawing::lesson(const Print& print, const Window& window, PathSink& fills) const {
-    Lesson lesson;
-    lesson.strokes = drawing_->strokes(print, window, fills, &lesson.steps);
-    return lesson;
+std::shared_ptr<const LessonPlan> LessonDrawing::plan(const Print& print, const Window& window) const {
+    const double step = print.placement.step;
+    return memo_->plan(step, print.style.line_width({}, step), [&] {
+        LessonPlan plan;
+        NoAreas none;
+        plan.strokes = drawing_->strokes(print, window, none, &plan.steps);
+        plan.pitch = pitch_of(plan.strokes);
+        return plan;
+    });
 }
 
 std::size_t LessonDrawing::count(const Print& print) const {
-    Print small = print;
-    small.dpi = 1;
-    const auto nowhere = make_raster(small);
-    return lesson(print, whole_page(print.page), *nowhere).steps.size() + 2;
+    return plan(print, whole_page(print.page))->steps.size() + 2;
 }
 
 void LessonDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
-    const Lesson lesson = this->lesson(print, window, sink);
-    if (step_ > lesson.steps.size()) {
+    const auto plan = this->plan(print, window);
+    if (step_ > plan->steps.size()) {
         drawing_->read(print, window, sink);
         return;
     }
-    std::size_t number = 0;
-    for (const LessonStep& step : lesson.steps) {
-        if (++number > step_) break;
-        for (const Stretch& stretch : step) {
-            HandLine line = part_of(lesson.strokes.lines[stretch.line], stretch);
+    for (std::size_t number = 1; number <= step_; ++number) {
+        for (const Stretch& stretch : plan->steps[number - 1]) {
+            HandLine line = part_of(plan->strokes.lines[stretch.line], stretch);
             if (number == step_ && share_ < 1) line = beginning_of(line, share_);
             draw_stretch(line, (number == step_ ? new_begin_ : pale_begin_) + drawn_.index(line.pen), sink);
         }
     }
-    for (const HandDot& dot : lesson.strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
-    draw_signs(print, window, lesson, sink);
+    for (const HandDot& dot : plan->strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
+    draw_signs(print, window, *plan, sink);
 }
 
 std::unique_ptr<Rendering> LessonDrawing::rendering(const Print& print, const Window& window) const {
-    auto raster = make_raster(print);
-    if (const Lesson lesson = this->lesson(print, window, *raster); step_ > lesson.steps.size()) {
-        return drawing_->rendering(print, window);
-    }
+    if (step_ > plan(print, window)->steps.size()) return drawing_->rendering(print, window);
     return Drawing::rendering(print, window);
 }
 
@@ -174,88 +212,116 @@ void LessonDrawing::draw_stretch(const HandLine& line, int colour, PathSink& sin
     sink.end_stroke(false);
 }
 
-/// Start marks, arrow heads, numbers, and the number of the step among all.
-void LessonDrawing::draw_signs(const Print& print, const Window& window, const Lesson& lesson, PathSink& sink) const {
-    const double step_length = print.placement.step;
+void LessonDrawing::write(const std::string& text, glm::dvec2 start, double height, const Print& print,
+                          PathSink& sink) const {
     OnPage page(sink, print);
-    const auto write = [&](const std::string& text, glm::dvec2 start, double height) {
-        for (const auto& [colour, more] : {std::pair(halo_, 2 * halo), std::pair(sign_, 0.0)}) {
-            write_text(text, start, height, pen_of(print, stem * height * (1 + more), colour), page);
+    for (const auto& [colour, more] : {std::pair(halo_, 2 * halo), std::pair(sign_, 0.0)}) {
+        write_text(text, start, height, pen_of(print, stem * height * (1 + more), colour), page);
+    }
+}
+
+/// @param arm  length of a head in steps
+void LessonDrawing::draw_heads(const Print& print, const HandLine& line, double arm, PathSink& sink) const {
+    const double heads = std::clamp(std::floor(line.length / (arrow_loops * line.loop)), 1.0, 8.0);
+    std::size_t at = 0;
+    for (double k = 0; k < heads; ++k) {
+        const double along = line.length * (k + 0.62) / heads;
+        while (at + 1 < line.size() && line.nodes[at].along < along) ++at;
+        const glm::dvec2 middle = line.nodes[at].at, way = unit(hand_direction(line, at)), side(-way.y, way.x);
+        const std::array<glm::dvec2, 2> ends = {middle + 0.6 * arm * way,
+                                                middle - 0.4 * arm * way - 0.8 * arm * side};
+        for (const auto& [colour, more] : {std::pair(halo_, 1.8), std::pair(sign_, 1.0)}) {
+            sink.begin_stroke(middle - 0.4 * arm * way + 0.8 * arm * side,
+                              pen_of(print, 0.36 * arm * print.placement.step * more, colour));
+            sink.lines(ends);
+            sink.end_stroke(false);
         }
+    }
+}
+
+/// Writes where nothing else is, as near to the start of a line as it can.
+/// @param mark  radius of the mark at the start, in millimetres
+void LessonDrawing::write_number(const std::string& text, const HandLine& line, double mark, const Print& print,
+                                 const Window& window, const LessonPlan& plan, PathSink& sink) const {
+    const double step_length = print.placement.step;
+    const auto on_page = [&](glm::dvec2 at) { return glm::dvec2(print.placement.to_page * glm::dvec3(at, 1.0)); };
+    const double height = std::min(std::clamp(letters_share * plan.pitch * step_length, least_letters, most_letters),
+                                   0.06 * std::min(window.width, window.height));
+    const double width = text_width(text, height);
+    const glm::dvec2 start = on_page(line.nodes.front().at);
+    struct Near {
+        glm::dvec2 at;
+        double half;
     };
+    std::vector<Near> near;
+    const double reach = 3 * (mark + height) + width;
+    const auto keep = [&](glm::dvec2 at, double half) {
+        const glm::dvec2 place = on_page(at);
+        if (glm::length(place - start) < reach + half * step_length) near.push_back({place, half * step_length});
+    };
+    for (const HandLine& other : plan.strokes.lines) {
+        for (const HandNode& node : other.nodes) keep(node.at, node.half);
+    }
+    for (const HandDot& dot : plan.strokes.dots) keep(dot.at, dot.radius);
+    glm::dvec2 best = start;
+    double most = -1e9;
+    for (int k = 0; k < 16; ++k) {
+        for (const double far : {1.0, 1.35}) {
+            const double angle = (k + 0.5) * std::numbers::pi / 8;
+            const double away = far * (mark + 0.75 * height);
+            const glm::dvec2 middle = start + away * glm::dvec2(std::cos(angle), std::sin(angle)) +
+                                      glm::dvec2(std::cos(angle) * (width - height) / 2, 0);
+            double room = std::min({middle.x - width / 2 - window.left, middle.y - height / 2 - window.top,
+                                    window.left + window.width - middle.x - width / 2,
+                                    window.top + window.height - middle.y - height / 2});
+            // A number may cover lines, but it stays on the page.
+            if (room < 0) room -= 1e3;
+            for (const Near& other : near) {
+                const glm::dvec2 off = glm::abs(other.at - middle) - glm::dvec2(width, height) / 2.0;
+                room = std::min(room, std::max(off.x, off.y) - other.half);
+            }
+            if (room > most + 1e-6) {
+                most = room;
+                best = middle;
+            }
+        }
+    }
+    write(text, {best.x - width / 2, -(best.y + height / 2)}, height, print, sink);
+}
+
+/// Start marks, arrow heads, numbers, and the number of the step among all.
+void LessonDrawing::draw_signs(const Print& print, const Window& window, const LessonPlan& plan,
+                               PathSink& sink) const {
     if (step_ == 0) return;
+    const double step_length = print.placement.step;
     if (numbers_pages_) {
-        const std::string caption = fmt::format("{} / {}", step_, lesson.steps.size());
+        const std::string caption = fmt::format("{} / {}", step_, plan.steps.size());
         const double height = std::min(caption_letters, 0.4 * std::max(window.margin, 5.0));
         const double right = window.left + window.width - std::max(window.margin, 4.0);
         write(
             caption,
             {right - text_width(caption, height), -(window.top + window.height - 0.6 * std::max(window.margin, 4.0))},
-            height);
+            height, print, sink);
     }
-    const auto on_page = [&](glm::dvec2 at) { return glm::dvec2(print.placement.to_page * glm::dvec3(at, 1.0)); };
-    int part = 0;
-    for (const Stretch& stretch : lesson.steps[step_ - 1]) {
-        const HandLine line = part_of(lesson.strokes.lines[stretch.line], stretch);
+    const LessonStep& step = plan.steps[step_ - 1];
+    std::vector<HandLine> lines;
+    for (const Stretch& stretch : step) lines.push_back(part_of(plan.strokes.lines[stretch.line], stretch));
+    for (const HandLine& line : lines) {
         const double half = line.nodes.front().half;
-        const double arm = std::max(2.4 * half, 1.5 / step_length);
-        const auto draw_head = [&](const HandNode& node, glm::dvec2 way) {
-            const glm::dvec2 side(-way.y, way.x);
-            const glm::dvec2 tip = node.at + 0.6 * arm * way;
-            const std::array<glm::dvec2, 2> ends = {tip, node.at - 0.4 * arm * way - 0.8 * arm * side};
-            for (const auto& [colour, more] : {std::pair(halo_, 1.8), std::pair(sign_, 1.0)}) {
-                sink.begin_stroke(node.at - 0.4 * arm * way + 0.8 * arm * side,
-                                  pen_of(print, 0.36 * arm * step_length * more, colour));
-                sink.lines(ends);
-                sink.end_stroke(false);
-            }
-        };
-        const double heads = std::clamp(std::floor(line.length / (arrow_loops * line.loop)), 1.0, 8.0);
-        std::size_t at = 0;
-        for (double k = 0; k < heads; ++k) {
-            const double along = line.length * (k + 0.62) / heads;
-            while (at + 1 < line.size() && line.nodes[at].along < along) ++at;
-            draw_head(line.nodes[at], unit(hand_direction(line, at)));
-        }
-        const double mark = std::max(1.25 * half, 0.8 / step_length);
+        const double arm = std::min(std::max(2.4 * half, most_arm / step_length), arm_share * plan.pitch);
+        draw_heads(print, line, std::max(arm, 1.6 * half), sink);
+    }
+    std::size_t part = 0;
+    for (const HandLine& line : lines) {
+        options_.monitor.check();
+        ++part;
+        const double half = line.nodes.front().half;
+        const double mark = std::max(1.25 * half, std::min(most_mark / step_length, mark_share * plan.pitch));
+        sink.disc(line.nodes.front().at, 1.35 * mark, Pen{.colour = halo_});
         sink.disc(line.nodes.front().at, mark, Pen{.colour = sign_});
-        // The number stands where nothing else is, as near to the start as it can.
-        const double height = std::min(std::clamp(0.5 * line.loop * step_length, least_letters, most_letters),
-                                       0.06 * std::min(window.width, window.height));
-        const std::string text =
-            lesson.steps[step_ - 1].size() > 1 ? fmt::format("{}.{}", step_, ++part) : std::to_string(step_);
-        const double width = text_width(text, height);
-        const glm::dvec2 start = on_page(line.nodes.front().at);
-        glm::dvec2 best = start;
-        double most = -1e9;
-        for (int k = 0; k < 16; ++k) {
-            for (const double far : {1.0, 1.35}) {
-                const double angle = (k + 0.5) * 3.14159265358979 / 8;
-                const double away = far * (mark * step_length + 0.75 * height);
-                const glm::dvec2 middle = start + away * glm::dvec2(std::cos(angle), std::sin(angle)) +
-                                          glm::dvec2(std::cos(angle) * (width - height) / 2, 0);
-                double room = std::min({middle.x - width / 2 - window.left, middle.y - height / 2 - window.top,
-                                        window.left + window.width - middle.x - width / 2,
-                                        window.top + window.height - middle.y - height / 2});
-                // A number may cover lines, but it stays on the page.
-                if (room < 0) room -= 1e3;
-                for (const HandLine& other : lesson.strokes.lines) {
-                    for (const HandNode& node : other.nodes) {
-                        const glm::dvec2 off = glm::abs(on_page(node.at) - middle) - glm::dvec2(width, height) / 2.0;
-                        room = std::min(room, std::max(off.x, off.y) - node.half * step_length);
-                    }
-                }
-                for (const HandDot& dot : lesson.strokes.dots) {
-                    const glm::dvec2 off = glm::abs(on_page(dot.at) - middle) - glm::dvec2(width, height) / 2.0;
-                    room = std::min(room, std::max(off.x, off.y) - dot.radius * step_length);
-                }
-                if (room > most + 1e-6) {
-                    most = room;
-                    best = middle;
-                }
-            }
-        }
-        write(text, {best.x - width / 2, -(best.y + height / 2)}, height);
+        if (part > most_numbers) continue;
+        const std::string text = lines.size() > 1 ? fmt::format("{}.{}", step_, part) : std::to_string(step_);
+        write_number(text, line, mark * step_length, print, window, plan, sink);
     }
 }
 

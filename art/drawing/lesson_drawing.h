@@ -6,15 +6,45 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace sikku {
 
+/// The strokes of a lesson and their steps.
+struct LessonPlan {
+    HandStrokes strokes;
+    std::vector<LessonStep> steps;
+    double pitch = 1;  ///< of the drawing, in steps: the distance between neighbouring dots, or the size of its loops
+};
+
+/// Keeps the plan of a lesson for the drawings of its steps, which may be made in several threads.
+class LessonMemo {
+public:
+    /// The plan for lines of that width, if it is the last one; otherwise a new one. @param step, width  millimetres
+    template <class Make>
+    std::shared_ptr<const LessonPlan> plan(double step, double width, Make&& make) {
+        const std::lock_guard lock(mutex_);
+        if (!plan_ || step != step_ || width != width_) {
+            plan_ = std::make_shared<const LessonPlan>(make());
+            step_ = step;
+            width_ = width;
+        }
+        return plan_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::shared_ptr<const LessonPlan> plan_;
+    double step_ = 0, width_ = 0;
+};
+
 /// A lesson shows how a drawing is made: the dots alone, then stretch after stretch in the order and direction of a
 /// hand (order_by_hand(), lesson_steps()), then the whole drawing. The stretch of a step is drawn as a line with its
-/// number, a mark where it starts and arrow heads; those before it are pale. Numbers are upright on the page, however
-/// the drawing is rotated or mirrored.
+/// number, a mark where it starts and arrow heads; those before it are pale. Fields and other areas come last, with
+/// the whole. Numbers are upright on the page, however the drawing is rotated or mirrored.
 class LessonDrawing : public Drawing {
 public:
     LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOptions& options);
@@ -22,6 +52,7 @@ public:
     const DrawnExtent& seen() override { return drawing_->seen(); }
     const Style& style() const override { return style_; }
     double scale() const override { return drawing_->scale(); }
+    double dot_distance() const override { return drawing_->dot_distance(); }
     double border_space(const Page& page) const override { return drawing_->border_space(page); }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
@@ -42,12 +73,16 @@ public:
     std::pair<int, int> new_colours() const { return {new_begin_, halo_ - 1}; }
 
 private:
-    struct Lesson;
-    Lesson lesson(const Print& print, const Window& window, PathSink& fills) const;
+    std::shared_ptr<const LessonPlan> plan(const Print& print, const Window& window) const;
     void draw_stretch(const HandLine& line, int colour, PathSink& sink) const;
-    void draw_signs(const Print& print, const Window& window, const Lesson& lesson, PathSink& sink) const;
+    void draw_signs(const Print& print, const Window& window, const LessonPlan& plan, PathSink& sink) const;
+    void draw_heads(const Print& print, const HandLine& line, double arm, PathSink& sink) const;
+    void write(const std::string& text, glm::dvec2 start, double height, const Print& print, PathSink& sink) const;
+    void write_number(const std::string& text, const HandLine& line, double mark, const Print& print,
+                      const Window& window, const LessonPlan& plan, PathSink& sink) const;
 
     std::unique_ptr<HandDrawing> drawing_;
+    std::shared_ptr<LessonMemo> memo_;
     Style drawn_;
     Style style_;  ///< with pale colours, the colours of new stretches, and those of numbers
     int pale_begin_, new_begin_, halo_, sign_;

@@ -70,11 +70,11 @@ void LineBands::weave(const Monitor& monitor) {
     diagram_ = make_curve_diagram(lines_, meetings_);
     if (diagram_.multiple > 0) {
         throw std::runtime_error(
-            fmt::format("a weave needs crossings of two strands; more than two meet in {} of this drawing",
+            fmt::format("a weave needs crossings of two strands; more than two meet at {} of this drawing",
                         diagram_.multiple == 1 ? "1 point" : fmt::format("{} points", diagram_.multiple)));
     }
     if (!alternate(diagram_.diagram, monitor)) {
-        throw std::runtime_error("the lines cannot pass over and under by turns: an open line ends inside a loop");
+        throw std::runtime_error("the lines cannot pass over and under alternately: an open line ends inside a loop");
     }
     upper_.resize(crossings());
     for (std::size_t line = 0; line < diagram_.marks.size(); ++line) {
@@ -195,8 +195,7 @@ BandLook LineBands::look(const Print& print) const {
                                  least_distance_ / (look.count + beside)});
         if (style_.weave) look.spacing = std::min(look.spacing, 0.9 * least_run_ / (look.count + gap));
         if (!(look.spacing >= std::min(least_spacing, look.wanted))) {
-            throw std::runtime_error(
-                "parallel lines have no room: a line turns too tightly, or lies too near another");
+            throw std::runtime_error("parallel lines do not fit: a line turns too tightly or lies too near another");
         }
         if (look.spacing < look.wanted) look.thinner = std::min(1.0, least_share * look.spacing / look.width);
         look.width *= look.thinner;

@@ -17,7 +17,7 @@ struct BandLook {
     int count = 1;
     double spacing = 0.0;  ///< from the middle of one line to the next
     double wanted = 0.0;   ///< the spacing that the style requests
-    double width = 0.0;    ///< of a line
+    double width = 0.0;    ///< width of a line
     double thinner = 1.0;  ///< factor of the widths of pens, where the lines would run into each other
     double gap = 0.0;      ///< beside an upper band
     double band() const { return (count - 1) * spacing + width; }

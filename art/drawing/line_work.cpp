@@ -1,7 +1,5 @@
 #include "art/drawing/line_work.h"
 
-#include "art/style/powders.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -16,19 +14,6 @@ std::vector<std::size_t> colours_of_class(std::uint32_t number, FieldsBy by, std
         if (!has_parity || count < 2 || i % 2 == number % 2) fitting.push_back(i);
     }
     return fitting;
-}
-
-std::vector<Colour> powders_of(const Style& style, std::span<const Colour> others) {
-    if (!style.powders.empty() && !style.powders_are_named) return style.powders;
-    const std::vector<Colour> all = style.powders.empty() ? *find_powders(powder_names().front()) : style.powders;
-    // A line on powder of its own colour could not be seen, nor powder on ground of that colour.
-    constexpr double least = 0.1;  // in OKLab
-    std::vector<Colour> seen;
-    for (const Colour colour : all) {
-        const auto is_near = [&](Colour other) { return colour_distance(other, colour) < least; };
-        if (std::none_of(others.begin(), others.end(), is_near)) seen.push_back(colour);
-    }
-    return seen.empty() ? all : seen;
 }
 
 }  // namespace
@@ -58,7 +43,7 @@ LineWork::LineWork(const WordDrawing& drawing, const KolamExamination& examinati
 
 void LineWork::add_colours(std::vector<Colour>& palette, std::span<const Colour> others) {
     if (!style_.fields) return;
-    const std::vector<Colour> powders = powders_of(style_, others);
+    const std::vector<Colour> powders = fill_powders(style_, others);
     const int first = static_cast<int>(palette.size());
     palette.insert(palette.end(), powders.begin(), powders.end());
     for (const std::uint32_t number : classes_) {
@@ -130,7 +115,7 @@ double LineWork::parallel_width() const {
     unplaced.style = style_;
     unplaced.placement.step = 1;
     const BandLook look = bands_->look(unplaced);
-    // How much of it there is room for is known only in steps.
+    // The width that fits is known only in steps.
     return between * (style_.stroke.in_steps ? look.spacing : look.wanted);
 }
 

@@ -19,7 +19,7 @@ namespace sikku {
 /// True if a style requests fields, a weave or parallel lines.
 bool has_line_work(const Style& style);
 
-/// The segments that line work allows for, each of which takes the memory and time of about so many nodes.
+/// Cost of a segment of line work in nodes, by memory and time.
 constexpr double nodes_of_worked_segment = 400;
 
 /// The lines of a drawing as curves, and what is made of them.
@@ -35,7 +35,9 @@ public:
 
     /// True if the lines are drawn by draw_lines(), and not as the pattern draws them.
     bool draws_lines() const { return bands_ != nullptr; }
+    std::size_t lines() const { return lines_.lines.size(); }
     std::size_t fields() const { return fields_.size(); }
+    std::size_t crossings() const { return bands_ ? bands_->crossings() : 0; }
     bool requests_fields() const { return style_.fields.has_value(); }
     /// Appends the colours of the fields to a palette. @param others  colours of the lines
     /// and the ground, which sets of powders avoid
@@ -47,7 +49,7 @@ public:
     void hatch_fields(const Print& print, const Hatch& hatch, const Monitor& monitor, PathSink& sink) const;
     /// @param colours  palette indices of the orbits of lines, repeated from the end; empty: of the pens
     void draw_lines(const Print& print, std::span<const int> colours, PathSink& sink) const;
-    /// How much wider a band of parallel lines is than its pen, at most; in the measure of the style's stroke.
+    /// Maximum width that a band of parallel lines adds to its pen, in the unit of the style's stroke.
     double parallel_width() const;
     /// Strands of a print; only if draws_lines().
     BandLook look(const Print& print) const { return bands_->look(print); }

@@ -8,7 +8,7 @@
 namespace sikku {
 namespace {
 
-/// What the library says of a failure does not name the file.
+/// Error messages of the library do not name the file.
 template <class Action>
 auto named(const std::filesystem::path& file, Action&& action) {
     try {

@@ -4,6 +4,7 @@
 #include "art/plotter/shading.h"
 #include "art/space/hidden_lines.h"
 #include "art/space/stage.h"
+#include "art/space/tessellation.h"
 #include "art/space/triangles.h"
 #include "engine/base/bits.h"
 #include "engine/geometry/bezier.h"
@@ -217,7 +218,8 @@ private:
         for (std::size_t k = 0; k < vertices.size(); ++k) {
             pulse_();
             const std::size_t next = (k + 1) % vertices.size();
-            const bool is_drawn = edges_.emplace(vertices[k], vertices[next]).second;
+            const bool is_inner = (polygon.inner_edges >> std::min<std::size_t>(k, 31) & 1U) != 0;
+            const bool is_drawn = !is_inner && edges_.emplace(vertices[k], vertices[next]).second;
             if (is_drawn && line.empty()) line.push_back(placed[k]);
             if (is_drawn) line.push_back(placed[next]);
             if (is_drawn) continue;
@@ -382,7 +384,9 @@ private:
 
 void plot_scene(const Scene& scene, const Print& print, const PlotOptions& options, PathSink& sink,
                 const Monitor& monitor) {
-    ScenePlotter(scene, print, options, sink, monitor).draw();
+    if (scene.surfaces().empty()) return ScenePlotter(scene, print, options, sink, monitor).draw();
+    const Scene divided = tessellated(scene, {.deviation = 0.1 / print.placement.step}, monitor);
+    ScenePlotter(divided, print, options, sink, monitor).draw();
 }
 
 }  // namespace sikku

@@ -10,6 +10,7 @@ namespace sikku {
 /// - stems along their middles, joined where they continue; with a `pen_width`, wider ones in several passes,
 ///   each end as wide as the stem;
 /// - polygons as outlines and, if requested, hatching; each edge once, and not where a stem runs along it;
+/// - predefined surfaces as the edges of their patches and hatching;
 /// - spheres and dots filled by spirals.
 /// Polygons, spheres, and stems wider than 0.5 mm and one pen hide lines behind them: see HiddenLines. Limits: a stem
 /// hides lines as a flat band through its middle that faces the eye; a polygon that is not flat is replaced by the

@@ -3,12 +3,21 @@
 
 #include "art/drawing/drawing.h"
 
+#include <atomic>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sikku {
 
-/// Reads another drawing once for each copy. The step and the extent are those of all copies together.
+/// Calls `make` with the options of one copy: copies share the budget. Without a repeat, with the options themselves.
+/// @throws what `make` throws; a BudgetError of a repeat also names the number of copies
+void make_one_copy(const DrawOptions& options, const std::function<void(const DrawOptions& one)>& make);
+
+/// Reads another drawing once for each copy. The step and the extent are those of all copies together, or of a row of
+/// cells if they fill the page: then read() covers its window, or, of a plot, the part within its margin, and cuts
+/// copies off there.
 class RepeatedDrawing : public Drawing {
 public:
     /// Reads the drawing once, for its hull. The options' `repeat` is set.
@@ -18,14 +27,22 @@ public:
     const DrawnExtent& seen() override { return extent_; }
     const Style& style() const override { return inner_->style(); }
     double scale() const override { return inner_->scale(); }
+    double dot_distance() const override { return inner_->dot_distance(); }
     Balance balance() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     void report(DrawReport& report) const override;
 
 private:
+    void measure_cells(double ink);
+    void read_filling(const Print& print, const Window& window, PathSink& sink) const;
+    void read_copies(const std::vector<glm::dmat3x2>& copies, const Print& print, const Window& window,
+                     PathSink& sink) const;
+
     std::unique_ptr<Drawing> inner_;
-    std::vector<glm::dmat3x2> copies_;
+    std::vector<glm::dmat3x2> copies_;  ///< unless they fill the page
+    std::optional<Wallpaper> filling_;
+    mutable std::atomic<std::size_t> drawn_ = 0;  ///< number of copies
     DrawnExtent extent_;
     std::vector<glm::dvec2> hull_;  ///< of one copy
     glm::dvec2 centre_{0.0};        ///< of its mass

@@ -2,8 +2,12 @@
 
 #include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
+#include "art/drawing/map_frames.h"
+#include "art/drawing/repeated_drawing.h"
 #include "art/drawing/spline_pieces.h"
+#include "art/drawing/tile_drawing.h"
 #include "art/drawing/view.h"
+#include "art/drawing/window_drawing.h"
 #include "art/raster/raster.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
@@ -30,16 +34,20 @@ namespace {
 constexpr double nodes_a_pixel = 32;  // that are always allowed for
 constexpr double strip_chords = 4e6;  // about as many are kept at a time
 constexpr double strip_pixels = 4e6;
-constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses so many rows at a time
+constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses this many rows at a time
 
 // Measured: what memory takes.
 constexpr double line_bytes = 5;         // of a line in a raster
 constexpr double band_pixel_bytes = 10;  // of a band that is rendered
 constexpr double picture_bytes = 6e6;    // of the library, for a file
 constexpr double writer_bytes = 5e6;
-constexpr double scene_line_bytes = 60;      // memory of a line in space
+constexpr double map_edge_bytes = 250;
+constexpr double scene_line_bytes = 60;  // memory of a line in space
+constexpr double daylight_bytes = 120e6;
+constexpr double lit_line_bytes = 80;        // memory of a line in space that casts a shadow
 constexpr double worked_line_bytes = 900;    // memory of a line that is intersected for fields or a weave
 constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
+constexpr double tile_edge_bytes = 500;      // memory of a line whose tiles are coloured or whose edges are united
 constexpr double hand_line_bytes = 3200;     // memory of a line that is drawn by hand
 constexpr double plot_line_bytes = 400;
 constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
@@ -85,8 +93,8 @@ private:
     glm::dvec2 at_{0.0};
 };
 
-/// How much shorter splines are than the lines through their control points: of the largest derivation length that
-/// costs little.
+/// Ratio of the length of splines to that of the lines through their control points: of the largest derivation length
+/// that costs little.
 double spline_share(const Grammar& grammar) {
     constexpr double little = 3e5;
     for (std::int64_t n = std::min<std::int64_t>(grammar.steps(), 64); n >= 0; --n) {
@@ -129,9 +137,9 @@ double most_nodes(PixelSize size, double budget) {
 
 /// True if more is to be drawn than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
-    return has_ornaments(style, options) || style.hand > 0 || options.lesson_step || has_frame(style, options) ||
-           options.repeat || options.plot || options.tiles || options.format == PrintFormat::hpgl ||
-           options.format == PrintFormat::gcode;
+    return has_ornaments(style, options) || has_tile_work(style) || style.hand > 0 || options.lesson_step ||
+           has_frame(style, options) || options.repeat || options.plot || options.tiles ||
+           is_for_plotters(options.format);
 }
 
 double longest_step(const Grammar& grammar) {
@@ -151,12 +159,12 @@ DrawReport place_seen(Print& print, const DrawnExtent& seen, const Grammar& gram
     return place_print(print, seen, print.style.stroke, placement);
 }
 
-/// What a walk comes by that replaces parts up to some extent.
+/// Costs of a walk that replaces parts up to some extent.
 struct WalkCount {
     double nodes = 0;     ///< looked at
     double lines = 0;     ///< drawn, steps and chords
     double blots = 0;     ///< drawn
-    double children = 0;  ///< of all parts that may be looked into
+    double children = 0;  ///< children of all parts that may be entered
 };
 WalkCount count_walk(const Grammar& grammar, const Parts<double>& parts, double longest, bool has_blots) {
     struct Node {
@@ -213,7 +221,7 @@ WalkCount count_walk(const Grammar& grammar, const Parts<double>& parts, double 
     return count;
 }
 
-/// Lines that become of a spline's piece, whose step is so many pixels long.
+/// Number of lines that approximate a piece of a spline whose step has this length in pixels.
 double curve_lines(double pixels) {
     return std::clamp(1.6 * std::sqrt(pixels), 1.0, 100.0);
 }
@@ -224,7 +232,7 @@ double band_bytes(PixelSize size) {
     return size.width * rows * band_pixel_bytes;
 }
 
-/// Of the window, or of a whole that lies in its box.
+/// The extent of the window, or of the whole drawing within its box.
 DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const DrawOptions& options) {
     glm::dvec2 low = whole.low, high = whole.high;
     if (options.window) {
@@ -239,7 +247,7 @@ DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const 
             for (const double y : {low.y, high.y}) seen.box.add(turned * glm::dvec3(x, y, 1.0));
         }
     }
-    // What a window shows goes on around it.
+    // The drawing in a window continues around it.
     seen.widest = options.window ? 0 : style.pen_width({});
     return seen;
 }
@@ -250,8 +258,19 @@ double plot_passes(const Print& print, const PlotOptions& plot) {
     return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
 }
 
-DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
-    constexpr double unknown_symbols = 1e6;  // of a word whose length only deriving tells
+/// Maps have no fixed numbers of symbols, so this one is derived.
+DrawingCost cost_of_map(const Grammar& grammar, const DrawOptions& options) {
+    const Map map = derive_map(grammar, map_limits(*grammar.map(), options.budget), options.monitor);
+    const auto edges = static_cast<double>(map.edges().size());
+    DrawingCost cost;
+    cost.nodes = 2 * edges;
+    cost.lines = edges + static_cast<double>(map.cells());
+    cost.kept_memory = edges * map_edge_bytes;
+    return cost;
+}
+
+DrawingCost cost_of_word(const Grammar& grammar, const DrawOptions& options) {
+    constexpr double unknown_symbols = 1e6;  // assumed for a word whose length is known only by deriving it
     DrawingCost cost;
     cost.nodes = std::min(unknown_symbols, options.budget);
     cost.lines = cost.nodes / 2;
@@ -259,14 +278,20 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
         cost.nodes = std::min(known->nodes, options.budget);
         cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes);
     }
+    if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
+    return cost;
+}
+
+DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
+    DrawingCost cost = grammar.map() ? cost_of_map(grammar, options) : cost_of_word(grammar, options);
     if (options.repeat) {
         cost.nodes *= options.repeat->copies();
         cost.lines *= options.repeat->copies();
     }
-    if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
     double drawn = cost.kept_memory;
     if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
     if (print.style.hand > 0 || options.lesson_step) drawn += cost.lines * hand_line_bytes;
+    if (has_tile_work(print.style)) drawn += cost.lines * tile_edge_bytes;
     if (has_line_work(print.style)) drawn += cost.lines * worked_line_bytes;
     if (options.plot) drawn += cost.lines * plot_passes(print, *options.plot) * plot_line_bytes;
     if (is_vector(options.format)) {
@@ -276,13 +301,30 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     const PixelSize size = pixel_size(print.page, print.dpi);
     double pieces = cost.lines;
     if (print.style.line == Line::spline) {
-        // Of steps that fill the page evenly.
+        // The steps are taken to fill the page evenly.
         const double step = std::sqrt(static_cast<double>(size.width) * size.height / std::max(cost.lines, 1.0));
         pieces *= curve_lines(step);
     }
     cost.thread_memory = band_bytes(size);
     cost.lines_memory = pieces * line_bytes;
     cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory + drawn;
+    if (grammar.is_spatial() && !print.style.light.is_flat) {
+        cost.memory += daylight_bytes * (std::max(size.width, size.height) > 2048 ? 4 : 1);
+        cost.memory += cost.lines * lit_line_bytes;
+    }
+    return cost;
+}
+
+/// The contents of a window are unknown before they are drawn: as many tiles as a page shows well.
+DrawingCost cost_of_window(const Print& print, const DrawOptions& options) {
+    DrawingCost cost;
+    cost.nodes = std::min(1e6, options.budget);
+    cost.lines = 1e5;
+    cost.memory = writer_bytes + (has_tile_work(print.style) ? cost.lines * tile_edge_bytes : 0);
+    if (is_vector(options.format)) return cost;
+    cost.thread_memory = band_bytes(pixel_size(print.page, print.dpi));
+    cost.lines_memory = cost.lines * line_bytes;
+    cost.memory += picture_bytes + cost.lines_memory + cost.thread_memory;
     return cost;
 }
 
@@ -293,16 +335,14 @@ bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& 
         return false;
     };
     if (is_vector(options.format) && !options.window) return false;
-    if (grammar.is_spatial()) return none("drawings in space are seen as a whole");
+    if (grammar.is_spatial()) return none("drawings in space are always shown whole");
     if (is_composed(style, options)) {
         return none(
-            "dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours by strand, lines drawn "
-            "by "
-            "hand, tiles and plots need the "
-            "whole drawing");
+            "dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours by strand, hand-drawn "
+            "lines, colours and edges of tiles, sheets and plots need the whole drawing");
     }
     if (style.moves_lift) return none("splines whose moves lift the pen need the whole drawing");
-    if (!style.draws({})) return none("lines that leave no ink are not seen");
+    if (!style.draws({})) return none("its lines are invisible");
     if (!options.window) {
         const auto cost = estimate(grammar, true);
         if (cost && cost->nodes <= most_read_symbols) return false;
@@ -318,8 +358,8 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
     auto parts = Parts<double>::make(grammar, style.line == Line::spline);
     if (!parts) {
         why =
-            "only drawings in one pen, without polygons and discs, turning by parts of 360 degrees, whose brackets "
-            "close in the word in which they open, are seen through a window";
+            "a window needs a drawing in one pen, without polygons and discs, that turns by parts of 360 degrees and "
+            "whose brackets close in the word in which they open";
     }
     return parts;
 }
@@ -334,6 +374,7 @@ void require_window(const Grammar& grammar, const DrawOptions& options, const st
 }
 
 DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
+    if (given_grammar.map()) return cost_of_reading(given_grammar, given, options);
     const Grammar grammar = shorten(given_grammar);
     std::string why;
     // One at a time, because galleries forecast on many threads and parts take much memory.
@@ -342,8 +383,11 @@ DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const
     if (may_be_seen(grammar, given.style, options, why)) lock.lock();
     const auto parts = seen_parts(grammar, given.style, options, why);
     if (!parts) {
+        if (WindowDrawing::make(std::make_shared<const Grammar>(grammar), given.style, options, why)) {
+            return cost_of_window(given, options);
+        }
         if (options.window) require_window(grammar, options, why);
-        require_affordable(grammar, true, options.budget / (options.repeat ? options.repeat->copies() : 1));
+        make_one_copy(options, [&](const DrawOptions& one) { require_affordable(grammar, true, one.budget); });
         return cost_of_reading(grammar, given, options);
     }
     Print print = given;
@@ -355,14 +399,14 @@ DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const
     const double pixel = 25.4 / print.dpi;
     const bool has_blots = has_pixels && width < pixel;
     const double longest = has_pixels ? longest_replaced(width, pixel) : width / 4;
-    // Of splines, lines are looked at where steps are.
+    // The lines of a spline are examined at its steps.
     const bool reads_steps = print.style.line == Line::spline && longest_step(grammar) > longest / step;
     const WalkCount walk = count_walk(grammar, *parts, reads_steps ? -1.0 : longest / step, has_blots);
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixels = static_cast<double>(size.width) * size.height;
     DrawingCost cost;
     const double allowed = has_pixels ? most_nodes(size, options.budget) : options.budget;
-    // What a window shows is not known before it is looked at.
+    // The contents of a window are unknown before the walk.
     const double most = options.window ? std::min(allowed, std::max(1e5, 8 * pixels)) : allowed;
     cost.nodes = std::min(walk.nodes, most);
     const double share = walk.nodes > 0 ? cost.nodes / walk.nodes : 0;
@@ -395,7 +439,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
     if (!options.window) {
         // Closer than the box of all its headings.
         const auto folded = fold(*grammar_);
-        if (!folded) throw std::runtime_error("the drawing is too large for its extent to be worked out");
+        if (!folded) throw std::runtime_error("the drawing is too large for its extent to be computed");
         const glm::dmat3x2 turned = orientation(options_.placement);
         extent_.box = {};
         for (const glm::dvec2 corner : spline_ ? folded->box_hull : folded->ink_hull) {
@@ -427,7 +471,7 @@ void SeenDrawing::read(const Print& print, const Window& window, double pixel, B
     }
     sight.chord = sight.blot = -1;
     sight.least = 0;
-    // Where a line enters what is seen, its curve is wrong for a few steps.
+    // Where a line enters the visible part, its curve is wrong for a few steps.
     const glm::dvec2 around(6 * longest_step_);
     sight.box.low -= around;
     sight.box.high += around;

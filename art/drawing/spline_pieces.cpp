@@ -45,7 +45,7 @@ void SplinePieces::lines(std::span<const glm::dvec2> ends) {
     at_ = ends.back();
     if (!is_first_) return spline_.lines(ends);
     if (first_.size() + ends.size() > most_points) {
-        throw BudgetError("more than 16,777,216 steps of one line are seen: a smaller window has fewer");
+        throw BudgetError("more than 16,777,216 steps of one line are visible; use a smaller window");
     }
     first_.insert(first_.end(), ends.begin(), ends.end());
 }
@@ -59,7 +59,7 @@ void SplinePieces::change_pen(const Pen& pen) {
     spline_.change_pen(pen);
 }
 
-/// Of a piece that may yet be the line's last, only the line's end is told.
+/// A piece may be the last of its line, which is known only at the end of the line.
 void SplinePieces::end_stroke(bool) {}
 
 void SplinePieces::end_last() {

@@ -13,7 +13,7 @@ namespace sikku {
 /// however many pieces of it are visible. Memory: the first piece of a line, which waits for the line's end.
 class SplinePieces : public BlotSink {
 public:
-    /// @param tolerance  points are the same within so many steps
+    /// @param tolerance  distance in steps within which points are the same
     SplinePieces(PathSink& sink, double tolerance) : spline_(sink, closed_), tolerance_(tolerance) {}
 
     void begin_line(glm::dvec2 at) override;

@@ -132,7 +132,7 @@ Window moved(Window window, glm::dvec2 corner) {
     return window;
 }
 
-/// What all sheets share.
+/// The data that all sheets share.
 struct TileWork {
     const Drawing& drawing;
     const Print& print;  ///< the whole print, placed

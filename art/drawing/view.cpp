@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t watched_nodes = 1 << 16;
 
-/// What a symbol is to a walk, looked up once.
+/// The properties of a symbol in a walk, looked up once.
 struct BracketTable {
     explicit BracketTable(const Grammar& grammar) {
         for (Symbol symbol = 0; symbol < grammar.symbols().size(); ++symbol) {
@@ -127,7 +127,7 @@ public:
     ViewReport report;
 
 private:
-    /// What is left to be drawn of a successor: first some symbols, then clumps.
+    /// The rest of a successor that is to be drawn: first some symbols, then clumps.
     struct Frame {
         const Symbol* next;
         const Symbol* end;
@@ -202,7 +202,7 @@ private:
         return true;
     }
 
-    /// Of a line, no more is left out than cannot be seen at its next corner.
+    /// Leaves out no more of a line than cannot be seen at its next corner.
     bool is_little(double ink) {
         if (ink >= sight_.least || (sight_.blot < 0 && !is_down_)) return false;
         if (sight_.blot >= 0) return true;
@@ -350,8 +350,7 @@ std::optional<Quad> parse_decimal(std::string_view text) {
 
 BudgetError too_much(double budget) {
     return BudgetError(fmt::format(
-        "more than {:.0f} parts of the drawing can be distinguished: fewer pixels or a smaller window have "
-        "fewer, and a larger budget allows more",
+        "more than {:.0f} parts of the drawing are visible; use fewer pixels, a smaller window or a larger budget",
         budget));
 }
 

@@ -19,16 +19,16 @@ struct ViewWindow {
     Quad x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// `X0,Y0,X1,Y1`: four decimal numbers of any length; what is beyond 34 digits is rounded. Nullopt for anything else
+/// `X0,Y0,X1,Y1`: four decimal numbers of any length; digits beyond 34 are rounded. Nullopt for anything else
 /// and for rectangles without area.
 std::optional<ViewWindow> parse_window(std::string_view text);
 
 /// The resolution of a view, in turtle steps; an extent is the longer side of a part's box.
 struct Sight {
-    Box box;            ///< what is seen, the pen's width around it included, as seen from the view's origin
+    Box box;            ///< the visible part, with the pen's width around it, relative to the view's origin
     double chord = -1;  ///< parts up to this extent become their chords
     double blot = -1;   ///< parts up to this extent become blots
-    double ink = 1;     ///< so much of a blot's length is drawn: curves are shorter than what they follow
+    double ink = 1;     ///< part of a blot's length that is drawn: curves are shorter than the lines they follow
     double least = 0;   ///< parts that have less ink than this and join others are left out
 };
 
@@ -61,7 +61,7 @@ public:
     /// One walk. Several threads may walk at once.
     /// @param budget  most nodes to visit; more is a BudgetError
     /// @param watch   called every 65,536 nodes with as many; may throw to stop
-    /// Cost: what is seen; 20 ns a node or less.
+    /// Cost: the visible parts; 20 ns a node or less.
     virtual ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                             const std::function<void(std::uint64_t)>& watch) const = 0;
 };

@@ -1,5 +1,6 @@
 #include "art/drawing/word_drawing.h"
 
+#include "art/drawing/extent_sink.h"
 #include "art/drawing/ink_shape.h"
 #include "art/drawing/plot_scene.h"
 #include "art/space/solid_raster.h"
@@ -8,6 +9,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
+#include "engine/language/surface.h"
 #include "engine/measure/fold.h"
 
 #include <fmt/format.h>
@@ -22,109 +24,7 @@
 namespace sikku {
 namespace {
 
-/// The box of what can be seen of a drawing as it will lie on the page, and its widest pen.
-class ExtentSink : public PathSink {
-public:
-    ExtentSink(const Style& style, const glm::dmat3x2& orientation) : style_(style), orientation_(orientation) {}
-
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
-        change_pen(pen);
-        at_ = turned(start);
-    }
-    void lines(std::span<const glm::dvec2> ends) override {
-        if (ends.empty()) return;
-        if (draws_) {
-            begin_line();
-            for (const glm::dvec2 end : ends) box.add(turned(end));
-        }
-        at_ = turned(ends.back());
-    }
-    void curves(std::span<const glm::dvec2> controls) override {
-        if (controls.size() < 3) return;
-        if (!draws_) {
-            at_ = turned(controls.back());
-            return;
-        }
-        begin_line();
-        add_curves(controls);
-    }
-    void change_pen(const Pen& pen) override {
-        draws_ = style_.draws(pen);
-        width_ = style_.pen_width(pen);
-    }
-    void end_stroke(bool) override {}
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        if (style_.fill_colour(pen).alpha == 0) return;
-        for (const glm::dvec2 vertex : vertices) box.add(turned(vertex));
-    }
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
-        if (style_.fill_colour(pen).alpha == 0 || outline.empty()) return;
-        const glm::dvec2 at = std::exchange(at_, turned(outline.front()));
-        box.add(at_);
-        add_curves(outline.subspan(1));
-        at_ = at;
-    }
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
-        if (style_.fill_colour(pen).alpha == 0) return;
-        // A dot is twice as wide as the line.
-        const double dot = radius > 0.0 ? 0.0 : 2 * style_.pen_width(pen);
-        if (!(radius + dot > 0.0)) return;
-        widest = std::max(widest, dot);
-        const glm::dvec2 at = turned(centre);
-        box.add(at - glm::dvec2(radius));
-        box.add(at + glm::dvec2(radius));
-    }
-
-    Box box;
-    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
-
-private:
-    glm::dvec2 turned(glm::dvec2 point) const { return orientation_ * glm::dvec3(point, 1.0); }
-
-    /// Only now, as the pen may have been changed before anything was drawn with it.
-    void begin_line() {
-        box.add(at_);
-        widest = std::max(widest, width_);
-    }
-
-    /// From at_.
-    void add_curves(std::span<const glm::dvec2> controls) {
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const std::array<glm::dvec2, 4> b = {at_, turned(controls[i]), turned(controls[i + 1]),
-                                                 turned(controls[i + 2])};
-            box.add(b[3]);
-            for (int axis = 0; axis < 2; ++axis) {
-                const auto inside = [&](double value) { return value >= box.low[axis] && value <= box.high[axis]; };
-                if (!inside(b[1][axis]) || !inside(b[2][axis])) add_extremes(b, axis);
-            }
-            at_ = b[3];
-        }
-    }
-
-    /// Where the curve's derivative along `axis` vanishes.
-    void add_extremes(const std::array<glm::dvec2, 4>& b, int axis) {
-        const double p = b[1][axis] - b[0][axis];
-        const double q = b[2][axis] - b[1][axis];
-        const double r = b[3][axis] - b[2][axis];
-        const double square = p - 2 * q + r;
-        const double half = q - p;
-        const double root = std::sqrt(std::max(0.0, half * half - square * p));
-        for (const double t : {square == 0 ? -p / (2 * half) : (-half + root) / square,
-                               square == 0 ? -1.0 : (-half - root) / square}) {
-            if (!(t > 0 && t < 1)) continue;
-            const double s = 1 - t;
-            box.add(s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3]);
-        }
-    }
-
-    const Style& style_;
-    glm::dmat3x2 orientation_;
-    glm::dvec2 at_{0.0};
-    bool draws_ = false;
-    double width_ = 0.0;
-};
-
-/// Keeping a part of a scene takes the memory and time of about so many nodes.
+/// A part of a scene takes the memory and time of about this many nodes.
 constexpr double nodes_of_kept_part = 10;
 
 DerivationOptions reading(const DrawOptions& options) {
@@ -135,10 +35,18 @@ DerivationOptions reading(const DrawOptions& options) {
     return derivation;
 }
 
-/// Stems and spheres that are kept, as far as they are known beforehand.
+/// Stems, spheres and patches that are kept, as far as they are known beforehand.
 double parts_of(const Grammar& grammar) {
     const auto known = estimate(grammar, true);
-    return known ? drawn_symbols(grammar, *known) : 0;
+    if (!known) return 0;
+    double parts = drawn_symbols(grammar, *known);
+    for (std::size_t i = 0; i < std::min(known->rough_counts.size(), grammar.symbols().size()); ++i) {
+        const Command& command = grammar.symbols()[i].command;
+        if (command.action != Action::surface) continue;
+        const auto patches = static_cast<double>(grammar.surfaces()[command.surface]->patches.size());
+        parts += known->rough_counts[i] * (parts_of_patch * patches - 1);
+    }
+    return parts;
 }
 
 /// @throws BudgetError, if there are more parts of a scene than `most`, before they are read
@@ -151,7 +59,9 @@ void require_room(const Grammar& grammar, double most) {
         is_found = other && parts_of(*other) <= most;
     }
     throw BudgetError(fmt::format(
-        "drawings in space are kept whole, and this one has {:.3g} segments and spheres (n = {}); the budget allows "
+        "drawings in space are held in memory, and this one has {:.3g} segments, spheres and parts of surfaces "
+        "(n = {}); "
+        "the budget allows "
         "{:.0f}, up to n = {}",
         parts, grammar.steps(), most, fits));
 }
@@ -176,22 +86,13 @@ void require_ink(const Box& box) {
     throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
 }
 
-DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation) {
-    DrawnExtent extent;
-    for (const Quad x : {window.x0, window.x1}) {
-        for (const Quad y : {window.y0, window.y1}) {
-            extent.box.add(orientation * glm::dvec3(static_cast<double>(x), static_cast<double>(y), 1.0));
-        }
-    }
-    return extent;
-}
-
 WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
     : Drawing(options), grammar_(resolved(grammar, options)), style_(style), spline_(style.line == Line::spline) {
     require_affordable(grammar_, true, options.budget);
     drawn_style_ = grammar_.is_spatial() && is_vector(options.format) && !is_plot() ? with_shades(style) : style;
     if (grammar_.is_spatial() && spline_) {
-        throw std::runtime_error("'line: spline' is for drawings in the plane; this one pitches, rolls or bends");
+        throw std::runtime_error(
+            "'line: spline' is for drawings in the plane; this one pitches, rolls, bends or has surfaces");
     }
     const std::vector<char> reached = grammar_.reachable();
     for (std::size_t i = 0; i < reached.size(); ++i) {
@@ -200,6 +101,10 @@ WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawO
             case Action::push:
             case Action::pop:
                 has_brackets_ = true;
+                break;
+            case Action::edge_begin:
+                has_edges_ = true;
+                has_areas_ = true;
                 break;
             case Action::polygon_begin:
             case Action::disc:
@@ -226,17 +131,9 @@ std::optional<SpaceBounds> WordDrawing::bounds() const {
 
 const DrawnExtent& WordDrawing::seen() {
     if (extent_) return *extent_;
-    DrawnExtent found = measured();
+    const DrawnExtent found = measured();
     has_ink_ = !found.box.empty();
-    if (options_.window) {
-        const DrawnExtent window = window_extent(*options_.window, orientation(options_.placement));
-        const auto is_apart = [&](int axis) {
-            return found.box.low[axis] > window.box.high[axis] || found.box.high[axis] < window.box.low[axis];
-        };
-        is_outside_ = is_apart(0) || is_apart(1);
-        found = {window.box, window.widest, found.widest};
-    }
-    return extent_.emplace(found);
+    return extent_.emplace(placed_extent(found, options_, is_outside_));
 }
 
 Balance WordDrawing::balance() const {
@@ -262,7 +159,7 @@ DrawnExtent WordDrawing::measured() {
     // one stroke, and is folded for whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
     std::optional<Fold> folded;
-    const bool is_one_stroke = spline_ && !has_brackets_ && style_.moves_draw();
+    const bool is_one_stroke = spline_ && !has_brackets_ && !has_edges_ && style_.moves_draw();
     if (folds_extent || is_one_stroke) folded = fold(grammar_);
     const bool takes_census = spline_ && !folded;
     const bool reads_extent = spline_ || !folded;

@@ -43,13 +43,14 @@ private:
     bool spline_;
     bool has_brackets_ = false;
     bool has_areas_ = false;
+    bool has_edges_ = false;
     bool has_widths_ = false;
     bool has_colours_ = false;
-    std::vector<bool> closed_;  ///< of a spline's strokes, in their order
+    std::vector<bool> closed_;  ///< whether each stroke of a spline is closed, in their order
     std::optional<DrawnExtent> extent_;
     bool has_ink_ = false;
     bool is_outside_ = false;     ///< nothing is drawn within the window
-    std::optional<Scene> scene_;  ///< of a drawing in space, once it was read
+    std::optional<Scene> scene_;  ///< scene of a drawing in space, once it was read
 };
 
 /// Reads a drawing in space. Each part kept takes the memory and time of about `nodes_of_part` nodes.
@@ -58,9 +59,6 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 
 /// The grammar without contexts, ready to be read. @throws BudgetError, WordError
 Grammar resolved(const Grammar& given, const DrawOptions& options);
-
-/// The extent of a window: no pen is added, because lines continue outside it.
-DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation);
 
 /// @throws std::runtime_error if the box is empty
 void require_ink(const Box& box);

@@ -262,7 +262,7 @@ void check_sheet_size(const std::string& key, const std::string& size, const std
 
 void read_gallery(const GalleryKeys& keys, const std::string& file, const std::string& text, GalleryItem& defaults,
                   GalleryRequest& request, GalleryItems& items) {
-    const GalleryValue root = read_gallery_toml(file, text);
+    const GalleryValue root = read_toml(file, text);
     const GalleryValue* listed = nullptr;
     for (const auto& [key, value] : root.table) {
         if (key == "item") {

@@ -489,7 +489,7 @@ std::string read_gallery_text(const GalleryRequest& request) {
     }
     std::ifstream stream = open_text_file(request.gallery_file);
     std::string text;
-    for (std::array<char, 65536> block{}; stream && text.size() <= most_gallery_bytes;) {
+    for (std::array<char, 65536> block{}; stream && text.size() <= most_toml_bytes;) {
         stream.read(block.data(), block.size());
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
     }
@@ -548,7 +548,8 @@ std::string GalleryJob::hash() const {
         // gallery.
         const std::string whole = lower_case(text() + pattern->text->text);
         const bool has_border = whole.find("border") != std::string::npos || keys.contains("border");
-        if (has_border || whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos) {
+        if (has_border || whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos ||
+            whole.find("surface") != std::string::npos) {
             try {
                 for (const auto& [file, held] : work()->read_files()) {
                     hash.add_piece(file);

@@ -45,14 +45,16 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpr
     keys_.push_back(
         {.name = "scale-factor", .help = "", .use = reader_of(KeyOwner::art), .overrides = true, .is_option = false});
     for (const KeyInfo& key : language_keys()) {
-        if (key.owner == KeyOwner::engine) continue;
+        if (key.owner == KeyOwner::engine || key.is_for_symbols()) continue;
         const Interpreter* reader = reader_of(key.owner);
         if (!reader) continue;
         // Keys that are also options of the interpreter use its table.
         const OptionInfo* option = find_option(reader->options(), key.name);
         const bool is_option = option && option->is_key && !option->sets_more && !option->is_alone;
+        std::string name(key.name);
+        std::replace(name.begin(), name.end(), ' ', '-');
         keys_.push_back(
-            {.name = std::string(key.name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
+            {.name = std::move(name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
     }
 }
 

@@ -88,7 +88,7 @@ RecordText read_record(const std::string& text) {
             std::string name = job.file;
             record.finished[std::move(name)] = std::move(job);
         } catch (const nlohmann::json::exception&) {
-            // Of others, with keys of other kinds.
+            // Another program's line, with keys of other kinds.
         } catch (const JsonError&) {
             // Torn; what comes after it stands on a line of its own.
         }
@@ -412,7 +412,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
     claims.insert(left_.begin(), left_.end());
     std::set<std::string> written;
     for (const FinishedJob& job : order) written.insert(job.file);
-    // Of other jobs, what is still there, also what was not finished: it is no file of others.
+    // Files of other jobs that still exist, finished or not: they belong to this gallery.
     for (const auto& [file, known] : known_) {
         if (written.contains(file) || !known.kept || !folder_.status(file)) continue;
         if (auto job = present(file, known)) {

@@ -1,50 +1,15 @@
-// art/gallery/values.h: reads gallery files (TOML) and manifests (JSON lines) as plain values with places.
+// art/gallery/values.h: the values of gallery files (TOML) and manifests (JSON lines), with their places.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <stdexcept>
+#include "engine/base/toml_file.h"
+
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace sikku {
 
-/// A value with its place.
-struct GalleryValue {
-    enum class Type { text, list, table, other };
-    Type type = Type::text;
-    std::string text;  ///< numbers and flags too
-    std::vector<GalleryValue> list;
-    struct Entry;
-    std::vector<Entry> table;  ///< in the order of the file; the place of a value is its key's
-    std::string place;         ///< `gallery.toml:3:1`
-    std::pair<std::uint32_t, std::uint32_t> order{0, 0};
-};
-struct GalleryValue::Entry {
-    std::string key;
-    GalleryValue value;
-};
-
-/// Maximum size of a gallery file in bytes.
-constexpr std::size_t most_gallery_bytes = std::size_t{16} << 20;
-/// Maximum number of keys in a table.
-constexpr std::size_t most_table_keys = 1000;
-
+using GalleryValue = FileValue;
 /// An error in a gallery file, a manifest, or in what was requested; what() begins with the place if there is one.
-class GalleryError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// @param place  may be empty
-/// @throws GalleryError always
-[[noreturn]] void fail(const std::string& place, const std::string& message);
-
-/// Reads a gallery file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes
-/// per value.
-/// @param file  its name, for places
-/// @throws GalleryError for errors, over 16 MB, 250,000 values, 1,000 keys in a table, and nesting deeper than 50
-GalleryValue read_gallery_toml(const std::string& file, const std::string& text);
+using GalleryError = FileError;
 
 /// Reads a line of a manifest.
 /// @param place  file and line

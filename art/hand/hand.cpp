@@ -27,7 +27,7 @@ constexpr double usual_bend = 0.6;  // where the line is as wide as its pen
 constexpr double pulse = 0.11, pulse_wave = 2.6;
 constexpr double ripple = 0.05, ripple_wave = 0.7;
 
-// What may be used of the gap between two lines: by each of them, and by the drift.
+// Shares of the gap between two lines that each of them, and the drift, may take.
 constexpr double sway_share = 0.17, swell_share = 0.12, miss_share = 0.08, drift_share = 0.16;
 constexpr double nearest_gap = 0.03;  // of the distance: narrower gaps count as touching
 constexpr double side_by_side = 0.7;  // cosine of the angle up to which lines run side by side
@@ -211,7 +211,7 @@ double find_room(std::vector<HandLine>& lines, const Places& places, const std::
     return share;
 }
 
-/// Lets room grow slowly along each line, so that what it limits is smooth.
+/// Lets room change slowly along each line, so that the widths it limits are smooth.
 void even_room(HandLine& line) {
     constexpr double slope = 0.35;
     const std::size_t count = line.size();
@@ -249,7 +249,7 @@ std::vector<double> windowed(const HandLine& line, const std::vector<double>& va
     return sums;
 }
 
-/// How much the line bends around each node, by the bend of its loops.
+/// Bend of the line around each node, relative to that of its loops.
 std::vector<double> bends_of(const HandLine& line) {
     const std::size_t count = line.size();
     std::vector<double> turns(count);

@@ -1,4 +1,4 @@
-// art/hand/hand.h: lets lines waver and swell as rice flour falls from a hand.
+// art/hand/hand.h: lets lines waver and swell, as if strewn with rice flour by hand.
 #pragma once
 
 #include "art/hand/hand_line.h"
@@ -40,8 +40,8 @@ void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, cons
 /// Finds where lines cross. Cost: O(n).
 std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines);
 
-/// A line as it is drawn from its start to its end: a closed one goes on over its start for some widths, thins and
-/// misses it a little.
+/// The line as a hand draws it from start to end. A closed line overlaps its start by a few widths, thins there and
+/// misses it slightly.
 HandLine drawn_stroke(const HandLine& line, const HandOptions& options);
 
 /// The outline of a part of an open line, from one node to another, as Béziers for PathSink::area(): with blunt round

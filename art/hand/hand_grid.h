@@ -19,6 +19,10 @@ class HandGrid {
 public:
     /// @param cell  side of a cell, above 0
     HandGrid(std::span<const glm::dvec2> points, double cell) : cell_(cell) {
+        // Columns and rows are counted to a thousand million: of points farther away, many would share a cell.
+        for (const glm::dvec2 point : points) {
+            cell_ = std::max({cell_, std::fabs(point.x) / 9e8, std::fabs(point.y) / 9e8});
+        }
         order_.reserve(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             order_.emplace_back(key(column(points[i].x), column(points[i].y)), static_cast<std::uint32_t>(i));

@@ -18,6 +18,7 @@ constexpr double corner = 0.94;          // cosine of the angle from which a ben
 constexpr double nodes_of_loop = 16;     // samples for each loop diameter
 constexpr double least_loop_widths = 3;  // of the line, for its loops
 constexpr double most_loop_widths = 40;
+constexpr double least_seen_width = 0.02;  // millimetres; how a thinner line wavers cannot be seen
 
 glm::dvec2 point_at(const Bezier& b, double t) {
     const double u = 1 - t;
@@ -92,8 +93,8 @@ void HandGatherer::add(const Bezier& curve) {
     if (!(length > 0) || !std::isfinite(length)) return;
     if (++count_ > most_) {
         throw BudgetError(
-            fmt::format("lines drawn by hand are kept whole, and this drawing has more than {:.0f} "
-                        "curves; a shorter derivation or a larger budget helps",
+            fmt::format("hand-drawn lines are held in memory, and this drawing has more than {:.0f} "
+                        "curves; use a shorter derivation or a larger budget",
                         most_));
     }
     pieces_.push_back({curve, length, half_width()});
@@ -144,6 +145,16 @@ double HandGatherer::loop_of(const std::vector<Piece>& pieces, bool closed) {
     return bend > 0 ? 2 * turn / bend : 1e300;
 }
 
+void HandGatherer::count_points(int more) {
+    points_ += more;
+    if (points_ > most_points_) {
+        throw BudgetError(fmt::format(
+            "{} take more than {:.0f} points, 16 for each loop; a shorter derivation, fewer copies or a "
+            "wider stroke helps",
+            most_lines_ ? "the lines of this lesson" : "the hand-drawn lines of this drawing", most_points_));
+    }
+}
+
 /// Makes a line of the pieces: bends at the corners, then nodes.
 void HandGatherer::finish(bool closed) {
     std::vector<Piece> pieces = std::exchange(pieces_, {});
@@ -177,6 +188,12 @@ void HandGatherer::finish(bool closed) {
     }
     if (has_last) bent.push_back(last.front());
 
+    if (most_lines_ && gathered.size() >= *most_lines_) {
+        throw BudgetError(fmt::format(
+            "a lesson has at most {} lines, and this drawing has more; a shorter derivation or fewer copies "
+            "helps",
+            *most_lines_));
+    }
     HandLine line;
     line.closed = closed;
     line.pen = first_pen_;
@@ -186,13 +203,12 @@ void HandGatherer::finish(bool closed) {
         line.length += piece.length;
         widths += 2 * piece.half * piece.length;
     }
-    const double width = widths / line.length;
+    const double width = std::max(widths / line.length, least_seen_width / step_);
     line.loop = std::clamp(loop, least_loop_widths * width, most_loop_widths * width);
     double along = 0;
     for (const Piece& piece : bent) {
         const int parts = static_cast<int>(std::clamp(std::ceil(piece.length * nodes_of_loop / line.loop), 1.0, 1e5));
-        count_ += parts;
-        if (count_ > 8 * most_) throw BudgetError("lines drawn by hand are kept whole, and this drawing is too long");
+        count_points(parts);
         glm::dvec2 from = piece.curve[0];
         for (int k = 0; k < parts; ++k) {
             line.nodes.push_back({from, along, piece.half});

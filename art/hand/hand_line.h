@@ -5,9 +5,11 @@
 #include "engine/geometry/bezier.h"
 #include "engine/geometry/path.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +26,9 @@ struct HandNode {
 /// A line of one colour. The nodes of a closed line do not repeat the first one at the end.
 struct HandLine {
     std::vector<HandNode> nodes;
-    double length = 0;  ///< of a closed line, back to its first node
+    double length = 0;  ///< length; for a closed line, back to its first node
     bool closed = false;
-    Pen pen;                   ///< of its beginning; widths are those of the nodes
+    Pen pen;                   ///< pen at its beginning; the nodes have the widths
     std::uint64_t number = 0;  ///< in the order of the drawing, which decides its chance
     double loop = 1;           ///< diameter of a circle that bends as much as the line does on average
 
@@ -56,7 +58,12 @@ class HandGatherer : public PathSink {
 public:
     /// @param step  millimetres of a turtle step  @param most  curves; more throw BudgetError
     HandGatherer(PathSink& fills, const Style& style, double step, double most)
-        : fills_(fills), style_(style), step_(step), most_(most) {}
+        : fills_(fills), style_(style), step_(step), most_(most), most_points_(8 * most) {}
+    /// Refuses drawings that are too large for a lesson. @param lines, points  more throw BudgetError
+    void limit(std::size_t lines, double points) {
+        most_lines_ = lines;
+        most_points_ = std::min(most_points_, points);
+    }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
     void lines(std::span<const glm::dvec2> ends) override;
@@ -79,13 +86,15 @@ private:
     static double loop_of(const std::vector<Piece>& pieces, bool closed);
     void add(const Bezier& curve);
     void finish(bool closed);
+    void count_points(int more);
     double half_width() const { return style_.line_width(pen_, step_) / step_ / 2; }
 
     PathSink& fills_;
     const Style& style_;
     double step_;
-    double most_;
-    double count_ = 0;
+    double most_, most_points_;
+    std::optional<std::size_t> most_lines_;
+    double count_ = 0, points_ = 0;
     std::vector<Piece> pieces_;
     Pen pen_, first_pen_;
     glm::dvec2 at_{0.0}, start_{0.0};

@@ -56,7 +56,7 @@ std::size_t start_of(const HandLine& line, const Box& box) {
         const glm::dvec2 in = at - line.nodes[line.previous(i)].at, out = line.nodes[line.next(i)].at - at;
         const double turn = std::fabs(std::atan2(in.x * out.y - in.y * out.x, glm::dot(in, out)));
         const double step = (glm::length(in) + glm::length(out)) / 2;
-        // Of a circle of the line's loops: 2.
+        // A circle as large as the line's loops has a bend of 2.
         const double bend = step > 0 ? std::min(turn / step * line.loop, 8.0) : 0;
         const double place = ((at.x - box.low.x) - (at.y - box.high.y)) / size;
         const std::int64_t score = rounded(place + std::min(0.12, line.loop / size) * bend, 1e-7);

@@ -12,11 +12,11 @@
 namespace sikku {
 namespace {
 
-/// Distance of the control points of a quarter circle's Bézier, of its radius.
+/// Distance of a control point from its end point, for a quarter circle of radius 1.
 constexpr double quarter_circle = 0.5522847498307936;
-/// Of a line's half width, how far its edge may be from the exact one.
+/// Greatest distance of an edge from the exact one, as a share of half the line's width.
 constexpr double tolerance_share = 0.015;
-/// Of the radius of a bend, how far the edge goes towards its centre.
+/// Greatest distance of an edge towards the centre of a bend, as a share of its radius.
 constexpr double inner_share = 0.9;
 
 glm::dvec2 unit(glm::dvec2 way) {
@@ -36,7 +36,7 @@ public:
     glm::dvec2 front() const { return at_.front(); }
     glm::dvec2 back() const { return at_.back(); }
 
-    /// Of a closed curve the last point is the first.
+    /// Sets the tangent at each point. The last point of a closed curve is its first.
     void set_ways(bool closed) {
         const std::size_t count = at_.size();
         ways_.resize(count);

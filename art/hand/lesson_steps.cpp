@@ -82,16 +82,16 @@ void cut(const HandLine& line, std::size_t number, std::vector<LessonStep>& step
 
 }  // namespace
 
-std::vector<LessonStep> lesson_steps(const std::vector<HandLine>& lines) {
+std::vector<LessonStep> lesson_steps(const std::vector<HandLine>& lines, std::size_t most) {
     std::vector<LessonStep> steps;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].size() > 1) cut(lines[i], i, steps);
     }
-    if (steps.size() <= most_lesson_steps) return steps;
+    if (steps.size() <= most) return steps;
     // Stretches of one line that follow each other become one.
-    std::vector<LessonStep> joined(most_lesson_steps);
+    std::vector<LessonStep> joined(most);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        LessonStep& step = joined[i * most_lesson_steps / steps.size()];
+        LessonStep& step = joined[i * most / steps.size()];
         const Stretch& stretch = steps[i].front();
         if (!step.empty() && step.back().line == stretch.line && step.back().to == stretch.from) {
             step.back().to = stretch.to;

@@ -14,16 +14,19 @@ struct Stretch {
     std::size_t from = 0, to = 0;
 };
 
-/// What is drawn in one step of a lesson.
+/// The stretches of line drawn in one step of a lesson.
 using LessonStep = std::vector<Stretch>;
 
-/// Maximum number of steps.
-constexpr std::size_t most_lesson_steps = 40;
+/// Maximum number of steps, and of cells in a picture, where a step is a cell.
+constexpr std::size_t most_lesson_steps = 40, most_lesson_cells = 10;
+/// Size of a drawing that can be a lesson: every step repeats the lines of those before it.
+constexpr std::size_t most_lesson_lines = 1000;
+constexpr double most_lesson_points = 100'000;
 
 /// Cuts lines, in the order of the hand, into steps: a line that is its own image under a rotation into its equal
-/// parts, a long one into stretches of about a dozen loops, of equal length. More than most_lesson_steps are joined.
+/// parts, a long one into stretches of about a dozen loops, of equal length. More than `most` are joined.
 /// To be called before draw_by_hand(), which keeps the numbers of nodes.
-std::vector<LessonStep> lesson_steps(const std::vector<HandLine>& lines);
+std::vector<LessonStep> lesson_steps(const std::vector<HandLine>& lines, std::size_t most = most_lesson_steps);
 
 /// The nodes of a stretch as an open line.
 HandLine part_of(const HandLine& line, const Stretch& stretch);

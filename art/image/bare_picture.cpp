@@ -1,12 +1,16 @@
 #include "art/image/bare_picture.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -80,7 +84,7 @@ BarePicture bare_jpeg(const std::string& bytes, std::uint64_t most_pixels) {
         if (is_frame) {
             check_size(file.number(at + 7, 2), file.number(at + 5, 2), most_pixels);
             pixels = file.number(at + 7, 2) * file.number(at + 5, 2);
-            if (file.number(at + 9, 1) > 4) refuse("not a picture in colours or grey");
+            if (file.number(at + 9, 1) > 4) refuse("not a picture in colour or grey");
         }
         if (marker == 0xE1 && bare.orientation == 1) bare.orientation = orientation_of(segment.substr(4));
         const bool is_metadata = (marker >= 0xE1 && marker <= 0xEF && marker != 0xEE) || marker == 0xFE;
@@ -101,28 +105,188 @@ BarePicture bare_jpeg(const std::string& bytes, std::uint64_t most_pixels) {
     }
 }
 
-BarePicture bare_png(const std::string& bytes, std::uint64_t most_pixels) {
-    BarePicture bare{"png", bytes.substr(0, 8), 1};
-    const Bytes file(bytes, true);
-    for (std::size_t at = 8; at < bytes.size();) {
-        const std::size_t length = 12 + file.number(at, 4);
-        file.number(at, length);
-        const std::string_view name = std::string_view(bytes).substr(at + 4, 4);
-        if (name == "IHDR") check_size(file.number(at + 8, 4), file.number(at + 12, 4), most_pixels);
-        if (name == "IHDR" || name == "PLTE" || name == "tRNS" || name == "IDAT" || name == "IEND") {
-            bare.bytes.append(bytes, at, length);
+// --- PNG: libpng prints what it finds wrong, so that only sound files may reach it ---------------------------------
+// Source: Portable Network Graphics, 2nd edition, 2003.
+
+struct PngHeader {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    unsigned depth = 0;
+    unsigned colour = 0;  ///< 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGB and alpha
+    bool interlaced = false;
+
+    PngHeader() = default;
+    /// @param at  of the data of IHDR
+    PngHeader(const Bytes& file, std::size_t at, std::uint64_t most_pixels) {
+        check_size(file.number(at, 4), file.number(at + 4, 4), most_pixels);
+        width = static_cast<std::uint32_t>(file.number(at, 4));
+        height = static_cast<std::uint32_t>(file.number(at + 4, 4));
+        depth = static_cast<unsigned>(file.number(at + 8, 1));
+        colour = static_cast<unsigned>(file.number(at + 9, 1));
+        interlaced = file.number(at + 12, 1) == 1;
+        const bool is_deep = depth == 8 || depth == 16;
+        const bool is_known = colour == 0   ? depth == 1 || depth == 2 || depth == 4 || is_deep
+                              : colour == 3 ? depth == 1 || depth == 2 || depth == 4 || depth == 8
+                                            : is_deep && (colour == 2 || colour == 4 || colour == 6);
+        constexpr std::uint32_t most_side = 1'000'000;  // of libpng
+        if (!is_known || file.number(at + 10, 2) != 0 || file.number(at + 12, 1) > 1 || width > most_side ||
+            height > most_side) {
+            refuse("the picture is damaged: its header is wrong");
         }
-        at += length;
-        if (name == "IEND") break;
     }
+    std::uint64_t row_bytes(std::uint64_t columns) const {
+        const unsigned channels = colour == 2 ? 3 : colour == 4 ? 2 : colour == 6 ? 4 : 1;
+        return (columns * channels * depth + 7) / 8;
+    }
+};
+
+/// Follows the rows of a PNG, each a filter and its bytes.
+class PngRows {
+public:
+    explicit PngRows(const PngHeader& header) {
+        if (!header.interlaced) {
+            add(header.row_bytes(header.width), header.height);
+            return;
+        }
+        constexpr std::array<std::array<std::uint32_t, 4>, 7> passes = {
+            {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
+        for (const auto& [x, y, across, down] : passes) {
+            if (header.width <= x || header.height <= y) continue;
+            add(header.row_bytes((header.width - x + across - 1) / across), (header.height - y + down - 1) / down);
+        }
+    }
+    bool is_complete() const { return passes_.empty(); }
+    /// @throws std::runtime_error for a filter that does not exist, and for bytes behind the last row
+    void take(std::string_view bytes) {
+        while (!bytes.empty()) {
+            if (passes_.empty()) refuse("the picture is damaged: it has more pixels than its size says");
+            if (left_ == 0) {
+                if (static_cast<unsigned char>(bytes[0]) > 4)
+                    refuse("the picture is damaged: a row of pixels is wrong");
+                left_ = passes_.front().row_bytes + 1;
+            }
+            const std::size_t taken = std::min<std::uint64_t>(left_, bytes.size());
+            bytes.remove_prefix(taken);
+            left_ -= taken;
+            if (left_ == 0 && --passes_.front().rows == 0) passes_.erase(passes_.begin());
+        }
+    }
+
+private:
+    struct Pass {
+        std::uint64_t row_bytes;
+        std::uint32_t rows;
+    };
+    void add(std::uint64_t row_bytes, std::uint32_t rows) { passes_.push_back({row_bytes, rows}); }
+    std::vector<Pass> passes_;
+    std::uint64_t left_ = 0;  // of the current row
+};
+
+/// Inflates the pixels of a PNG piece by piece. @throws std::runtime_error if they are damaged
+void check_png_pixels(const std::vector<std::string_view>& parts, const PngHeader& header) {
+    z_stream stream{};
+    // The window that the stream states, as libpng has it.
+    if (inflateInit2(&stream, 0) != Z_OK) refuse("there is no memory for the picture");
+    const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+    PngRows rows(header);
+    std::vector<char> buffer(std::size_t{1} << 16U);
+    int status = Z_OK;
+    for (const std::string_view part : parts) {
+        stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
+        stream.avail_in = static_cast<uInt>(part.size());
+        while (stream.avail_in > 0) {
+            if (status == Z_STREAM_END) refuse("the picture is damaged: it has more pixels than its size says");
+            stream.next_out = reinterpret_cast<Bytef*>(buffer.data());
+            stream.avail_out = static_cast<uInt>(buffer.size());
+            status = inflate(&stream, Z_NO_FLUSH);
+            if (status != Z_OK && status != Z_STREAM_END) refuse("the picture is damaged: its pixels are wrong");
+            rows.take({buffer.data(), buffer.size() - stream.avail_out});
+        }
+    }
+    if (status != Z_STREAM_END || !rows.is_complete()) refuse("the picture is damaged: it ends too early");
+}
+
+void append_png_chunk(std::string& bytes, const std::string& name, std::string_view data) {
+    const auto number = [&](std::uint64_t value) {
+        for (int shift = 24; shift >= 0; shift -= 8)
+            bytes += static_cast<char>(value >> static_cast<unsigned>(shift));
+    };
+    number(data.size());
+    const std::size_t begin = bytes.size();
+    bytes.append(name).append(data);
+    number(crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[begin]), bytes.size() - begin));
+}
+
+/// The parts of a PNG that its pixels need.
+struct PngParts {
+    std::optional<PngHeader> header;
+    std::string_view header_bytes, palette, transparency;
+    std::vector<std::string_view> pixels;
+
+    PngParts(std::string_view bytes, std::uint64_t most_pixels) {
+        const Bytes file(bytes, true);
+        for (std::size_t at = 8;;) {
+            const std::size_t length = file.number(at, 4);
+            file.number(at, 12 + length);
+            const std::string_view name = bytes.substr(at + 4, 4);
+            const std::string_view data = bytes.substr(at + 8, length);
+            if (!header && (name != "IHDR" || length != 13)) refuse("the picture is damaged: its header is wrong");
+            if (name == "IEND") break;
+            if (name == "IHDR" || name == "PLTE" || name == "tRNS" || name == "IDAT") {
+                const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[at + 4]), length + 4);
+                if (sum != file.number(at + 8 + length, 4)) refuse("the picture is damaged: a checksum is wrong");
+            }
+            if (name == "IHDR" && !header) {
+                header = PngHeader(file, at + 8, most_pixels);
+                header_bytes = data;
+            } else if (name == "PLTE") {
+                palette = data;
+            } else if (name == "tRNS") {
+                transparency = data;
+            } else if (name == "IDAT") {
+                pixels.push_back(data);
+            }
+            at += 12 + length;
+        }
+    }
+};
+
+BarePicture bare_png(const std::string& bytes, std::uint64_t most_pixels) {
+    const PngParts parts(bytes, most_pixels);
+    const PngHeader& header = *parts.header;
+    BarePicture bare{"png", bytes.substr(0, 8), 1};
+    append_png_chunk(bare.bytes, "IHDR", parts.header_bytes);
+    const std::size_t entries = parts.palette.size() / 3;
+    if (header.colour == 3) {
+        const std::size_t most = std::size_t{1} << header.depth;
+        if (parts.palette.size() % 3 != 0 || entries == 0 || entries > most) {
+            refuse("the picture is damaged: its palette is wrong");
+        }
+        // Pixels may name colours that the palette lacks.
+        std::string palette(parts.palette);
+        palette.resize(3 * most);
+        append_png_chunk(bare.bytes, "PLTE", palette);
+    }
+    const std::size_t size = parts.transparency.size();
+    const bool is_transparent = header.colour == 0   ? size == 2
+                                : header.colour == 2 ? size == 6
+                                                     : header.colour == 3 && size > 0 && size <= entries;
+    if (is_transparent) append_png_chunk(bare.bytes, "tRNS", parts.transparency);
+    check_png_pixels(parts.pixels, header);
+    for (const std::string_view part : parts.pixels) append_png_chunk(bare.bytes, "IDAT", part);
+    append_png_chunk(bare.bytes, "IEND", {});
     return bare;
 }
 
 BarePicture bare_webp(const std::string& bytes, std::uint64_t most_pixels) {
     BarePicture bare{"webp", bytes.substr(0, 12), 1};
     const Bytes file(bytes, false);
+    if (file.number(8, 4) != 0x50424557) refuse("not a picture, or a damaged one: a RIFF file that is not a WebP");
+    bool has_pixels = false;
     for (std::size_t at = 12; at < bytes.size();) {
-        const std::size_t length = 8 + file.number(at + 4, 4) + file.number(at + 4, 4) % 2;
+        const std::uint64_t size = file.number(at + 4, 4);
+        if (size > bytes.size() - at - 8) refuse("the picture is damaged: it ends too early");
+        const std::size_t length = 8 + size + size % 2;
         const std::string_view name = std::string_view(bytes).substr(at, 4);
         const std::size_t held = std::min(length, bytes.size() - at);
         if (name == "VP8X") {
@@ -133,9 +297,11 @@ BarePicture bare_webp(const std::string& bytes, std::uint64_t most_pixels) {
             bare.bytes += header;
         } else if (name != "ICCP" && name != "EXIF" && name != "XMP ") {
             bare.bytes.append(bytes, at, held);
+            has_pixels = has_pixels || name == "VP8 " || name == "VP8L";
         }
         at += length;
     }
+    if (!has_pixels) refuse("the picture is damaged: it has no pixels");
     const std::uint64_t size = bare.bytes.size() - 8;
     for (std::size_t i = 0; i < 4; ++i) bare.bytes[4 + i] = static_cast<char>(size >> (8 * i));
     return bare;

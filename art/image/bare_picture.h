@@ -6,7 +6,7 @@
 
 namespace sikku {
 
-/// A picture file without metadata, and what is needed of these.
+/// A picture file without metadata, and the metadata that are needed.
 struct BarePicture {
     const char* format = "";  ///< name of OpenImageIO's reader
     std::string bytes;

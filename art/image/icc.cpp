@@ -80,10 +80,10 @@ struct CurveFreer {
     void operator()(cmsToneCurve* curve) const { cmsFreeToneCurve(curve); }
 };
 
-/// What the library complains of is told by what its functions return.
+/// Errors of the library are reported by the return values of its functions.
 struct Context {
     Context() : handle(cmsCreateContext(Memory::plugin(), &memory)) {
-        if (!handle) throw std::runtime_error("lcms2: no memory");
+        if (!handle) throw std::runtime_error("lcms2: out of memory");
         cmsSetLogErrorHandlerTHR(handle, [](cmsContext, cmsUInt32Number, const char*) {});
     }
     ~Context() { cmsDeleteContext(handle); }
@@ -96,9 +96,9 @@ struct Context {
 
 std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
     cmsUInt32Number size = 0;
-    if (!profile || !cmsSaveProfileToMem(profile, nullptr, &size)) throw std::runtime_error("lcms2: no memory");
+    if (!profile || !cmsSaveProfileToMem(profile, nullptr, &size)) throw std::runtime_error("lcms2: out of memory");
     std::vector<std::uint8_t> bytes(size);
-    if (!cmsSaveProfileToMem(profile, bytes.data(), &size)) throw std::runtime_error("lcms2: no memory");
+    if (!cmsSaveProfileToMem(profile, bytes.data(), &size)) throw std::runtime_error("lcms2: out of memory");
     // The time at which it was made, ICC.1:2010, 7.2.8: that of the standard's year, so that it does not change.
     constexpr std::uint8_t date[12] = {1999 >> 8, 1999 & 0xFF, 0, 1, 0, 1};
     std::copy(std::begin(date), std::end(date), bytes.begin() + 24);
@@ -137,7 +137,7 @@ std::vector<std::uint8_t> grey_profile() {
     // The curve of sRGB as lcms2 itself has it: type 4 is ((x + 0.055) / 1.055)^2.4, below 0.04045 x / 12.92.
     const cmsFloat64Number values[] = {2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045};
     const std::unique_ptr<cmsToneCurve, CurveFreer> curve(cmsBuildParametricToneCurve(context.handle, 4, values));
-    if (!curve) throw std::runtime_error("lcms2: no memory");
+    if (!curve) throw std::runtime_error("lcms2: out of memory");
     const Profile profile(cmsCreateGrayProfileTHR(context.handle, cmsD50_xyY(), curve.get()));
     return saved(profile.get());
 }
@@ -178,7 +178,7 @@ InkTransform::InkTransform(const std::filesystem::path& file) : handles_(std::ma
     if (!inks) refuse(file, "it is not an ICC profile");
     if (cmsGetColorSpace(inks.get()) != cmsSigCmykData) refuse(file, "its colours are not CMYK");
     const Profile colours(cmsCreate_sRGBProfileTHR(context));
-    if (!colours) throw std::runtime_error("lcms2: no memory");
+    if (!colours) throw std::runtime_error("lcms2: out of memory");
     handles_->transform =
         cmsCreateTransformTHR(context, colours.get(), TYPE_RGB_8, inks.get(), TYPE_CMYK_8,
                               INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);

@@ -67,8 +67,7 @@ const ImageModule& image_module(int threads = 0) {
 #ifdef SIKKU_MODULE_INSTALLED
         if (const ImageModule* found = load(SIKKU_MODULE_INSTALLED)) return *found;
 #endif
-        throw std::runtime_error("raster images need the module with OpenImageIO, which could not be loaded:" +
-                                 reasons);
+        throw std::runtime_error("pictures need the module with OpenImageIO, which could not be loaded:" + reasons);
     }();
     return loaded;
 }
@@ -102,7 +101,7 @@ bool is_picture(std::string_view bytes) {
     };
     return bytes.starts_with("\xFF\xD8\xFF"sv) || bytes.starts_with("\x89PNG\r\n\x1A\n"sv) ||
            is_any_of(bytes.substr(0, 4), {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) ||
-           (bytes.starts_with("RIFF"sv) && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP"sv) ||
+           bytes.starts_with("RIFF"sv) ||
            (bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp"sv &&
             is_any_of(bytes.substr(8, 4), {"heic"sv, "heix"sv, "mif1"sv, "avif"sv})) ||
            (bytes.starts_with("BM"sv) && bytes.size() >= 18 && bytes.substr(6, 4) == "\0\0\0\0"sv);

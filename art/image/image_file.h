@@ -23,7 +23,7 @@ struct ImageSpec {
     std::string title;             ///< Title where the format has one
     std::string description;       ///< ImageDescription
     std::string software;          ///< Software
-    int compression = 6;           ///< of PNG: 1, quick and large, to 9
+    int compression = 6;           ///< level for PNG: 1, quick and large, to 9
     bool icc = true;               ///< PNG, TIFF and JPEG hold the profile of their colours
     std::filesystem::path cmyk{};  ///< ICC profile of inks, which the pixels are turned into; empty: none; TIFF alone
     int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
@@ -42,7 +42,7 @@ inline bool keeps_text(std::string_view format, std::string_view text) {
 ///
 /// PNG and TIFF keep the pixels; JPEG (quality 95), CMYK and one bit have no alpha and lie on white; EXR is 16-bit
 /// linear light with associated alpha. CMYK is relative colorimetric with black point compensation; of one bit white
-/// is what has at least half the luminance. JPEG and TIFF leave out texts that they would not keep: see keeps_text().
+/// is what has at least half the luminance. JPEG and TIFF leave out texts that they cannot store: see keeps_text().
 class ImageWriter {
 public:
     virtual ~ImageWriter() = default;
@@ -109,7 +109,7 @@ bool is_picture(std::string_view first_bytes);
 /// Reads the first picture of a file: upright, as its EXIF orientation says, transparent parts on white, averaged
 /// over squares of pixels until no side is longer than `longest_side`. Safe for untrusted files: sizes are checked
 /// before pixels are decoded. Loads the module, too. Time: about 25 ms for a million pixels of JPEG.
-/// @throws std::runtime_error, without the name of the file, if it is no such picture, is damaged, or has more than
+/// @throws std::runtime_error, without the name of the file, if it is not a picture, is damaged, or has more than
 /// `most_pixels`; Stopped
 DecodedPicture read_picture(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
                             const Monitor& monitor = {});

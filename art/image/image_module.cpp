@@ -172,7 +172,7 @@ public:
 
 private:
     [[noreturn]] void fail();
-    /// 3 channels, or 1 if there was 1; what is transparent lies on white paper.
+    /// 3 channels, or 1 if there was 1; transparent parts lie on white paper.
     std::span<const std::uint8_t> on_paper(std::span<const std::uint8_t> pixels);
     void write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels);
 
@@ -185,7 +185,7 @@ private:
     std::vector<float> linear_;
 };
 
-/// Of the library as a whole; never fewer than before, as other pictures may be open. To be called by one at a time.
+/// Sets the number of threads of the whole library. It never shrinks, as other pictures may be open. Not thread-safe.
 void set_threads(int threads) {
     static int most = 0;
     // TIFF compresses its strips in parallel only if the pool is larger than this.
@@ -199,19 +199,19 @@ void set_threads(int threads) {
 FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
     const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
                exr = spec.format == "exr";
-    if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown image format: " + spec.format);
+    if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown picture format: " + spec.format);
     if (jpeg && std::max(spec.width, spec.height) > most_jpeg_pixels) {
-        throw std::runtime_error("a JPEG has at most " + std::to_string(most_jpeg_pixels) + " pixels a side");
+        throw std::runtime_error("a JPEG has at most " + std::to_string(most_jpeg_pixels) + " pixels per side");
     }
     if (!tiff && (!spec.cmyk.empty() || spec.bits != 8)) {
-        throw std::runtime_error("only TIFF has CMYK or one bit a pixel");
+        throw std::runtime_error("only TIFF supports CMYK and one bit per channel");
     }
     if (spec.bits != 8 && (spec.bits != 1 || !spec.cmyk.empty())) {
-        throw std::runtime_error("a picture has 8 bits a channel, or 1 and no inks");
+        throw std::runtime_error("expected 8 bits per channel, or 1 without CMYK");
     }
     const bool bitmap = spec.bits == 1;
     if (!spec.cmyk.empty()) inks_.emplace(spec.cmyk);
-    // Debian's OpenImageIO would tell the terminal what it thinks of attributes.
+    // Debian's OpenImageIO would print warnings about attributes.
     OIIO::attribute("debug", 0);
     set_threads(spec.threads);
     output_ = OIIO::ImageOutput::create(png ? "png" : tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
@@ -272,10 +272,10 @@ FileWriter::~FileWriter() {
 
 void FileWriter::fail() {
     std::string message = output_->geterror();
-    // The cause, if there is one, tells more than what became of it in a library.
+    // The original cause, if known, is more informative than the error of the library.
     file_.check();
     while (!message.empty() && message.back() == '\n') message.pop_back();
-    throw std::runtime_error(message.empty() ? "the image could not be written" : message);
+    throw std::runtime_error(message.empty() ? "the picture could not be written" : message);
 }
 
 void FileWriter::write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels) {
@@ -351,14 +351,14 @@ void FileWriter::close() {
     file_.finish();
 }
 
-/// Of the library, which writes GIF by itself and tells nothing of a full disk: its last byte does.
+/// Writes through the library, which does not report a full disk: the file's last byte shows whether all was written.
 class GifWriter final : public AnimationWriter {
 public:
     GifWriter(const std::filesystem::path& path, int width, int height)
         : path_(path), spec_(width, height, 3, OIIO::TypeDesc::UINT8) {
         // The library counts bytes in 31 bits.
         if (std::max(width, height) > 65'535 || std::int64_t{width} * height > 100'000'000) {
-            throw std::runtime_error("a GIF has at most 65,535 pixels a side and 100 million in all");
+            throw std::runtime_error("a GIF has at most 65,535 pixels per side and 100 million in all");
         }
         OIIO::attribute("debug", 0);
         output_ = OIIO::ImageOutput::create("gif");
@@ -393,7 +393,7 @@ private:
             file.seekg(at);
             return file.get();
         };
-        /// Bytes of a table of colours, by the packed fields of what it belongs to.
+        /// Bytes of a colour table, by the packed fields of its block.
         const auto table = [](int packed) {
             return (packed & 0x80) != 0 ? std::int64_t{3} << ((packed & 7) + 1) : 0;
         };
@@ -426,7 +426,7 @@ private:
     bool is_begun_ = false;
 };
 
-/// The library does not bear two who wake it, or set its threads, at once.
+/// The library cannot be initialised, or its threads be set, by two threads at once.
 std::mutex opening;
 
 std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height) {

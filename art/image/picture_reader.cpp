@@ -17,7 +17,7 @@
 namespace sikku {
 namespace {
 
-/// What a decoder may hold at once.
+/// Largest memory for one decoded picture, and largest file.
 constexpr std::uint64_t most_bytes = 800'000'000;
 constexpr std::size_t most_file_bytes = 256'000'000;
 
@@ -95,9 +95,9 @@ private:
 }  // namespace
 
 PictureReader::PictureReader(const std::filesystem::path& path, std::uint64_t most_pixels) {
-    if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("not a file that can be read");
+    if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("not a regular file");
     std::string bytes = read_file(path, path.string(), most_file_bytes);
-    if (bytes.size() > most_file_bytes) throw std::runtime_error("pictures are at most 256 MB large");
+    if (bytes.size() > most_file_bytes) throw std::runtime_error("the picture is larger than 256 MB");
     BarePicture bare = bare_picture(std::move(bytes), most_pixels);
     orientation_ = bare.orientation;
     input_ = OIIO::ImageInput::create(bare.format);
@@ -109,12 +109,12 @@ PictureReader::PictureReader(const std::filesystem::path& path, std::uint64_t mo
     memory_ = memfd_create("picture", MFD_CLOEXEC);
     for (std::size_t at = 0; at < bare.bytes.size();) {
         const ssize_t written = memory_ < 0 ? -1 : ::write(memory_, bare.bytes.data() + at, bare.bytes.size() - at);
-        if (written <= 0) throw std::runtime_error("there is no memory for the picture");
+        if (written <= 0) throw std::runtime_error("the picture does not fit into memory");
         at += static_cast<std::size_t>(written);
     }
-    if (!input_->open("/proc/self/fd/" + std::to_string(memory_), spec_)) fail("the picture cannot be opened");
+    if (!input_->open(memory_name(), spec_)) fail("the picture is damaged");
     if (spec_.width < 1 || spec_.height < 1 || spec_.depth > 1 || spec_.nchannels < 1 || spec_.nchannels > 5) {
-        throw std::runtime_error("not a picture in colours or grey");
+        throw std::runtime_error("not a picture in colour or grey");
     }
     const auto pixels = static_cast<std::uint64_t>(spec_.width) * static_cast<std::uint64_t>(spec_.height);
     if (pixels > most_pixels || pixels * spec_.pixel_bytes(true) > most_bytes) {
@@ -134,9 +134,16 @@ PictureReader::~PictureReader() {
     if (memory_ >= 0) ::close(memory_);
 }
 
+std::string PictureReader::memory_name() const {
+    return "/proc/self/fd/" + std::to_string(memory_);
+}
+
 void PictureReader::fail(const std::string& what) {
     std::string message = input_->geterror();
     if (message.empty()) message = OIIO::geterror();
+    // Its name means nothing to a reader of the message.
+    const std::string name = memory_name();
+    if (const std::size_t at = message.find(name); at != std::string::npos) message.replace(at, name.size(), "it");
     for (char& byte : message) {
         if (static_cast<unsigned char>(byte) < ' ') byte = ' ';
     }

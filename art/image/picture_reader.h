@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace sikku {
 
@@ -23,6 +24,7 @@ public:
     DecodedPicture read(int longest_side, const Monitor& monitor);
 
 private:
+    std::string memory_name() const;
     [[noreturn]] void fail(const std::string& what);
     std::unique_ptr<OIIO::ImageInput> input_;
     OIIO::ImageSpec spec_;

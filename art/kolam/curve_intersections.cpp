@@ -125,9 +125,9 @@ void CurveIntersections::meet(const Part& a, const Part& b, int depth) {
         }
     }
     if (depth >= deepest || std::max(length(along_a), length(along_b)) < contact) {
-        // Parallel and as near as can be told.
+        // Parallel, and too near to be separated.
         if (++contacts_ > most_contacts) {
-            throw std::runtime_error("lines that run along each other have no crossings to be found there");
+            throw std::runtime_error("cannot find the crossings of lines that run along each other");
         }
         return (*note_)(a.middle(), b.middle());
     }
@@ -176,7 +176,7 @@ void CurveIntersections::of_segments(const Bezier& a, const Bezier& b, const Not
     const glm::dvec2 between = b[0] - a[0];
     const double length_a = length(along_a);
     const double length_b = length(along_b);
-    // Of an end, how far it lies on the other segment.
+    // Parameter of the end point's foot on the other segment.
     const auto foot = [](glm::dvec2 point, const Bezier& on, double t, bool is_first, const Note& to) {
         const glm::dvec2 along = on[3] - on[0];
         const double s = std::clamp(dot(point - on[0], along) / dot(along, along), 0.0, 1.0);

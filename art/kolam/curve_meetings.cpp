@@ -92,7 +92,7 @@ private:
         }
         return sum;
     }
-    /// A pair is visited in the cell of the lower left corner of what its boxes share.
+    /// A pair is visited in the cell of the lower left corner of the intersection of its boxes.
     bool is_first_cell(std::uint64_t key, const PieceBox& a, const PieceBox& b) const {
         const glm::dvec2 low(std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y));
         if (low.x > std::min(a.high.x, b.high.x) || low.y > std::min(a.high.y, b.high.y)) return false;
@@ -140,10 +140,10 @@ private:
     void mark(std::uint32_t piece, double t, std::uint32_t vertex) {
         const std::uint32_t line = line_of_[piece];
         if (found_.marks.size() >= 2 * most_) {
-            throw BudgetError(fmt::format(
-                "the lines meet more than {} times, which takes more than the budget; a shorter derivation or a "
-                "larger budget helps",
-                most_));
+            throw BudgetError(
+                fmt::format("the lines meet more than {} times, which exceeds the budget; use a shorter derivation "
+                            "or a larger budget",
+                            most_));
         }
         found_.marks.push_back({line, static_cast<double>(piece - lines_.lines[line].begin) + t, vertex});
     }
@@ -236,7 +236,8 @@ VertexHeadings::VertexHeadings(const CurvedLines& lines, const CurveMeetings& me
     }
 }
 
-/// How far along its line a direction may be measured: a quarter of a piece, or of the way to the next mark.
+/// The distance along its line over which a direction may be measured: a quarter of a piece, or of the way to the
+/// next mark.
 double VertexHeadings::room(std::size_t mark, bool is_forward) const {
     const CurveMark& at = meetings_.marks[mark];
     const CurvedLines::Line& line = lines_.lines[at.line];

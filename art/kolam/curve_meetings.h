@@ -21,7 +21,7 @@ struct CurveMark {
 
 /// Vertices where lines meet or cross, themselves included. Points within 1e-6 steps of each other are one vertex.
 struct CurveMeetings {
-    std::vector<glm::dvec2> places;   ///< of the vertices
+    std::vector<glm::dvec2> places;   ///< positions of the vertices
     std::vector<CurveMark> marks;     ///< sorted by line, then by position
     std::vector<std::size_t> begins;  ///< first mark of each line; one more than there are lines
 

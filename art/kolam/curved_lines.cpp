@@ -41,10 +41,10 @@ void CurveReader::begin_stroke(glm::dvec2 start, const Pen& pen) {
 
 void CurveReader::add(const Bezier& curve, bool is_straight) {
     if (pieces_.size() >= most_) {
-        throw BudgetError(fmt::format(
-            "the drawing has more than {} segments, which takes more than the budget; a shorter derivation "
-            "or a larger budget helps",
-            most_));
+        throw BudgetError(
+            fmt::format("the drawing has more than {} segments, which exceeds the budget; use a shorter derivation "
+                        "or a larger budget",
+                        most_));
     }
     pieces_.push_back({curve, pen_, is_straight});
 }

@@ -14,9 +14,9 @@ constexpr std::array<GridDot, 4> square_steps = {{{2, 0}, {0, 2}, {-2, 0}, {0, -
 constexpr std::array<GridDot, 6> triangular_steps = {{{2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}}};
 
 [[noreturn]] void refuse_size() {
-    throw std::runtime_error(
-        fmt::format("a grid of more than {} dots is not made: it and its lines would take more than {} MB of memory",
-                    DotGrid::most_dots, DotGrid::most_dots * 100 / 1'000'000));
+    throw std::runtime_error(fmt::format(
+        "a grid can have at most {} dots: a larger one and its lines would take more than {} MB of memory",
+        DotGrid::most_dots, DotGrid::most_dots * 100 / 1'000'000));
 }
 
 std::uint32_t parity(std::int32_t number) {
@@ -27,7 +27,7 @@ bool is_odd_row(std::size_t row) {
     return row % 2 != 0;
 }
 
-/// The lattice in which centred rows of so many dots stand.
+/// The lattice of centred rows with these numbers of dots.
 DotLattice lattice_of(const std::vector<std::uint32_t>& rows) {
     const DotLattice lattice =
         rows.size() > 1 && rows[0] % 2 != rows[1] % 2 ? DotLattice::triangular : DotLattice::square;
@@ -35,8 +35,8 @@ DotLattice lattice_of(const std::vector<std::uint32_t>& rows) {
         const bool differs = rows[r] % 2 != rows[r - 1] % 2;
         if (differs == (lattice == DotLattice::triangular)) continue;
         throw std::runtime_error(fmt::format(
-            "row {} of the grid has {} dots and the row above it {}: the numbers of a square grid are all "
-            "odd or all even; those of an interlaced grid are odd and even in turn",
+            "row {} of the grid has {} dots and the row above it {}: the numbers of a straight grid are all odd or "
+            "all even; those of an interlaced grid alternate between odd and even",
             r + 1, rows[r], rows[r - 1]));
     }
     return lattice;
@@ -55,7 +55,7 @@ bool is_spindle(const std::vector<std::uint32_t>& rows, std::uint32_t less) {
 }  // namespace
 
 DotGrid::DotGrid(std::vector<std::uint32_t> rows) {
-    if (rows.empty()) throw std::runtime_error("a grid of dots needs a row");
+    if (rows.empty()) throw std::runtime_error("a grid of dots needs at least one row");
     std::uint64_t count = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
         if (rows[r] == 0) throw std::runtime_error(fmt::format("row {} of the grid has no dots", r + 1));
@@ -82,12 +82,12 @@ DotGrid::DotGrid(DotLattice lattice, const std::vector<std::vector<std::int32_t>
             const std::uint32_t found = parity(x) ^ shift;
             if (first.value_or(found) != found) {
                 throw std::runtime_error(
-                    fmt::format("row {} of the grid has a dot between the places of the lattice", r + 1));
+                    fmt::format("row {} of the grid has a dot between the points of the lattice", r + 1));
             }
             first = found;
         }
     }
-    if (count == 0) throw std::runtime_error("a grid of dots needs a dot");
+    if (count == 0) throw std::runtime_error("a grid of dots needs at least one dot");
     place(lattice, columns);
     connect();
 }

@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// How the rows of dots stand: above each other (*ner pulli*), or each in the gaps of its neighbours (*idukku pulli*,
-/// *sandhu pulli*), so that a dot has up to six neighbours, all one spacing away.
+/// Arrangement of the rows of dots: above each other (*ner pulli*), or each in the gaps of its neighbours (*idukku
+/// pulli*, *sandhu pulli*), so that a dot has up to six neighbours, all one spacing away.
 enum class DotLattice : std::uint8_t { square, triangular };
 
 /// A place relative to the middle of the grid's box: x in half spacings to the right, y in half distances of rows
@@ -64,7 +64,7 @@ public:
     GridDot step(std::uint32_t side) const;
     /// Number of groups of dots that no gap connects.
     std::size_t groups() const;
-    /// Centred rows without holes: the dots of each row say all.
+    /// True for centred rows without holes, which the numbers of dots determine.
     bool is_solid() const;
     /// Canonical notation, which parse_dot_grid() reads: `7x7`, `1-3-5-3-1`, `15-8 idukku`, `.o./ooo/.o.`.
     std::string text() const;

@@ -56,8 +56,7 @@ Plan make_plan(const DotGrid& grid, const EnumerationOptions& options) {
     const int most = options.joined ? most_choices_of_three : most_choices;
     if (choices > static_cast<std::size_t>(most)) {
         throw std::runtime_error(fmt::format(
-            "the kolams of {} are not enumerated: its {} {} gaps make {}^{} of them, and beyond {}^{} it "
-            "takes hours",
+            "cannot enumerate the kolams of {}: its {} {} gaps make {}^{} of them, and more than {}^{} take hours",
             printable(grid.text(), 80), choices, options.symmetry == GridSymmetry::none ? "free" : "classes of",
             plan.state_count, choices, plan.state_count, most));
     }
@@ -165,7 +164,7 @@ private:
             for (std::size_t i = 0; i < images.size(); ++i) {
                 toggle(image, images[i], digit(mask_, i));
             }
-            // Of a class only those count that have the symmetry asked for.
+            // Only members of a class with the requested symmetry count.
             if (image < mask_ && has_symmetry_asked(image)) return;
         }
         ++distinct;
@@ -235,7 +234,7 @@ std::string enumeration_json(const DotGrid& grid, GridSymmetry symmetry, const E
 std::string enumeration_text(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {
     std::string text = printable(grid.text(), 80);
     if (symmetry != GridSymmetry::none) text += fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
-    text += fmt::format(": {} states, {} of a single line, {} of them distinct\n", found.states, found.single_line,
+    text += fmt::format(": {} states, {} with a single line, {} of them distinct\n", found.states, found.single_line,
                         found.distinct);
     for (const GapStates& kolam : found.kolams) text += gap_states_text(grid, kolam) + '\n';
     return text;

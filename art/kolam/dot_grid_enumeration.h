@@ -12,17 +12,17 @@ namespace sikku {
 struct EnumerationOptions {
     GridSymmetry symmetry = GridSymmetry::none;  ///< only those that have it
     bool joined = false;                         ///< gaps may be joined, too: three states instead of two
-    std::size_t keep = 0;                        ///< at most so many of them are listed
+    std::size_t keep = 0;                        ///< maximum number of kolams listed
     int threads = 0;                             ///< 0: all cores
     Monitor monitor = {};                        ///< asked on any thread
 };
 
-/// What the kolams of a grid are.
+/// The kolams of a grid.
 struct Enumeration {
     int choices = 0;                ///< gaps, or orbits of gaps, that are decided
     std::uint64_t states = 0;       ///< 2^choices, or 3^choices with joined gaps
-    std::uint64_t single_line = 0;  ///< of one line
-    std::uint64_t distinct = 0;     ///< of these, up to the symmetries of the grid
+    std::uint64_t single_line = 0;  ///< kolams of a single line
+    std::uint64_t distinct = 0;     ///< single lines up to the symmetries of the grid
     /// The first `keep` of the distinct ones: of each class the least when written as digits, in that order.
     std::vector<GapStates> kolams;
 };

@@ -12,8 +12,8 @@
 
 namespace sikku {
 
-/// What the two strands in a gap do. Source for the third state: Jablan, Radović, Sazdanović & Zeković, Mirror-curves
-/// and knot mosaics, 2012 (mirrors across a gap or along it).
+/// Course of the two strands in a gap. Source for the third state: Jablan, Radović, Sazdanović & Zeković,
+/// Mirror-curves and knot mosaics, 2012 (mirrors across a gap or along it).
 enum class GapState : std::uint8_t {
     turned,   ///< they turn back, each around its dot
     crossed,  ///< they cross
@@ -74,7 +74,7 @@ std::size_t count_lines(const DotGrid& grid, const GapStates& states, const Moni
 /// Source: Godsil & Royle, Algebraic Graph Theory, 2001, section 17.5 (straight-ahead walks of the medial graph).
 std::size_t laplacian_nullity(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
 
-/// Which line each arc belongs to, and where on it its ends are.
+/// The line of each arc, and the positions of its ends on that line.
 struct LineLabels {
     std::vector<std::uint32_t> line;  ///< by arc
     std::vector<std::uint32_t>

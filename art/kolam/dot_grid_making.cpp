@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid_making.h"
 
 #include "art/kolam/union_find.h"
+#include "engine/base/chance.h"
 
 #include <algorithm>
 #include <array>
@@ -17,10 +18,7 @@ public:
     explicit SplitMix(std::uint64_t seed) : state_(seed) {}
     std::uint64_t next() {
         state_ += 0x9E3779B97F4A7C15U;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-        z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-        return z ^ (z >> 31U);
+        return scrambled(state_);
     }
     /// In [0, 1).
     double fraction() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
@@ -38,7 +36,7 @@ std::vector<std::uint32_t> shuffled(std::size_t count, SplitMix& chance) {
     return order;
 }
 
-/// What a gap changes to when lines are to be joined.
+/// The state that joins two lines which meet in a gap of this state.
 GapState changed(GapState state) {
     return state == GapState::crossed ? GapState::turned : GapState::crossed;
 }
@@ -166,7 +164,7 @@ void connect(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, Spli
 GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
     for (const double share : {kolam.density, kolam.joined}) {
         if (!(share >= 0 && share <= 1)) {
-            throw std::runtime_error("the shares of crossed and of joined gaps are between 0 and 1");
+            throw std::runtime_error("the shares of crossed and joined gaps must be between 0 and 1");
         }
     }
     const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
@@ -187,12 +185,13 @@ GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
 
 std::vector<GridSymmetry> usual_symmetries(const DotGrid& grid, bool single_line) {
     std::vector<GridSymmetry> found;
+    const bool is_possible = !single_line || grid.groups() == 1;
     for (const GridSymmetry symmetry :
          {GridSymmetry::d6, GridSymmetry::d4, GridSymmetry::c6, GridSymmetry::d3, GridSymmetry::d3_y,
           GridSymmetry::c4, GridSymmetry::mirrors, GridSymmetry::diagonals, GridSymmetry::c3, GridSymmetry::c2,
           GridSymmetry::mirror_x, GridSymmetry::mirror_y, GridSymmetry::diagonal}) {
-        if (!has_symmetry(grid, symmetry)) continue;
-        if (!single_line || !single_line_obstacle(grid, symmetry)) found.push_back(symmetry);
+        if (!is_possible || !has_symmetry(grid, symmetry)) continue;
+        if (!single_line || !symmetry_obstacle(grid, symmetry)) found.push_back(symmetry);
     }
     found.push_back(GridSymmetry::none);
     return found;
@@ -218,34 +217,36 @@ std::size_t make_single_line(const DotGrid& grid, GapStates& states, std::uint64
 }
 
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts,
-                                           const Monitor& monitor) {
+                                           const Monitor& monitor, std::uint64_t* steps_left) {
     if (grid.groups() > 1) return std::nullopt;
     if (kolam.symmetry == GridSymmetry::none) {
         SingleLine found{random_states(grid, kolam), 0, 1};
         found.changed = make_single_line(grid, found.states, kolam.seed, monitor);
         return found;
     }
+    std::uint64_t own_steps = 3'000'000'000;
+    std::uint64_t& steps = steps_left ? *steps_left : own_steps;
+    if (steps == 0) return std::nullopt;
     const std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, kolam.symmetry));
-    std::uint64_t steps_left = 3'000'000'000;
     LineLabels labels;
     RandomKolam attempted = kolam;
     SplitMix seeds(kolam.seed);
     Pulse pulse(monitor);
-    for (int attempt = 1; attempt <= attempts; ++attempt, attempted.seed = seeds.next()) {
+    for (int attempt = 1; attempt <= attempts && steps > 0; ++attempt, attempted.seed = seeds.next()) {
         monitor.check();
         const GapStates begun = random_states(grid, attempted);
         SingleLine found{begun, 0, attempt};
         SplitMix chance(attempted.seed);
         join_orbits(grid, members, chance, found.states, labels, monitor);
         label_lines(grid, found.states, labels, monitor);
-        for (bool improved = true; improved && labels.starts.size() > 1;) {
+        for (bool improved = true; improved && steps > 0 && labels.starts.size() > 1;) {
             improved = false;
             for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
                 pulse();
-                if (lines_gained(grid, found.states, labels, members[orbit]) >= 0) continue;
+                if (steps == 0 || lines_gained(grid, found.states, labels, members[orbit]) >= 0) continue;
                 for (const std::uint32_t i : members[orbit]) found.states[i] = changed(found.states[i]);
                 label_lines(grid, found.states, labels, monitor);
-                steps_left -= std::min<std::uint64_t>(steps_left, labels.line.size());
+                steps -= std::min<std::uint64_t>(steps, labels.line.size());
                 improved = true;
             }
         }
@@ -253,8 +254,8 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
             for (std::size_t i = 0; i < begun.size(); ++i) found.changed += begun[i] != found.states[i];
             return found;
         }
-        steps_left -= std::min<std::uint64_t>(steps_left, 4 * labels.line.size());
-        if (steps_left == 0) break;
+        // Every gap was looked at several times.
+        steps -= std::min<std::uint64_t>(steps, 16 * labels.line.size());
     }
     return std::nullopt;
 }

@@ -12,8 +12,8 @@ namespace sikku {
 
 struct RandomKolam {
     std::uint64_t seed = 0;
-    double density = 0.7;  ///< of the gaps that are crossings, 0 to 1
-    double joined = 0.0;   ///< of the other gaps that are joined, 0 to 1
+    double density = 0.7;  ///< share of crossed gaps, 0 to 1
+    double joined = 0.0;   ///< share of joined gaps among the others, 0 to 1
     GridSymmetry symmetry = GridSymmetry::none;
     /// Crosses further gaps, with their images, until lines around neighbouring dots connect all dots of a group: no
     /// ring around a dot alone, and no piece apart.
@@ -42,8 +42,9 @@ struct SingleLine {
 /// Without a symmetry random_states(), then make_single_line(). With one, whole orbits are changed as long as that
 /// leaves fewer lines; where that ends with several, the next attempt starts from another seed, made from the first.
 /// Nothing if `attempts` attempts, or 3 * 10^9 steps along lines, did not lead to one, or the dots are not connected.
+/// @param steps_left  instead of 3 * 10^9 steps, those that several calls share
 /// @throws as random_states()
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,
-                                           const Monitor& monitor = {});
+                                           const Monitor& monitor = {}, std::uint64_t* steps_left = nullptr);
 
 }  // namespace sikku

@@ -45,15 +45,49 @@ bool is_hole(char byte) {
     return byte == '.' || byte == '_';
 }
 
-/// Text of dots, holes, blanks and ends of rows only, with a dot among them.
+bool is_row_end(char byte) {
+    return byte == '/' || byte == '\n';
+}
+bool is_of_shape(char byte) {
+    return is_drawn_dot(byte) || is_hole(byte) || is_row_end(byte) || byte == ' ' || byte == '\r';
+}
+/// Bytes within a character of UTF-8.
+bool is_continuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80;
+}
+
+/// Text of more places than other characters, or of as many in several rows: words and numbers have fewer.
 bool is_shape(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), is_drawn_dot) &&
-           std::all_of(text.begin(), text.end(), [](char byte) {
-               return is_drawn_dot(byte) || is_hole(byte) || std::string_view(" \r\n/").find(byte) < 4;
-           });
+    const auto places =
+        std::count_if(text.begin(), text.end(), [](char byte) { return is_drawn_dot(byte) || is_hole(byte); });
+    const auto others = std::count_if(text.begin(), text.end(),
+                                      [](char byte) { return !is_of_shape(byte) && !is_continuation(byte); });
+    return places > others || (places > 0 && places == others && std::any_of(text.begin(), text.end(), is_row_end));
+}
+
+/// Refuses characters that are not places.
+void check_shape(std::string_view text) {
+    std::size_t row = 1;
+    std::size_t column = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (is_row_end(text[at])) {
+            ++row;
+            column = 0;
+        } else if (!is_continuation(text[at])) {
+            ++column;
+        }
+        if (is_of_shape(text[at])) continue;
+        std::size_t end = at + 1;
+        while (end < text.size() && is_continuation(text[end])) ++end;
+        refuse(text, fmt::format("line {}, column {}: '{}' is not a place; expected o, O, * or # for a dot, . or _ "
+                                 "for none, or a blank",
+                                 row, column, printable(text.substr(at, end - at), 8)));
+    }
+    if (std::none_of(text.begin(), text.end(), is_drawn_dot)) refuse(text, "the shape has no dots");
 }
 
 DotGrid parse_shape(std::string_view text) {
+    check_shape(text);
     std::vector<std::string_view> lines;
     for (std::size_t at = 0; at <= text.size();) {
         const std::size_t end = std::min(text.find_first_of("/\n", at), text.size());
@@ -77,9 +111,9 @@ DotGrid parse_shape(std::string_view text) {
             if (!is_dense) {
                 const auto found = static_cast<std::uint32_t>(i % 2);
                 if (parity[r % 2].value_or(found) != found) {
-                    refuse(text, fmt::format("column {} of row {} lies between the places of the lattice: in rows "
-                                             "with blanks all dots stand in odd columns, or all in even ones, and "
-                                             "rows either agree or alternate",
+                    refuse(text, fmt::format("column {} of row {} lies between the points of the lattice: in "
+                                             "a row with blanks, all dots stand in odd columns or all in even ones, "
+                                             "and rows either agree or alternate",
                                              i + 1, r + 1));
                 }
                 parity[r % 2] = found;
@@ -222,8 +256,8 @@ private:
         if (sort_ != Sort::unknown && grid.rows().size() > 1 &&
             (sort_ == Sort::interlaced) != (grid.lattice() == DotLattice::triangular)) {
             refuse(text_, sort_ == Sort::interlaced
-                              ? "the rows of an interlaced grid have odd and even numbers of dots in turn"
-                              : "the rows of a straight grid have odd numbers of dots, or all even ones");
+                              ? "the rows of an interlaced grid alternate between odd and even numbers of dots"
+                              : "the rows of a straight grid have all odd or all even numbers of dots");
         }
         return grid;
     }
@@ -245,11 +279,14 @@ private:
         const bool is_interlaced =
             sort_ == Sort::interlaced || (sort_ == Sort::unknown && (difference % 2 != 0 || longest + 1 == 2 * last));
         if (!is_interlaced && difference % 2 != 0) {
-            refuse(text_, fmt::format("straight rows become two dots shorter each, so from {} they do not come to {}",
-                                      longest, last));
+            refuse(
+                text_,
+                fmt::format(
+                    "each straight row is two dots shorter than the one before, so that rows from {} never reach {}",
+                    longest, last));
         }
         if (is_interlaced && count > 1) {
-            refuse(text_, "interlaced rows of one length cannot stand next to each other");
+            refuse(text_, "interlaced rows of the same length cannot be neighbours");
         }
         const std::uint32_t less = is_interlaced ? 1 : 2;
         check_size(longest, std::uint64_t{2} * (difference / less) + count);

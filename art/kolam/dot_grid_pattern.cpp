@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid_pattern.h"
 
 #include "art/print/ornaments.h"
+#include "engine/base/text.h"
 #include "engine/language/pattern.h"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ HalfSteps operator-(const HalfSteps& a, const HalfSteps& b) {
     return {a.first - b.first, a.second - b.second};
 }
 
-/// How a lattice is walked, as the turtle is before the drawing is turned.
+/// Directions in which the turtle walks a lattice, before the drawing is turned.
 struct Walk {
     std::uint32_t headings;  ///< per full turn
     glm::dvec2 first;        ///< half a step along the axes
@@ -271,6 +272,14 @@ private:
 
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
     return PatternWriter(grid, states, options).pattern();
+}
+
+std::string_view kolam_comment(std::string_view pattern, std::string_view name) {
+    const std::string mark = fmt::format("\n// {}: ", name);
+    const std::size_t at = pattern.find(mark);
+    if (at == std::string_view::npos) return {};
+    const std::string_view rest = pattern.substr(at + mark.size());
+    return trimmed(rest.substr(0, rest.find_first_of("\r\n")));
 }
 
 }  // namespace sikku

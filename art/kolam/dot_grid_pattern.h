@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sikku {
@@ -21,7 +22,7 @@ struct KolamPatternOptions {
 };
 
 struct KolamPattern {
-    std::string text;              ///< of the pattern file
+    std::string text;              ///< text of the pattern file
     std::vector<glm::dvec2> dots;  ///< where the turtle's plane has the dots, in the order of DotGrid::dots()
     std::size_t lines = 0;
 };
@@ -37,5 +38,8 @@ struct KolamPattern {
 /// Steps are whole (or halves, to dots), so that every position is exact.
 /// @throws std::runtime_error if the text were too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
+
+/// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps), or empty.
+std::string_view kolam_comment(std::string_view pattern, std::string_view name);
 
 }  // namespace sikku

@@ -58,7 +58,7 @@ const Group& group_of(GridSymmetry symmetry) {
     return groups[static_cast<std::size_t>(symmetry)];
 }
 
-/// Whether the lattice itself has the symmetry.
+/// True if the lattice itself has the symmetry.
 bool is_of_lattice(DotLattice lattice, GridSymmetry symmetry) {
     switch (symmetry) {
         case GridSymmetry::c4:
@@ -205,6 +205,13 @@ constexpr std::array<GridSymmetry, 14> symmetry_list = {
     GridSymmetry::mirrors, GridSymmetry::diagonals, GridSymmetry::d3,       GridSymmetry::d3_y,
     GridSymmetry::d4,      GridSymmetry::d6};
 
+std::string no_single_line(const DotGrid& grid, GridSymmetry symmetry, std::string_view reason) {
+    const std::string whose = symmetry == GridSymmetry::none
+                                  ? std::string()
+                                  : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
+    return fmt::format("there is no single line on {}{}: {}", printable(grid.text(), 80), whose, reason);
+}
+
 }  // namespace
 
 GridSymmetry parse_grid_symmetry(std::string_view text) {
@@ -244,7 +251,7 @@ void require_symmetry(const DotGrid& grid, GridSymmetry symmetry) {
     if (has_symmetry(grid, symmetry)) return;
     std::string reason;
     if (!is_of_lattice(grid.lattice(), symmetry)) {
-        reason = grid.lattice() == DotLattice::square ? "; square grids have C2, C4, mirrors and D4"
+        reason = grid.lattice() == DotLattice::square ? "; straight grids have C2, C4, mirrors and D4"
                                                       : "; interlaced grids have C2, C3, C6, mirrors, D3 and D6";
     }
     throw std::runtime_error(fmt::format("the grid {} itself does not have the symmetry {}{}",
@@ -363,45 +370,44 @@ std::string kolam_code(const DotGrid& grid, const GapStates& states) {
 }
 
 std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined) {
-    const auto because = [&](std::string_view reason) {
-        const std::string whose = symmetry == GridSymmetry::none
-                                      ? std::string()
-                                      : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
-        return fmt::format("there is no single line on {}{}: {}", printable(grid.text(), 80), whose, reason);
-    };
     if (const std::size_t groups = grid.groups(); groups > 1) {
-        return because(fmt::format("its dots fall into {} groups that no gap connects", groups));
+        return no_single_line(grid, symmetry,
+                              fmt::format("its dots fall into {} groups that no gap connects", groups));
     }
+    return symmetry_obstacle(grid, symmetry, joined);
+}
+
+std::optional<std::string> symmetry_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined) {
+    const auto because = [&](std::string_view reason) { return no_single_line(grid, symmetry, reason); };
     if (symmetry == GridSymmetry::none) return std::nullopt;
     const Group& group = group_of(symmetry);
     const DotMap map(grid);
     if (group.rotations > 2 && group.rotations % 2 == 0 && !map.has_dot_at_centre()) {
         return because(
-            fmt::format("a line that {} leaves as it is has a dot in its middle, so the grid has to have one "
-                        "there, as {} does",
+            fmt::format("a line that {} maps onto itself has a dot in its middle, so the grid needs a dot "
+                        "there, as in {}",
                         group.rotations == 4 ? "a quarter turn" : "a sixth of a turn",
                         group.rotations == 4 ? "7x7" : "7-4 idukku"));
     }
     if (group.rotations == 2 && !map.has_dot_at_centre() && !map.has_gap_at_centre()) {
         return because(
-            "a line that a half turn leaves as it is has a dot or a crossing in its middle, so the grid has to have "
-            "a "
-            "dot or a gap there, as 7x7 and 6x7 do");
+            "a line that a half turn maps onto itself has a dot or a crossing in its middle, so the grid needs "
+            "a dot or a gap there, as in 7x7 and 6x7");
     }
     for (const Isometry& mirror : mirrors_of(group)) {
         const DotMap::Axis axis = map.axis(mirror);
         if (axis.meetings > 2) {
             const int rotations = group.rotations;
-            return because(
-                fmt::format("a line meets an axis of its symmetry twice, and here it meets one {} times, at its {}{}",
-                            axis.meetings, counted(axis.dots, "dot"),
-                            rotations == 4   ? "; C4 is the most a single line can have"
-                            : rotations == 6 ? "; C6 is the most a single line can have"
-                            : rotations == 3 ? "; C3 is possible, or D3 with other axes"
-                                             : ""));
+            return because(fmt::format(
+                "a line meets each axis of its symmetry twice, but here it would meet one {} times, at its {}{}",
+                axis.meetings, counted(axis.dots, "dot"),
+                rotations == 4   ? "; C4 is the most a single line can have"
+                : rotations == 6 ? "; C6 is the most a single line can have"
+                : rotations == 3 ? "; C3 is possible, or D3 with other axes"
+                                 : ""));
         }
         if (axis.meetings == 0 && group.rotations > 2 && !axis.has_gap && !joined) {
-            return because("a line meets each axis of such a symmetry twice, and here one has no dots");
+            return because("a line meets each axis of such a symmetry twice, but here an axis has no dots");
         }
     }
     return std::nullopt;

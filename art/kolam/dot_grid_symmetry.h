@@ -79,4 +79,7 @@ std::string kolam_code(const DotGrid& grid, const GapStates& states);
 /// @param joined  gaps may be joined, too: then a mirror may meet the line there
 std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined = false);
 
+/// single_line_obstacle() of a grid whose dots are connected.
+std::optional<std::string> symmetry_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined = false);
+
 }  // namespace sikku

@@ -1,6 +1,10 @@
 #include "art/kolam/dots.h"
 
+#include "engine/geometry/bezier.h"
+#include "engine/geometry/point_tree.h"
+
 #include <array>
+#include <numeric>
 
 namespace sikku::kolam_plane {
 namespace {
@@ -55,7 +59,7 @@ void flip_within(std::span<const glm::dvec2> loop, const SegmentGrid& near, std:
     });
 }
 
-/// Of a spline the dots have to lie within the curve, not only within its control polygon. Between the two, at
+/// The dots of a spline have to lie within the curve, not only within its control polygon. Between the two, at
 /// each span, lies a small loop; a dot in it changes sides.
 void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines& lines, const KolamOptions& options,
                    std::vector<KolamDot>& dots) {
@@ -111,7 +115,143 @@ void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines
     }
 }
 
+/// Calls `visit` for each curve of a stroke, in order.
+template <class Visit>
+void visit_curves(const PlanarGraph& graph, std::span<const std::uint32_t> nodes, bool closed, bool spline,
+                  Visit&& visit) {
+    const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
+    const auto control = [&](std::ptrdiff_t j) {
+        j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
+        return graph.node_places[nodes[static_cast<std::size_t>(j)]];
+    };
+    const std::ptrdiff_t more = spline && !closed ? 1 : 0;  // an open spline begins and ends in its end points
+    for (std::ptrdiff_t j = -more; j < count + more; ++j) {
+        const glm::dvec2 b = control(j), c = control(j + 1);
+        if (!spline) {
+            visit(straight_curve(b, c));
+            continue;
+        }
+        const glm::dvec2 a = control(j - 1), d = control(j + 2);
+        visit({(a + 4.0 * b + c) / 6.0, (2.0 * b + c) / 3.0, (b + 2.0 * c) / 3.0, (b + 4.0 * c + d) / 6.0});
+    }
+}
+
+/// Finds the dots that a line runs through, and counts how often each line runs around each dot.
+class Winding {
+public:
+    Winding(std::vector<KolamDot>& dots, const Monitor& monitor)
+        : dots_(dots), pulse_(monitor), times_(dots.size()), is_touched_(dots.size()) {}
+
+    /// Parts of a line may have different directions, so that only the parity of crossings counts.
+    void add(const Bezier& curve, bool is_closed_stroke) {
+        const auto [left, right] = std::minmax({curve[0].x, curve[1].x, curve[2].x, curve[3].x});
+        const auto [bottom, top] = std::minmax({curve[0].y, curve[1].y, curve[2].y, curve[3].y});
+        const auto first = std::lower_bound(dots_.begin(), dots_.end(), bottom - 2 * steps_are_one,
+                                            [](const KolamDot& dot, double y) { return dot.at.y < y; });
+        for (auto dot = first; dot != dots_.end() && dot->at.y <= top + 2 * steps_are_one; ++dot) {
+            pulse_();
+            if (dot->at.x > right + 2 * steps_are_one) continue;
+            const auto number = static_cast<std::size_t>(dot - dots_.begin());
+            if (dot->at.x < left - 2 * steps_are_one) {
+                pass(number, curve[0], curve[3], is_closed_stroke);
+            } else {
+                pass_near(number, curve, is_closed_stroke);
+            }
+        }
+    }
+    void end_line(bool is_closed) {
+        for (const std::size_t number : touched_) {
+            if (is_closed && times_[number] != 0) dots_[number].is_enclosed = true;
+            times_[number] = 0;
+            is_touched_[number] = 0;
+        }
+        touched_.clear();
+    }
+
+private:
+    /// A chord on the right of a dot, or around it.
+    void pass(std::size_t number, glm::dvec2 a, glm::dvec2 b, bool is_closed_stroke) {
+        const glm::dvec2 at = dots_[number].at;
+        if ((a.y > at.y) == (b.y > at.y)) return;
+        if (at.x >= a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) return;
+        if (!is_touched_[number]) touched_.push_back(number);
+        is_touched_[number] = 1;
+        int& times = times_[number];
+        times = is_closed_stroke ? times + (b.y > a.y ? 1 : -1) : 1 - times;
+    }
+    void pass_near(std::size_t number, const Bezier& curve, bool is_closed_stroke) {
+        KolamDot& dot = dots_[number];
+        glm::dvec2 from = curve[0];
+        flatten(curve[0], curve[1], curve[2], curve[3], steps_are_one / 4, [&](glm::dvec2 to) {
+            pulse_();
+            const glm::dvec2 way = to - from, apart = dot.at - from;
+            const double square = way.x * way.x + way.y * way.y;
+            const double share =
+                square > 0 ? std::clamp((apart.x * way.x + apart.y * way.y) / square, 0.0, 1.0) : 0.0;
+            const glm::dvec2 gap = apart - share * way;
+            dot.is_on_line |= std::hypot(gap.x, gap.y) <= steps_are_one;
+            pass(number, from, to, is_closed_stroke);
+            from = to;
+        });
+    }
+
+    std::vector<KolamDot>& dots_;
+    Pulse pulse_;
+    std::vector<int> times_;
+    std::vector<char> is_touched_;
+    std::vector<std::size_t> touched_;
+};
+
+/// Rounding must not put the dots of one row out of order.
+void sort_rows(std::vector<KolamDot>& dots, const KolamOptions& options) {
+    const auto key = [](const KolamDot& mark) {
+        return std::pair(std::round(mark.at.y * 1e6), std::round(mark.at.x * 1e6));
+    };
+    sort(options, dots, [&](const KolamDot& a, const KolamDot& b) { return key(a) < key(b); });
+}
+
 }  // namespace
+
+bool has_dots_elsewhere(std::span<const glm::dvec2> discs, const std::vector<KolamDot>& set) {
+    if (discs.size() < 3) return false;
+    std::vector<glm::dvec2> places;
+    for (const KolamDot& mark : set) places.push_back(mark.at);
+    const PointTree tree(places);
+    std::vector<PointTree::Near> found;
+    return std::any_of(discs.begin(), discs.end(), [&](glm::dvec2 disc) {
+        tree.nearest(disc, 0.25, 1, found);
+        return found.empty();
+    });
+}
+
+std::vector<KolamDot> own_dots(const PlanarGraph& graph, const Strokes& strokes, const Lines& lines,
+                               const KolamOptions& options) {
+    std::vector<KolamDot> dots;
+    for (const glm::dvec2 disc : strokes.discs) dots.push_back({.at = disc, .is_alone = true});
+    sort(options, dots,
+         [](const KolamDot& a, const KolamDot& b) { return std::pair(a.at.y, a.at.x) < std::pair(b.at.y, b.at.x); });
+    Winding winding(dots, options.monitor);
+    std::vector<std::size_t> order(strokes.count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return lines.line_of_stroke[a] < lines.line_of_stroke[b]; });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::size_t i = order[k];
+        const bool closed = strokes.closed[i];
+        visit_curves(graph, strokes.stroke(i), closed, options.spline,
+                     [&](const Bezier& curve) { winding.add(curve, closed); });
+        if (k + 1 == order.size() || lines.line_of_stroke[order[k + 1]] != lines.line_of_stroke[i]) {
+            winding.end_line(!lines.is_stroke_of_open_line[i]);
+        }
+    }
+    sort_rows(dots, options);
+    const auto same = [](const KolamDot& a, const KolamDot& b) {
+        return std::hypot(a.at.x - b.at.x, a.at.y - b.at.y) <= steps_are_one;
+    };
+    for (KolamDot& mark : dots) mark.is_enclosed &= !mark.is_on_line;
+    dots.erase(std::unique(dots.begin(), dots.end(), same), dots.end());
+    return dots;
+}
 
 std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, const Strokes& strokes,
                                const Lines& lines, const KolamOptions& options) {
@@ -142,11 +282,7 @@ std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, con
         dots.push_back(mark);
     }
     if (options.spline) ask_the_curve(graph, strokes, lines, options, dots);
-    // Rounding must not put the dots of one row out of order.
-    const auto key = [](const KolamDot& mark) {
-        return std::pair(std::round(mark.at.y * 1e6), std::round(mark.at.x * 1e6));
-    };
-    sort(options, dots, [&](const KolamDot& a, const KolamDot& b) { return key(a) < key(b); });
+    sort_rows(dots, options);
     return dots;
 }
 

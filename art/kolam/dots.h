@@ -4,6 +4,7 @@
 #include "art/kolam/faces.h"
 #include "art/kolam/lines.h"
 
+#include <span>
 #include <vector>
 
 namespace sikku::kolam_plane {
@@ -11,5 +12,13 @@ namespace sikku::kolam_plane {
 /// Places one dot in each odd face, sorted by y, then by x.
 std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, const Strokes& strokes,
                                const Lines& lines, const KolamOptions& options);
+
+/// True if there are three discs or more and one of them lies where no dot is set.
+bool has_dots_elsewhere(std::span<const glm::dvec2> discs, const std::vector<KolamDot>& set);
+
+/// The discs of the pattern as dots, each once, sorted as above. Lines run through those within steps_are_one.
+/// Cost: for each step, O(log n + the number of dots at its height).
+std::vector<KolamDot> own_dots(const PlanarGraph& graph, const Strokes& strokes, const Lines& lines,
+                               const KolamOptions& options);
 
 }  // namespace sikku::kolam_plane

@@ -16,11 +16,11 @@ struct Field {
     std::vector<glm::dvec2> outline;
     bool is_straight = false;   ///< all Béziers are straight lines
     bool is_odd = false;        ///< an odd number of lines lies between it and the outside: it has a dot
-    std::uint32_t corners = 0;  ///< of its outline, holes left out
+    std::uint32_t corners = 0;  ///< corners of its outline, without holes
     double area = 0.0;          ///< in square steps, without its holes
     glm::dvec2 centroid{0.0};
     std::uint32_t distance = 0;         ///< fewest lines to cross on the way outside, 1 or more
-    std::uint32_t orbit = 0;            ///< of the line that runs along most of its outline
+    std::uint32_t orbit = 0;            ///< orbit of the line that runs along most of its outline
     std::vector<std::uint32_t> beside;  ///< fields across a line, sorted
 };
 

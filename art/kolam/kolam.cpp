@@ -9,7 +9,6 @@
 #include "art/kolam/symmetry.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lattice.h"
-#include "engine/geometry/point_tree.h"
 #include "engine/geometry/turtle.h"
 
 #include <fmt/format.h>
@@ -30,7 +29,6 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
     result.is_exact = Plane::is_exact;
     result.tolerance = Plane::is_exact ? 0.0 : steps_are_one;
     result.is_spline = options.spline;
-    result.drawn_dots = strokes.discs;
     result.strokes = strokes.count();
     result.segments = strokes.nodes.size() - strokes.count();
 
@@ -72,6 +70,8 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
     result.orbit_of_line = std::move(symmetry.orbit_of_line);
 
     result.dots = set_dots(graph, faces, strokes, lines, options);
+    result.has_own_dots = has_dots_elsewhere(strokes.discs, result.dots);
+    if (result.has_own_dots) result.dots = own_dots(graph, strokes, lines, options);
     return result;
 }
 
@@ -102,9 +102,15 @@ std::string KolamSymmetry::name() const {
     return fmt::format("{}{}", mirrors > 0 ? 'D' : 'C', rotations);
 }
 
+std::uint64_t KolamExamination::dots_on_lines() const {
+    return static_cast<std::uint64_t>(
+        std::count_if(dots.begin(), dots.end(), [](const KolamDot& mark) { return mark.is_on_line; }));
+}
+
 std::uint64_t KolamExamination::loose_dots() const {
-    return static_cast<std::uint64_t>(std::count_if(
-        dots.begin(), dots.end(), [](const KolamDot& mark) { return !mark.is_enclosed || !mark.is_alone; }));
+    return static_cast<std::uint64_t>(std::count_if(dots.begin(), dots.end(), [](const KolamDot& mark) {
+        return !mark.is_on_line && !(mark.is_enclosed && mark.is_alone);
+    }));
 }
 
 std::vector<std::string> KolamExamination::faults() const {
@@ -119,8 +125,11 @@ std::vector<std::string> KolamExamination::faults() const {
     }
     if (dots.empty()) {
         faults.emplace_back("no closed line goes around a dot");
-    } else if (const std::uint64_t loose = loose_dots(); loose > 0) {
-        faults.push_back(fmt::format("{} of {} {} not circumscribed: the line wanders out of {} sight", loose,
+    } else if (const std::uint64_t loose = loose_dots(); loose > 0 && has_own_dots) {
+        faults.push_back(
+            fmt::format("no line runs around or through {} of {}", loose, counted(dots.size(), "dot", "dots")));
+    } else if (loose > 0) {
+        faults.push_back(fmt::format("{} of {} {} not encircled: the line wanders out of {} sight", loose,
                                      counted(dots.size(), "dot", "dots"), loose == 1 ? "is" : "are",
                                      loose == 1 ? "its" : "their"));
     }
@@ -144,7 +153,7 @@ std::vector<std::string> KolamExamination::remarks() const {
 
 KolamExamination examine_kolam(const Grammar& given, const KolamOptions& options) {
     if (given.is_spatial())
-        throw std::runtime_error("a kolam lies in the plane: this drawing pitches, rolls or bends");
+        throw std::runtime_error("a kolam lies in the plane: this drawing pitches, rolls, bends or has surfaces");
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
@@ -165,14 +174,6 @@ KolamExamination examine_kolam(const Grammar& given, const KolamOptions& options
 std::vector<glm::dvec2> dot_places(const KolamExamination& examination) {
     std::vector<glm::dvec2> places;
     for (const KolamDot& mark : examination.dots) places.push_back(mark.at);
-    if (examination.drawn_dots.size() < 3) return places;
-    // A pattern that draws dots where none would be set knows its dots better.
-    const PointTree set(places);
-    std::vector<PointTree::Near> found;
-    for (const glm::dvec2 drawn : examination.drawn_dots) {
-        set.nearest(drawn, 0.25, 1, found);
-        if (found.empty()) return examination.drawn_dots;
-    }
     return places;
 }
 

@@ -23,11 +23,12 @@ struct KolamSymmetry {
     std::string name() const;     ///< C1, C4, D1, D4, …
 };
 
-/// A dot where the tradition would set one, in turtle steps.
+/// A dot where tradition would set one, or where the pattern has it, in turtle steps.
 struct KolamDot {
     glm::dvec2 at{0.0};
-    bool is_enclosed = false;  ///< the drawn closed lines run around it an odd number of times
-    bool is_alone = false;     ///< the whole outline of its face is visible from it
+    bool is_enclosed = false;  ///< closed lines run around it: an odd number of times where tradition would set it
+    bool is_alone = false;     ///< the whole outline of its face is visible from it; true for dots of the pattern
+    bool is_on_line = false;   ///< a line runs through it, as in radial kolams; only of dots of the pattern
 };
 
 /// The examination of a drawing. Vertices are where the turtle pauses and where segments meet; edges are the pieces
@@ -35,11 +36,12 @@ struct KolamDot {
 ///
 /// Dots: faces are coloured like a chessboard by the closed lines, the outside even; each odd face carries one dot,
 /// at its centroid or, where that lies outside of it, elsewhere inside. So every loop has its dot, and the gaps
-/// between loops have none. Open lines enclose nothing.
+/// between loops have none. Open lines enclose nothing. A pattern that draws or marks three dots or more (`@.`), and
+/// one of them elsewhere, has its own dots: a line has to run around or through each, as lines of radial kolams do.
 ///
-/// Of splines the control polygon is examined, as the turtle walks it: the curve runs along it. It passes
+/// A spline is examined by its control polygon, as the turtle walks it: the curve runs along it. It passes
 /// through a crossing where both strands go straight on; where they turn back (touchings) it keeps them apart.
-/// Whether dots are enclosed is asked of the curve itself. Polygons and discs are not looked at.
+/// The curve itself decides whether dots are enclosed. Polygons and discs are ignored.
 struct KolamExamination {
     bool is_exact = false;   ///< computed in whole numbers, except for the positions of dots
     double tolerance = 0.0;  ///< otherwise the distance in steps below which points are merged
@@ -63,25 +65,26 @@ struct KolamExamination {
     std::uint64_t faces = 0;         ///< number of bounded faces
     std::uint64_t reused_edges = 0;  ///< edges drawn more than once
 
-    std::uint64_t meetings = 0;   ///< vertices that are visited more than once
-    std::uint64_t crossings = 0;  ///< visited by two strands that cross
-    std::uint64_t skew = 0;       ///< crossings other than of two straight strands at right angles
-    std::uint64_t sixty = 0;  ///< of these, crossings of two straight strands at 60 degrees, as on interlaced dots
+    std::uint64_t meetings = 0;       ///< vertices that are visited more than once
+    std::uint64_t crossings = 0;      ///< visited by two strands that cross
+    std::uint64_t skew = 0;           ///< crossings other than of two straight strands at right angles
+    std::uint64_t sixty = 0;          ///< skew crossings of two straight strands at 60 degrees, as on interlaced dots
     std::uint64_t mid_crossings = 0;  ///< crossings inside of segments, where the turtle does not pause
     std::uint64_t touchings = 0;      ///< visited by two strands that do not cross
     std::uint64_t multiple = 0;       ///< visited by more than two
 
-    /// The lines as an alternating diagram of a knot or link: they pass over and under each other by turns.
+    /// The lines as an alternating diagram of a knot or link: they pass over and under each other alternately.
     std::optional<DiagramFacts> diagram;
-    std::string no_diagram;  ///< why there is none
+    std::string no_diagram;  ///< the reason if there is no diagram
 
     KolamSymmetry symmetry;
     glm::dvec2 centre{0.0};  ///< centre of symmetry
 
-    std::vector<KolamDot> dots;          ///< sorted by y, then by x
-    std::vector<glm::dvec2> drawn_dots;  ///< discs that the pattern draws itself, in its order
+    std::vector<KolamDot> dots;  ///< sorted by y, then by x
+    bool has_own_dots = false;   ///< they are those of the pattern
 
-    std::uint64_t loose_dots() const;  ///< dots not enclosed or not alone
+    std::uint64_t dots_on_lines() const;
+    std::uint64_t loose_dots() const;  ///< dots not on a line that are not enclosed or not alone
 
     /// Violations of the rules of kolams: every dot is encircled, every line is closed, nothing is drawn twice. Empty
     /// for a kolam.
@@ -111,8 +114,7 @@ struct KolamOptions {
 /// @throws BudgetError, WordError; std::runtime_error if no segment is drawn
 KolamExamination examine_kolam(const Grammar& grammar, const KolamOptions& options);
 
-/// The positions of the dots: those that the examination sets, or those that the pattern draws itself if there are
-/// three or more and one lies elsewhere, as in radial kolams, whose lines run through their dots.
+/// The positions of the dots.
 std::vector<glm::dvec2> dot_places(const KolamExamination& examination);
 
 }  // namespace sikku

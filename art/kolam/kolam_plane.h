@@ -2,10 +2,11 @@
 // tolerance.
 #pragma once
 
+#include "engine/base/chance.h"
+#include "engine/geometry/cyclotomic.h"
 #include "engine/geometry/lattice.h"
 
 #include <fmt/format.h>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,11 +39,6 @@ inline double dot(glm::dvec2 a, glm::dvec2 b) {
 inline int sign_of(double value) {
     return (value > 0) - (value < 0);
 }
-inline std::uint64_t mixed(std::uint64_t value) {  // the finaliser of splitmix64
-    value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9;
-    value = (value ^ (value >> 27)) * 0x94d049bb133111eb;
-    return value ^ (value >> 31);
-}
 
 /// A straight piece from node to node. Directions are anticlockwise, in units of which Plane::turn() are a full turn.
 struct Segment {
@@ -64,17 +60,7 @@ struct Cut {
 class ExactPlane {
 public:
     explicit ExactPlane(const Lattice& lattice)
-        : lattice_(lattice),
-          k_(static_cast<int>(lattice.headings)),
-          turn_(k_ % 2 == 0 ? k_ : 2 * k_),
-          rank_(static_cast<std::size_t>(lattice.rank)),
-          table_(64, none) {
-        for (int i = 0; i < k_; ++i) {
-            const long double angle = 2 * pi * i / k_;
-            cosines_.push_back(std::cos(angle));
-            sines_.push_back(std::sin(angle));
-        }
-    }
+        : lattice_(lattice), numbers_(lattice), turn_(numbers_.roots()), rank_(numbers_.rank()), table_(64, none) {}
 
     /// Thrown by node(): sums of coordinates would no longer fit into 64 bits.
     struct OutOfRange {};
@@ -82,7 +68,7 @@ public:
     static constexpr bool is_exact = true;
     double turn() const { return turn_; }
     bool same_direction(double a, double b) const { return a == b; }
-    /// How far coordinates in doubles may be off.
+    /// Maximum error of coordinates in doubles.
     double rounding() const { return 1e-15 * static_cast<double>(rank_) * largest_ * lattice_.unit + 1e-300; }
     std::size_t size() const { return places_.size(); }
     glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
@@ -109,14 +95,7 @@ public:
 
     /// Every step goes along a power of zeta.
     double direction(std::uint32_t from, std::uint32_t to) const {
-        const Vector step = between(from, to);
-        long double x = 0;
-        long double y = 0;
-        for (std::size_t i = 0; i < rank_; ++i) {
-            x += static_cast<long double>(step[i]) * cosines_[i];
-            y += static_cast<long double>(step[i]) * sines_[i];
-        }
-        const long double turned = std::atan2(y, x) / (2 * pi) * turn_;
+        const long double turned = numbers_.angle(between(from, to)) / (2 * pi) * turn_;
         return static_cast<double>((std::llround(turned) + turn_) % turn_);
     }
 
@@ -128,7 +107,7 @@ public:
     int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
         return sign_real(rotated(between(a, b), -index(line)));
     }
-    /// Which of two cuts comes first along its segment: negative, 0 (they are one point), positive.
+    /// Order of two cuts along their segment: negative, 0 (they are one point), positive.
     int compare(std::span<const Segment> segments, const Cut& a, const Cut& b) const {
         const Segment& line = segments[a.segment];
         if (!a.is_crossing && !b.is_crossing) return a.other == b.other ? 0 : -order(line, a.other, b.other);
@@ -216,7 +195,7 @@ public:
     };
 
 private:
-    using Vector = std::array<std::int64_t, 8>;
+    using Vector = Cyclotomic::Number;
 
     static int index(const Segment& segment) { return static_cast<int>(segment.direction); }
     std::span<const std::int64_t> coordinates_of(std::uint32_t node) const {
@@ -225,7 +204,7 @@ private:
     std::size_t slot_of(std::span<const std::int64_t> coordinates) const {
         std::uint64_t hash = 0;
         for (const std::int64_t coordinate : coordinates) {
-            hash = mixed(hash + 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(coordinate));
+            hash = scrambled(hash + 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(coordinate));
         }
         return hash & (table_.size() - 1);
     }
@@ -251,76 +230,32 @@ private:
         for (std::size_t i = 0; i < rank_; ++i) step[i] = coordinates_of(to)[i] - coordinates_of(from)[i];
         return step;
     }
-    /// By `count` of `turn_`: if k is odd, odd powers of the 2k-th root are negative powers of zeta.
     template <class Coordinates>
     Coordinates rotated(const Coordinates& vector, int count) const {
-        count = (count % turn_ + turn_) % turn_;
-        const bool negative = turn_ != k_ && count % 2 != 0;
-        const int power = turn_ == k_ ? count : (negative ? count + k_ : count) / 2 % k_;
-        Coordinates result{};
-        for (std::size_t i = 0; i < rank_; ++i) {
-            const auto& unit = lattice_.power[(i + static_cast<std::size_t>(power)) % static_cast<std::size_t>(k_)];
-            const auto value = negative ? -vector[i] : vector[i];
-            for (std::size_t j = 0; j < rank_; ++j) result[j] += unit[j] * value;
-        }
-        return result;
+        return numbers_.rotated(vector, count);
     }
     template <class Coordinates>
     Coordinates conjugate(const Coordinates& vector) const {
-        Coordinates result{};
-        const auto k = static_cast<std::size_t>(k_);
-        for (std::size_t i = 0; i < rank_; ++i) {
-            const auto& unit = lattice_.power[(k - i) % k];
-            for (std::size_t j = 0; j < rank_; ++j) result[j] += unit[j] * vector[i];
-        }
-        return result;
+        return numbers_.conjugate(vector);
     }
     int sign_of_sine(int count) const {
         count = (count % turn_ + turn_) % turn_;
         return 2 * count % turn_ == 0 ? 0 : (2 * count < turn_ ? 1 : -1);
     }
-    int sign_real(const Vector& vector) const { return sign(vector, cosines_, false); }
-    int sign_imaginary(const Vector& vector) const { return sign(vector, sines_, true); }
-
-    int sign(const Vector& vector, const std::vector<long double>& weights, bool imaginary) const {
-        long double sum = 0;
-        long double size = 0;
-        for (std::size_t i = 0; i < rank_; ++i) {
-            const long double term = static_cast<long double>(vector[i]) * weights[i];
-            sum += term;
-            size += std::fabs(static_cast<long double>(vector[i]));
-        }
-        if (std::fabs(sum) > size * 0x1p-58L) return sum > 0 ? 1 : -1;
-        const Vector other = conjugate(vector);
-        bool is_zero = true;
-        for (std::size_t i = 0; i < rank_; ++i) is_zero = is_zero && other[i] == (imaginary ? vector[i] : -vector[i]);
-        if (is_zero) return 0;
-        // Twice the number is an algebraic integer of degree up to 8, in pairs of equal size, so the product of its
-        // 4 sizes is 1 or more; as none exceeds 2^67, it is above 2^-202.
-        using Precise = boost::multiprecision::number<
-            boost::multiprecision::cpp_bin_float<360, boost::multiprecision::digit_base_2>>;
-        const Precise full_turn = 2 * acos(Precise(-1));
-        Precise precise = 0;
-        for (std::size_t i = 0; i < rank_; ++i) {
-            const Precise angle = full_turn * static_cast<int>(i) / k_;
-            precise += Precise(vector[i]) * (imaginary ? Precise(sin(angle)) : Precise(cos(angle)));
-        }
-        return precise > 0 ? 1 : -1;
-    }
+    int sign_real(const Vector& vector) const { return numbers_.sign_real(vector); }
+    int sign_imaginary(const Vector& vector) const { return numbers_.sign_imaginary(vector); }
 
     const Lattice& lattice_;
-    int k_;
+    Cyclotomic numbers_;
     int turn_;
     std::size_t rank_;
-    std::vector<long double> cosines_;  // of the powers of zeta
-    std::vector<long double> sines_;
     std::vector<std::int64_t> coordinates_;
     std::vector<glm::dvec2> places_;
     std::vector<std::uint32_t> table_;  // nodes by hash, open addressing
     double largest_ = 0.0;
 };
 
-/// Points in doubles; what is as near as the tolerance is one.
+/// Points in doubles; points within the tolerance of each other are one.
 class RoughPlane {
 public:
     static constexpr bool is_exact = false;
@@ -336,8 +271,8 @@ public:
     std::uint32_t node(std::span<const std::int64_t>, glm::dvec2 place) {
         if (!(std::fabs(place.x) < 1e9 && std::fabs(place.y) < 1e9)) {
             throw std::runtime_error(
-                "the drawing goes more than 1e9 steps away from its beginning, where a tolerance "
-                "of 1e-6 steps has no meaning");
+                "the drawing extends more than 1e9 steps from its beginning, where a tolerance "
+                "of 1e-6 steps is meaningless");
         }
         if (const std::uint32_t found = find(place); found != none) return found;
         const auto node = static_cast<std::uint32_t>(places_.size());
@@ -364,7 +299,7 @@ public:
     public:
         Images(const RoughPlane& plane, std::span<const std::uint32_t> nodes) : plane_(plane) {
             for (const std::uint32_t node : nodes) centre += plane.at(node) / static_cast<double>(nodes.size());
-            // Points are mapped onto others of the same distance: what is sparsest leaves the fewest choices.
+            // Points are mapped onto others at the same distance: the rarest distance leaves the fewest choices.
             std::vector<std::pair<double, std::uint32_t>> distances;
             for (const std::uint32_t node : nodes) {
                 distances.emplace_back(std::hypot(plane.at(node).x - centre.x, plane.at(node).y - centre.y), node);
@@ -426,7 +361,7 @@ private:
     static std::uint64_t cell(glm::dvec2 place, int right, int up) {
         const auto x = static_cast<std::int64_t>(std::floor(place.x / (2 * steps_are_one))) + right;
         const auto y = static_cast<std::int64_t>(std::floor(place.y / (2 * steps_are_one))) + up;
-        return mixed(mixed(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
+        return scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
     }
     std::uint32_t find(glm::dvec2 place) const {
         for (int right = -1; right <= 1; ++right) {

@@ -39,7 +39,7 @@ std::string diagram_json(const KolamExamination& k) {
         d.linked_pairs);
 }
 
-/// The kind of knot or link that the lines make if they pass over and under by turns.
+/// The kind of knot or link that the lines make if they pass over and under alternately.
 std::string diagram_text(const KolamExamination& k) {
     if (!k.diagram) return "none: " + k.no_diagram;
     const DiagramFacts& d = *k.diagram;
@@ -59,6 +59,14 @@ std::string diagram_text(const KolamExamination& k) {
     }
     if (d.components == 1 && d.crossings > 0) text += fmt::format("; writhe {}", d.writhe);
     return text;
+}
+
+/// Places of the dots of a kolam without faults.
+std::string where_dots_are(const KolamExamination& k) {
+    const std::uint64_t through = k.dots_on_lines();
+    if (through == 0) return "all encircled";
+    if (through == k.dots.size()) return "all on the line";
+    return fmt::format("{} on the line and {} encircled", through, k.dots.size() - through);
 }
 
 }  // namespace
@@ -81,7 +89,8 @@ std::string kolam_json(const std::string& title, std::int64_t n, const KolamExam
     text += "\"diagram\": " + diagram_json(k) + ", ";
     text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
                         k.symmetry.name(), k.symmetry.rotations, k.symmetry.mirrors, json(k.centre));
-    return text + fmt::format("\"loose_dots\": {}, \"dots\": [{}]}}\n", k.loose_dots(), dots);
+    return text + fmt::format("\"loose_dots\": {}, \"dots_on_lines\": {}, \"dots\": [{}]}}\n", k.loose_dots(),
+                              k.dots_on_lines(), dots);
 }
 
 std::string kolam_text(const std::string& title, std::int64_t n, const KolamExamination& k) {
@@ -96,9 +105,9 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
 
     const std::vector<std::string> faults = k.faults();
     if (faults.empty()) {
-        line("kolam", fmt::format("yes: {}, {}, all encircled",
+        line("kolam", fmt::format("yes: {}, {}, {}",
                                   k.lines == 1 ? "a single line (anthathi)" : counted(k.lines, "closed line"),
-                                  counted(k.dots.size(), "dot")));
+                                  counted(k.dots.size(), "dot"), where_dots_are(k)));
     } else {
         line("kolam", "no: " + list(faults));
     }
@@ -116,7 +125,7 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
         crossings += k.skew == 0              ? ", all at right angles"
                      : k.sixty == k.crossings ? ", all at 60 degrees"
                                               : fmt::format(", {} at right angles", k.crossings - k.skew);
-        if (k.mid_crossings > 0) crossings += fmt::format(", {} inside of segments", k.mid_crossings);
+        if (k.mid_crossings > 0) crossings += fmt::format(", {} inside segments", k.mid_crossings);
     }
     line("crossings", crossings);
     line("touching", fmt::format("{}{}", k.touchings,
@@ -133,10 +142,11 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
                      k.symmetry.rotations == 1 ? "no rotation" : fmt::format("{} rotations", k.symmetry.rotations),
                      k.symmetry.mirrors == 0 ? "no mirror" : plural(k.symmetry.mirrors, "mirror", "mirrors"),
                      number(k.centre.x), number(k.centre.y)));
-    line("exact", k.is_exact ? "yes"
-                             : fmt::format("no: the angles have no lattice; points within {} steps of each other "
-                                           "count as one",
-                                           k.tolerance));
+    line("exact",
+         k.is_exact
+             ? "yes"
+             : fmt::format("no: the angles do not fit a lattice; points within {} steps of each other count as one",
+                           k.tolerance));
     return text;
 }
 

@@ -262,7 +262,7 @@ std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& l
     for (std::size_t begin = 0, end = 0; begin < lines.passes.size(); begin = end) {
         pulse();
         while (end < lines.passes.size() && lines.passes[end].vertex == lines.passes[begin].vertex) ++end;
-        if (end - begin > 2) return none_because("more than two strands meet in one point");
+        if (end - begin > 2) return none_because("more than two strands meet at one point");
         if (end - begin < 2 || !do_cross(graph, lines.passes[begin], lines.passes[begin + 1])) continue;
         crossing[lines.passes[begin].vertex] = crossings++;
         for (std::size_t i = 0; i < 2; ++i) {

@@ -14,7 +14,7 @@ namespace sikku::kolam_plane {
 /// One visit of a line to a vertex.
 struct Pass {
     std::uint32_t vertex = 0;
-    std::uint32_t a = 0;  ///< half-edges that leave the vertex; `b` is none at the end of an open line
+    std::uint32_t a = 0;  ///< half-edges that leave the vertex; `b` is absent at the end of an open line
     std::uint32_t b = 0;
 };
 
@@ -24,8 +24,8 @@ struct Lines {
     std::uint64_t open = 0;                     ///< number of open lines
     std::vector<std::uint32_t> line_of_stroke;  ///< line of each stroke, numbered by first strokes
     std::vector<bool> is_stroke_of_open_line;   ///< for each stroke
-    std::vector<std::uint32_t> times;           ///< how often each edge is drawn
-    std::vector<char> closed_times;             ///< how often closed lines draw each edge, modulo 2
+    std::vector<std::uint32_t> times;           ///< number of times each edge is drawn
+    std::vector<char> closed_times;             ///< number of times closed lines draw each edge, modulo 2
     std::vector<Pass> passes;                   ///< visits, sorted by vertex
     std::vector<std::uint32_t> order;           ///< half-edges along each line, line after line
     std::vector<std::size_t> order_begins;      ///< into `order`; one more than there are lines
@@ -50,7 +50,7 @@ struct Meetings {
 Meetings count_meetings(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options);
 
 /// The diagram of the lines, without upper strands. Points where strands only touch are left out.
-/// @param why  receives the reason if there is none: open lines, shared edges, more than two strands at a point
+/// @param why  receives the reason if the result is empty: open lines, shared edges, more than two strands at a point
 std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& lines, const KolamOptions& options,
                                         std::string& why);
 

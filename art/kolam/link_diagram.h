@@ -29,7 +29,7 @@ struct LinkDiagram {
     bool is_over(const Pass& pass) const { return on_top[pass.crossing] == pass.strand; }
 };
 
-/// Chooses the upper strand of every crossing so that each line passes over and under by turns; the first visit of
+/// Chooses the upper strand of every crossing so that each line passes over and under alternately; the first visit of
 /// the first line of each connected part goes over. Always possible if all lines are closed, because closed curves
 /// cross an even number of times between two visits to a crossing (Gauss); an open line that ends inside a loop can
 /// make it impossible.

@@ -97,8 +97,8 @@ private:
                 pairs += static_cast<double>(end - i - 1);
                 if (pairs > options_.budget || 10 * static_cast<double>(cuts_.size()) > options_.budget) {
                     throw BudgetError(
-                        "so many segments of the drawing meet that examining it takes more than the "
-                        "budget; a shorter derivation or a larger budget helps");
+                        "so many segments of the drawing meet that examining it exceeds the budget; "
+                        "use a shorter derivation or a larger budget");
                 }
                 if (((i - begin) & 1023) == 1023) breathe(options_);
             }
@@ -112,7 +112,7 @@ private:
         });
         breathe(options_);
     }
-    /// As Plane::compare, looking closely only where doubles do not tell; no angle is so small that they would be
+    /// As Plane::compare, computed exactly only where doubles do not decide; no angle is so small that they would be
     /// off by more than this.
     int compare(const Cut& a, const Cut& b) const {
         if (Plane::is_exact && std::fabs(a.along - b.along) > 1000 * graph_.rounding)
@@ -124,7 +124,7 @@ private:
         return Plane::is_exact ? compare(a, b) == 0 : std::fabs(a.along - b.along) <= steps_are_one;
     }
 
-    /// As Plane::side, looking closely only where doubles do not tell.
+    /// As Plane::side, computed exactly only where doubles do not decide.
     int side(const Segment& line, std::uint32_t node) const {
         const glm::dvec2 along = plane_.at(line.to) - plane_.at(line.from);
         const glm::dvec2 way = plane_.at(node) - plane_.at(line.from);

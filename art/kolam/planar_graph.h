@@ -78,7 +78,7 @@ struct PlanarGraph {
     std::span<const std::uint32_t> around(std::uint32_t vertex) const {
         return {around_half.data() + around_begins[vertex], around_begins[vertex + 1] - around_begins[vertex]};
     }
-    /// The half-edge that goes on straight behind the tail of `half`; or none.
+    /// The half-edge that continues `half` straight beyond its tail; or none.
     std::uint32_t behind(std::uint32_t half) const {
         const auto list = around(tail(half));
         const double wanted = reversed(direction(half));

@@ -5,6 +5,7 @@
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -37,22 +38,61 @@ std::vector<std::uint32_t> odd_then_even(std::uint32_t dots) {
     return order;
 }
 
+glm::dvec2 polar(double angle, double radius) {
+    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+double angle_of(const RadialKolam& kolam, double arm) {
+    return std::numbers::pi / 2 - 2 * std::numbers::pi * arm / kolam.arms;
+}
 glm::dvec2 place_of(const RadialKolam& kolam, std::uint32_t arm, std::uint32_t dot) {
-    const double angle = std::numbers::pi / 2 - 2 * std::numbers::pi * arm / kolam.arms;
-    return static_cast<double>(dot) * glm::dvec2(std::cos(angle), std::sin(angle));
+    return polar(angle_of(kolam, arm), dot);
 }
 
-/// The control points of the closed uniform cubic B-spline that passes through those points at its knots: the
-/// solution of (c[i-1] + 4 c[i] + c[i+1]) / 6 = p[i], by iteration, which halves the error each time.
-std::vector<glm::dvec2> control_points(const std::vector<glm::dvec2>& points) {
-    const std::size_t count = points.size();
-    std::vector<glm::dvec2> controls = points;
-    std::vector<glm::dvec2> next(count);
-    for (int i = 0; i < 60; ++i) {
-        for (std::size_t k = 0; k < count; ++k) {
-            next[k] = (6.0 * points[k] - controls[(k + count - 1) % count] - controls[(k + 1) % count]) / 4.0;
+/// Number of spans of the spline from one arm to the next.
+constexpr std::size_t spans = 4;
+
+/// The dot that a line visits on its k-th arm.
+std::uint32_t dot_of(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
+    return kolam.order[(line + k) % kolam.dots()];
+}
+
+/// Places along a line, `spans` from one arm to the next: between two dots the distance from the centre follows half
+/// a wave of a cosine, and so the line leaves and meets arms at right angles.
+std::vector<glm::dvec2> places_along(const RadialKolam& kolam, std::uint32_t line, std::size_t length) {
+    std::vector<glm::dvec2> places;
+    for (std::size_t k = 0; k < length; ++k) {
+        const double from = dot_of(kolam, line, k);
+        const double to = dot_of(kolam, line, k + 1);
+        for (std::size_t i = 0; i < spans; ++i) {
+            const double share = static_cast<double>(i) / spans;
+            const double radius = from + (to - from) * (1 - std::cos(std::numbers::pi * share)) / 2;
+            places.push_back(polar(angle_of(kolam, static_cast<double>(k % kolam.arms) + share), radius));
         }
-        controls.swap(next);
+    }
+    return places;
+}
+
+/// The control points of a closed uniform cubic B-spline along a line. It passes through each dot at a knot, at right
+/// angles to the arm; elsewhere it is the quasi-interpolant of the places, which differs from them in the fourth
+/// order.
+std::vector<glm::dvec2> control_points(const RadialKolam& kolam, std::uint32_t line, std::size_t length) {
+    const std::vector<glm::dvec2> places = places_along(kolam, line, length);
+    const std::size_t count = places.size();
+    const auto before = [count](std::size_t i) { return (i + count - 1) % count; };
+    std::vector<glm::dvec2> controls(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        controls[i] = (8.0 * places[i] - places[before(i)] - places[(i + 1) % count]) / 6.0;
+    }
+    for (std::size_t k = 0; k < length; ++k) {
+        const auto arm = static_cast<std::uint32_t>(k % kolam.arms);
+        const glm::dvec2 outwards = polar(angle_of(kolam, arm), 1.0);
+        glm::dvec2& last = controls[before(k * spans)];
+        glm::dvec2& next = controls[k * spans + 1];
+        // The tangent at a knot is the difference of the controls on either side.
+        const double lean = glm::dot(next - last, outwards) / 2;
+        last += lean * outwards;
+        next -= lean * outwards;
+        controls[k * spans] = (6.0 * place_of(kolam, arm, dot_of(kolam, line, k)) - last - next) / 4.0;
     }
     return controls;
 }
@@ -73,7 +113,7 @@ public:
         const double direction = std::atan2(way.y, way.x) * 180 / std::numbers::pi;
         const double turn = rounded(std::remainder(direction - heading_, 360.0));
         put(fmt::format("{}({:.10f}){}({:.10f})", turn < 0 ? '+' : '-', std::fabs(turn), symbol, length));
-        // The place where the turtle is, which differs from `to` by what was rounded.
+        // The position of the turtle, which differs from `to` by rounding.
         heading_ += turn;
         const double radians = heading_ * std::numbers::pi / 180;
         at_ += length * glm::dvec2(std::cos(radians), std::sin(radians));
@@ -136,32 +176,28 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
     Pulse pulse(options.monitor);
     const std::size_t length = std::size_t{kolam.arms} * kolam.dots() / pattern.lines;
     for (std::uint32_t line = 0; line < pattern.lines; ++line) {
-        std::vector<glm::dvec2> points;
-        for (std::size_t k = 0; k < length; ++k) {
-            points.push_back(
-                place_of(kolam, static_cast<std::uint32_t>(k % kolam.arms), kolam.order[(line + k) % kolam.dots()]));
-        }
-        const std::vector<glm::dvec2> controls = control_points(points);
+        const std::vector<glm::dvec2> controls = control_points(kolam, line, length);
         walker.move(controls[0], 'f');
         walker.put(fmt::format("[;({})", line % line_colours));
         Walker along = walker;
-        for (std::size_t k = 1; k <= length; ++k) {
+        for (std::size_t k = 1; k <= controls.size(); ++k) {
             pulse();
-            along.move(controls[k % length], 'F');
+            along.move(controls[k % controls.size()], 'F');
         }
         walker.put("]");
     }
-    if (options.dot_symbols) {
-        walker.move({0.0, 0.0}, 'f');
-        walker.put("[;(0)@.]");
-    }
+    // Dots that are not drawn are marked, for lines of radial kolams do not tell where their dots are.
+    const std::string dot_symbol = fmt::format("[;({})@.]", options.dot_symbols ? 0 : line_colours);
+    const auto mark = [&](glm::dvec2 place) {
+        pulse();
+        walker.move(place, 'f');
+        walker.put(dot_symbol);
+    };
+    if (options.dot_symbols) mark({0.0, 0.0});
     for (std::uint32_t arm = 0; arm < kolam.arms; ++arm) {
         for (std::uint32_t dot = 1; dot <= kolam.dots(); ++dot) {
             pattern.dots.push_back(place_of(kolam, arm, dot));
-            if (!options.dot_symbols) continue;
-            pulse();
-            walker.move(pattern.dots.back(), 'f');
-            walker.put("[;(0)@.]");
+            mark(pattern.dots.back());
         }
     }
     text += fmt::format("\n\nground: #7d3324\nline: spline\nstroke: 0.12 step {}\npalette: {} transparent\n", rice,

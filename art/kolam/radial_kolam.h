@@ -14,7 +14,7 @@ struct RadialKolam {
     static constexpr std::uint32_t most_dots = 100'000;
 
     std::uint32_t arms = 0;
-    std::vector<std::uint32_t> order;  ///< of the dots of an arm, which count from 1 next to the centre
+    std::vector<std::uint32_t> order;  ///< order of the dots of an arm, counted from 1 next to the centre
 
     std::uint32_t dots() const { return static_cast<std::uint32_t>(order.size()); }
     /// The greatest common divisor of arms and dots: the line visits every dot only if it is 1, for it returns to its
@@ -28,9 +28,9 @@ struct RadialKolam {
 /// each dot once
 RadialKolam parse_radial_kolam(std::string_view size, std::string_view order = {});
 
-/// The first arm points up, and lines go round clockwise; dots are one step apart. A line is the spline through its
-/// dots: its control points, between which the turtle steps, are found from them (to 1e-9 steps). `dot_symbols` adds
-/// the dots and the centre.
+/// The first arm points up, and lines go round clockwise; dots are one step apart. A line is a spline through its
+/// dots (to 1e-9 steps), at right angles to the arms; the turtle steps between its control points, 4 for each dot.
+/// `dot_symbols` draws the dots and the centre; otherwise dots are marked with a transparent pen.
 KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions& options = {});
 
 }  // namespace sikku

@@ -60,7 +60,7 @@ public:
                                         entries_.begin());
     }
 
-    /// Hands over what was added to the cells that the box of `points` meets.
+    /// Visits the entries of the cells that the box of `points` meets.
     template <class Visitor>
     void visit(std::span<const glm::dvec2> points, const Visitor& visitor) const {
         glm::dvec2 low = points.front();

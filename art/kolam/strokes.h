@@ -20,7 +20,7 @@ struct Strokes {
     std::vector<std::uint32_t> nodes;
     std::vector<std::size_t> begins;  ///< into `nodes`; one more than there are strokes
     std::vector<bool> closed;
-    std::vector<glm::dvec2> discs;  ///< centres of visible discs
+    std::vector<glm::dvec2> discs;  ///< their centres, with any pen
     std::size_t count() const { return closed.size(); }
     std::span<const std::uint32_t> stroke(std::size_t i) const {
         return {nodes.data() + begins[i], begins[i + 1] - begins[i]};
@@ -53,8 +53,8 @@ public:
             strokes.nodes.push_back(node);
             if (static_cast<double>(strokes.nodes.size()) > most_) {
                 throw BudgetError(
-                    fmt::format("the drawing has more than {:.0f} segments, which takes more than the "
-                                "budget; a shorter derivation or a larger budget helps",
+                    fmt::format("the drawing has more than {:.0f} segments, which exceeds the budget; "
+                                "use a shorter derivation or a larger budget",
                                 most_));
             }
         }
@@ -76,9 +76,7 @@ public:
         is_seen_ = false;
     }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2 centre, double, const Pen& pen) override {
-        if (!draws_ || draws_(pen)) strokes.discs.push_back(centre);
-    }
+    void disc(glm::dvec2 centre, double, const Pen&) override { strokes.discs.push_back(centre); }
 
     Strokes finish() {
         strokes.begins.push_back(strokes.nodes.size());

@@ -9,7 +9,7 @@
 namespace sikku::kolam_plane {
 namespace {
 
-/// Which lines are images of each other.
+/// Groups lines that are images of each other.
 class LineImages {
 public:
     LineImages(const Strokes& strokes, std::span<const std::uint32_t> line_of_stroke, std::uint64_t lines)

@@ -11,19 +11,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
 namespace sikku {
 namespace {
 
-// Of the 0.01 mm that a curve may be off (all in mm): chords between the points that stand for it are off by `chord`,
-// an arc is off its chords by at most twice as much, and the points are off what is fitted to them by `fit`. The rest
-// is for rounding ends and centres to 0.001 mm.
+// A curve may be off by 0.01 mm. Chords between its points are off by `chord`, an arc is off its chords by at most
+// twice as much, and the points are off the fitted arc by `fit` (all in mm). The rest is for rounding ends and
+// centres to 0.001 mm.
 constexpr double chord = 0.0005;
 constexpr double fit = 0.0065;
 constexpr double largest_radius = 1000.0;    // controllers count in single precision
 constexpr double largest_sweep = 4.7;        // radians; an arc's ends must not fall together
+constexpr double farthest = 10'000;          // millimetres from the origin to a place
 constexpr std::size_t most_points = 8192;    // that wait for what comes next
 constexpr std::size_t longest_comment = 60;  // grbl takes lines of 80 bytes
 
@@ -104,17 +106,38 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::runtime_error(fmt::format("G-code: {}", what));
 }
 
+/// Calls `visit(letter, value, word)` for each letter that a number follows, outside comments. Numbers beyond the
+/// range of doubles are infinite.
+template <class Visit>
+void for_each_word(std::string_view lines, const Visit& visit) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        // Comments may contain any characters.
+        if (lines[i] == '(' || lines[i] == ';') {
+            i = lines.find(lines[i] == '(' ? ')' : '\n', i);
+            if (i == std::string_view::npos) return;
+            continue;
+        }
+        const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(lines[i])));
+        double value = std::numeric_limits<double>::infinity();
+        const std::string_view rest = lines.substr(i + 1);
+        if (letter < 'A' || letter > 'Z') continue;
+        const auto [end, error] = parse_number(rest, value);
+        if (error == std::errc::invalid_argument) continue;
+        visit(letter, value, lines.substr(i, 1 + static_cast<std::size_t>(end - rest.data())));
+    }
+}
+
 class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const GcodeOptions& options, Output& file)
         : PlotWriter(print), options_(options), file_(file) {
         for (const double feed : {options.drawing_feed, options.travel_feed}) {
-            require(std::isfinite(feed) && feed > 0, "a feed is finite and above 0 mm/min");
+            require(std::isfinite(feed) && feed > 0, "feeds must be finite and above 0 mm/min");
         }
-        require(std::isfinite(options.lift) && std::isfinite(options.down), "a height is finite");
-        require(std::isfinite(options.pause) && options.pause >= 0, "the pause is finite and at least 0 s");
+        require(std::isfinite(options.lift) && std::isfinite(options.down), "heights must be finite");
+        require(std::isfinite(options.pause) && options.pause >= 0, "the pause must be finite and at least 0 s");
         require(std::isfinite(options.least_arc) && options.least_arc >= 0,
-                "the least arc is finite and at least 0 mm");
+                "the minimum length of an arc must be finite and at least 0 mm");
         for (const std::string* command : {&options.pen_up, &options.pen_down, &options.pen_change, &options.dwell}) {
             fill(*command);
         }
@@ -315,7 +338,7 @@ private:
     bool started_ = false;            // the pen is down
     glm::dvec2 at_{0.0};              // where it is, as it was written
     std::vector<glm::dvec2> points_;  // of curves, from the last command's end
-    std::string feed_;                // to be told with the next command
+    std::string feed_;                // to be sent with the next command
 };
 
 }  // namespace
@@ -334,25 +357,24 @@ std::string gcode_comment(std::string_view label, std::string_view text, char ma
     return mark == ';' ? comment : comment + ")";
 }
 
+std::string_view unreachable_word(std::string_view lines) {
+    std::string_view found;
+    for_each_word(lines, [&](char letter, double value, std::string_view word) {
+        const bool is_axis = letter == 'X' || letter == 'Y' || letter == 'Z';
+        if (found.empty() && is_axis && !(std::fabs(value) <= farthest)) found = word;
+    });
+    return found;
+}
+
 std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
+    require(unreachable_word(options.end).empty(), "the last place of the pen must be within 10 m");
     std::optional<double> at[2];
     bool moves = false;
-    const std::string& text = options.end;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        // Comments may contain any characters.
-        if (text[i] == '(' || text[i] == ';') {
-            i = text.find(text[i] == '(' ? ')' : '\n', i);
-            if (i == std::string::npos) break;
-            continue;
-        }
-        const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
-        double value = 0;
-        const std::string_view rest = std::string_view(text).substr(i + 1);
-        if (letter < 'A' || letter > 'Z' || parse_number(rest, value).ec != std::errc()) continue;
+    for_each_word(options.end, [&](char letter, double value, std::string_view) {
         if (letter == 'G') moves = value == 0 || value == 1;
         if (moves && letter == 'X') at[0] = value;
         if (moves && letter == 'Y') at[1] = value;
-    }
+    });
     if (!at[0] || !at[1]) return std::nullopt;
     return glm::dvec2(*at[0], *at[1]);
 }

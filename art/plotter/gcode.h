@@ -14,8 +14,9 @@
 
 namespace sikku {
 
-/// Commands of a machine and what they take. Commands are lines; in them `{lift}` and `{down}` stand for the heights
-/// of the pen, `{pen}` for its number, `{colour}` for its colour, `{seconds}` and `{milliseconds}` for a pause.
+/// Commands of a machine and their parameters. Commands are lines; in them `{lift}` and `{down}` stand for the
+/// heights of the pen, `{pen}` for its number, `{colour}` for its colour, `{seconds}` and `{milliseconds}` for a
+/// pause.
 struct GcodeOptions {
     std::string setup = "G21 G90 G17";  ///< units and modes: absolute millimetres, arcs in the plane of X and Y
     std::string pen_up = "M5";
@@ -36,8 +37,13 @@ struct GcodeOptions {
     std::string end = "G0 X0 Y0\nM2";  ///< lines after the last stroke, pen up
 };
 
+/// The first X, Y or Z of G-code lines that is not a number within 10 m, such as `Xnan` or `Y1e300`; empty if there
+/// is none. Comments are skipped. The result points into `lines`.
+std::string_view unreachable_word(std::string_view lines);
+
 /// Position of the pen after the closing G-code lines, in millimetres from the bottom left corner of the page: the
-/// last X and Y of their G0 and G1 moves (in absolute coordinates); nullopt if there are none, as after homing.
+/// last X and Y of their G0 and G1 moves (in absolute coordinates); nullopt without such moves, as after homing.
+/// @throws std::runtime_error for coordinates that are not within 10 m
 std::optional<glm::dvec2> gcode_home(const GcodeOptions& options);
 
 /// Formats a comment that no controller executes: `(label: text)`. The label keeps LinuxCNC from executing active

@@ -49,6 +49,13 @@ glm::dvec2 on_plotter(glm::dvec2 point, const Page& page, const HpglOptions& opt
     return at + options.paper->centre - half;
 }
 
+/// The inverse of on_plotter(). `options` has a paper.
+glm::dvec2 on_page_at(glm::dvec2 point, const Page& page, const HpglOptions& options) {
+    const glm::dvec2 size(page.width, page.height);
+    const glm::dvec2 at = point - options.paper->centre + 0.5 * (is_turned(page) ? glm::dvec2(size.y, size.x) : size);
+    return is_turned(page) ? glm::dvec2(at.y, size.y - at.x) : at;
+}
+
 class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const HpglOptions& options, Output& file)
@@ -80,7 +87,7 @@ public:
     }
     void dip(glm::dvec2 place, const Pen& pen) override {
         if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
-        file_.write(fmt::format("{}PD;PU;\n", move(place)));
+        file_.write(fmt::format("{}PD;PU;\n", move("refilling", place)));
     }
     void end_stroke(bool) override {
         if (!started_) return;
@@ -99,16 +106,27 @@ public:
 private:
     void take_pen(int next, Colour colour) {
         const bool parks = options_.park && pen_ != 0;
-        file_.write(fmt::format("{}SP{};\n", parks ? "PU;" + move(*options_.park) : "PU;", next));
+        file_.write(fmt::format("{}SP{};\n", parks ? "PU;" + move("parking", *options_.park) : "PU;", next));
         pen_ = next;
         if (!has_speeds_) return;
         const double speed = pen_settings(options_.rules, next, colour).speed.value_or(options_.speed);
         file_.write(fmt::format("VS{};\n", decimal(speed / 10, 2)));
     }
 
-    /// Moves the lifted pen to a place that may lie off the page.
-    std::string move(glm::dvec2 place) const {
-        const Units at = to_units(place);
+    /// Moves the lifted pen to a place that may lie off the page. @param purpose  `parking` or `refilling`
+    std::string move(std::string_view purpose, glm::dvec2 place) const {
+        const glm::dvec2 on = on_plotter(place, print_.page, options_);
+        if (!is_in_reach(on)) {
+            const HpglPaper& paper = *options_.paper;
+            const glm::dvec2 one = on_page_at(paper.low, print_.page, options_);
+            const glm::dvec2 two = on_page_at(paper.high, print_.page, options_);
+            const glm::dvec2 low = glm::min(one, two), high = glm::max(one, two);
+            throw std::runtime_error(
+                fmt::format("the place for {} ({:g},{:g}) is out of the plotter's reach{}; expected x from {:.1f} to "
+                            "{:.1f} mm and y from {:.1f} to {:.1f} mm",
+                            purpose, place.x, place.y, sheet_name(), low.x, high.x, low.y, high.y));
+        }
+        const Units at = to_units(on);
         return fmt::format("PU{},{};", at.x, at.y);
     }
 
@@ -123,33 +141,39 @@ private:
 
     Units rounded(glm::dvec2 millimetres) const {
         require_on_page(millimetres);
-        return to_units(millimetres);
+        const glm::dvec2 at = on_plotter(millimetres, print_.page, options_);
+        if (!is_in_reach(at)) refuse_drawing();
+        return to_units(at);
     }
 
-    Units to_units(glm::dvec2 millimetres) const {
-        const glm::dvec2 at = on_plotter(millimetres, print_.page, options_);
-        if (options_.paper) require_in_reach(at);
+    static Units to_units(glm::dvec2 at) {
         return {to_whole(at.x * units_of_millimetre), to_whole(at.y * units_of_millimetre)};
     }
 
-    void require_in_reach(glm::dvec2 at) const {
+    bool is_in_reach(glm::dvec2 at) const {
+        if (!options_.paper) return true;
         const HpglPaper& paper = *options_.paper;
         constexpr double slack = 1e-6;
-        if (at.x >= paper.low.x - slack && at.y >= paper.low.y - slack && at.x <= paper.high.x + slack &&
-            at.y <= paper.high.y + slack) {
-            return;
-        }
+        return at.x >= paper.low.x - slack && at.y >= paper.low.y - slack && at.x <= paper.high.x + slack &&
+               at.y <= paper.high.y + slack;
+    }
+
+    std::string sheet_name() const {
+        return options_.paper->is_hp7475a ? fmt::format(" on {} (HP 7475A)", options_.paper->name) : "";
+    }
+
+    [[noreturn]] void refuse_drawing() const {
+        const HpglPaper& paper = *options_.paper;
         const glm::dvec2 reach = paper.high - paper.low;
         // The centred area that fits in both orientations: equally far from the middle of the sheet on both sides.
         const glm::dvec2 free = glm::min(paper.high - paper.centre, paper.centre - paper.low);
         const glm::dvec2 half = 0.5 * glm::dvec2(std::max(print_.page.width, print_.page.height),
                                                  std::min(print_.page.width, print_.page.height));
         const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
-        throw std::runtime_error(
-            fmt::format("the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm "
-                        "keeps it inside",
-                        reach.x, reach.y, paper.is_hp7475a ? fmt::format(" on {} (HP 7475A)", paper.name) : "",
-                        std::ceil(10 * margin - 1e-6) / 10));
+        throw std::runtime_error(fmt::format(
+            "the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm keeps it "
+            "inside",
+            reach.x, reach.y, sheet_name(), std::ceil(10 * margin - 1e-6) / 10));
     }
 
     void to(glm::dvec2 millimetres) {

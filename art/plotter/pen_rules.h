@@ -16,11 +16,11 @@ namespace sikku {
 /// page, y up, and may lie outside it.
 struct Refill {
     double length = 0.0;    ///< drawn with one filling, 10 mm to 1 km
-    glm::dvec2 place{0.0};  ///< of the ink
+    glm::dvec2 place{0.0};  ///< place of the ink
     bool operator==(const Refill&) const = default;
 };
 
-/// Settings of a pen; what is absent is the same for all pens.
+/// Settings of a pen; absent ones are those of all pens.
 struct PenSettings {
     std::optional<double> speed{};  ///< mm/s, pen down, 0.001 to 10^6
     std::optional<double> lift{};   ///< height of the raised pen, in the measure of the machine: mm, %, degrees
@@ -52,7 +52,7 @@ double parse_speed(std::string_view text);
 /// Parses a number without or with the unit mm, % or deg, up to 10^6. @throws std::runtime_error
 double parse_height(std::string_view text);
 
-/// How the software of AxiDraw reads settings of pens from the names of layers.
+/// The rules by which AxiDraw's software reads settings of pens from the names of layers.
 struct LayerCodes {
     double full_speed = 0.0;  ///< mm/s of its 100 %; 0: layers have plain names
     bool pauses = false;      ///< it waits before every layer but the first

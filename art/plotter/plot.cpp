@@ -34,7 +34,7 @@ constexpr double thinnest = 0.05;  // millimetres; least pen width for fills
 
 }  // namespace
 
-/// What was drawn with one pen: stretches of points, in drawing order.
+/// The drawing of one pen: stretches of points, in drawing order.
 struct PlotPlan::Gathered {
     enum class Kind : std::uint8_t { start, lines, curves };
     struct Run {
@@ -146,7 +146,7 @@ bool is_worse(const PlotTally& plot, const PlotTally& other, const PlotSpeeds& s
 
 }  // namespace
 
-/// Numbers the points and leaves out what is drawn twice. `at` is where the last pen was lifted.
+/// Numbers the points and leaves out repeated segments. `at` is the place where the last pen was lifted.
 void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, PlotLayer& layer) {
     const double millimetres = print_.placement.step;
     const std::optional<Refill>& refill = layer.settings.refill ? layer.settings.refill : options_.refill;
@@ -199,9 +199,9 @@ void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, Plot
     from = {};
 }
 
-double plot_seconds(const PlotReport& report, const PlotSpeeds& speeds) {
-    double seconds = plot_seconds(report.after, speeds);
-    for (const PenTally& pen : report.pens) {
+double plot_seconds(const PlotTally& tally, const std::vector<PenTally>& pens, const PlotSpeeds& speeds) {
+    double seconds = plot_seconds(tally, speeds);
+    for (const PenTally& pen : pens) {
         if (pen.speed) seconds += pen.drawn / *pen.speed - pen.drawn / speeds.drawing;
         // Lifting and lowering, each with its pause.
         if (pen.pause) seconds += 2 * static_cast<double>(pen.lifts) * *pen.pause;
@@ -463,7 +463,7 @@ double PlotPlan::tolerance() const {
     }
     const glm::dvec2 size = box.high - box.low;
     const glm::dvec2 far = glm::max(glm::abs(box.low), glm::abs(box.high));
-    // Not below what doubles tell apart.
+    // Not below the resolution of doubles.
     return std::max({1e-9 * std::max(size.x, size.y), 4e-15 * std::max(far.x, far.y), 1e-290});
 }
 
@@ -568,16 +568,17 @@ void PlotPlan::arrange() {
     into_ = nullptr;
     report_.returns = options_.home.has_value();
     if (options_.home) report_.before.travelled += step * glm::distance(last, drawn_at(*options_.home));
-    if (is_worse(tally({.step = step}), report_.before, options_.speeds)) {
+    if (is_worse(tally({.step = step}, report_.pens), report_.before, options_.speeds)) {
         report_.duplicates = 0;
         for (const auto& layer : layers_) layer->strokes = layer->as_drawn;
     }
+    tally_as_drawn();
     for (const auto& layer : layers_) layer->as_drawn = {};
-    report_.after = tally(course());
-    const double whole = tally({.step = step}).drawn;
+    report_.after = tally(course(), report_.pens);
     if (options_.resume > 0 && report_.after.lifts == 0 && !layers_.empty()) {
-        refuse_option("resume", fmt::format("{:g}mm", options_.resume),
-                      fmt::format("the whole plot draws only {:.2f} m", whole / 1000));
+        std::vector<PenTally> pens;
+        refuse_option("resume", fmt::format("{:g}m", options_.resume / 1000),
+                      fmt::format("the whole plot draws only {:.2f} m", tally({.step = step}, pens).drawn / 1000));
     }
 }
 
@@ -588,7 +589,7 @@ void PlotPlan::arrange_layer(PlotLayer& layer, glm::dvec2 start, double drawn) {
     std::uint64_t duplicates = layer.repeated.size();
     PlotStrokes joined = join_segments(layer.graph, options_.monitor);
     if (joined.strokes.size() > layer.as_drawn.strokes.size()) {
-        // What was left out had led from one stroke to the next.
+        // The segments left out led from one stroke to the next.
         auto& segments = layer.graph.segments;
         segments.insert(segments.end(), layer.repeated.begin(), layer.repeated.end());
         duplicates = 0;
@@ -609,17 +610,31 @@ PlotCourse PlotPlan::course() const {
     return {print_.placement.step, options_.split, options_.resume, options_.refill};
 }
 
-/// Lengths and lifts along a course, as travels() counts them. Also sets the tallies of single pens.
-PlotTally PlotPlan::tally(const PlotCourse& course) {
+/// Tallies the strokes as they were drawn. Without refills, the lengths were measured while they were read.
+void PlotPlan::tally_as_drawn() {
+    const auto exchange = [&] {
+        for (const auto& layer : layers_) std::swap(layer->strokes, layer->as_drawn);
+    };
+    exchange();
+    const bool refills = options_.refill || std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) {
+                             return layer->settings.refill.has_value();
+                         });
+    const PlotTally tallied = tally({.step = print_.placement.step, .refill = options_.refill}, report_.pens_before);
+    if (refills) report_.before = tallied;
+    exchange();
+}
+
+/// Lengths and lifts along a course, as travels() counts them. @param pens  receives the tallies of single pens
+PlotTally PlotPlan::tally(const PlotCourse& course, std::vector<PenTally>& pens) const {
     PlotTally result;
-    report_.pens.clear();
+    pens.clear();
     for (const auto& layer : layers_) {
-        report_.pens.push_back({layer->number, print_.style.line_colour(layer->pen), 0.0, 0, layer->settings.speed,
-                                layer->settings.pause});
+        pens.push_back({layer->number, print_.style.line_colour(layer->pen), 0.0, 0, layer->settings.speed,
+                        layer->settings.pause});
     }
     Pulse pulse(options_.monitor);
     follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {
-        PenTally& pen = report_.pens[static_cast<std::size_t>(piece.layer.number - 1)];
+        PenTally& pen = pens[static_cast<std::size_t>(piece.layer.number - 1)];
         for (const PlotEnd end : piece.ends) {
             pulse();
             const double length = course.step * piece.layer.graph.length(end);

@@ -35,11 +35,11 @@ struct PlotOptions {
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
     int pens = 0;                     ///< maximum number of pens, to which colours are merged; 0: one for each colour
-    glm::dvec2 start{0.0};            ///< of the pen, in millimetres from the bottom left corner of the page, y up
+    glm::dvec2 start{0.0};  ///< position of the pen, in millimetres from the bottom left corner of the page, y up
     std::optional<glm::dvec2> home = {};  ///< position of the pen after the last stroke, in the same coordinates
     PlotSpeeds speeds = {};               ///< by which arrangements are compared
     std::vector<PenRule> rules = {};      ///< settings of single pens
-    std::optional<Refill> refill = {};    ///< of pens without a rule of their own
+    std::optional<Refill> refill = {};    ///< refill of pens without their own
     std::optional<glm::dvec2> park = {};  ///< place of the pen while it is changed, in the same coordinates
     double resume = 0.0;                  ///< millimetres drawn before the plot was interrupted; it begins there
     Monitor monitor = {};                 ///< polled while the plot is arranged and drawn
@@ -49,7 +49,7 @@ struct PlotOptions {
 struct PlotTally {
     double drawn = 0.0;       ///< mm, pen down
     double travelled = 0.0;   ///< mm, pen up
-    std::uint64_t lifts = 0;  ///< how often the pen comes down
+    std::uint64_t lifts = 0;  ///< number of times the pen is lowered
     bool operator==(const PlotTally&) const = default;
 };
 
@@ -64,30 +64,31 @@ struct MergedPen {
     double drawn = 0.0;  ///< millimetres
 };
 
-/// What one pen draws in the plot.
+/// The lines of the plot that one pen draws.
 struct PenTally {
     int number = 0;  ///< from 1
     Colour colour;
     double drawn = 0.0;             ///< millimetres
-    std::uint64_t lifts = 0;        ///< how often it comes down
+    std::uint64_t lifts = 0;        ///< number of times it is lowered
     std::optional<double> speed{};  ///< mm/s, if it has its own
     std::optional<double> pause{};  ///< seconds, if it has its own
 };
 
 struct PlotReport {
-    PlotTally before;  ///< pen after pen, but everything as it was drawn
+    PlotTally before;  ///< pen after pen and refilled like the plot, but every stroke as it was drawn
     PlotTally after;
-    std::uint64_t segments = 0;     ///< lines and curves drawn, and edges of fills that no line draws
-    std::uint64_t duplicates = 0;   ///< drawn lines and curves left out because they lay on another one
-    std::uint64_t fills = 0;        ///< number of polygons, areas and discs
-    bool returns = false;           ///< travel includes the return home
-    std::size_t colours = 0;        ///< number of colours drawn
-    std::vector<PenTally> pens;     ///< in the order in which they draw
-    std::vector<MergedPen> merged;  ///< merged colours, in the order of the palette
+    std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
+    std::uint64_t duplicates = 0;         ///< drawn lines and curves left out because they lay on another one
+    std::uint64_t fills = 0;              ///< number of polygons, areas and discs
+    bool returns = false;                 ///< travel includes the return home
+    std::size_t colours = 0;              ///< number of colours drawn
+    std::vector<PenTally> pens;           ///< in the order in which they draw
+    std::vector<PenTally> pens_before{};  ///< the same pens, with everything as it was drawn
+    std::vector<MergedPen> merged;        ///< merged colours, in the order of the palette
 };
 
 /// Duration of a plot whose pens may have their own speeds and pauses. @throws std::runtime_error as above
-double plot_seconds(const PlotReport& report, const PlotSpeeds& speeds);
+double plot_seconds(const PlotTally& tally, const std::vector<PenTally>& pens, const PlotSpeeds& speeds);
 
 /// One movement of the lifted pen, in pattern units.
 struct PlotTravel {
@@ -96,7 +97,7 @@ struct PlotTravel {
 
 /// Extends the palette of a style so that each fill colour is also a line colour, and therefore has a pen.
 Style with_fill_pens(const Style& style);
-/// For each colour index, the index whose line colour equals its fill colour; the index itself if there is none.
+/// For each colour index, the index whose line colour equals its fill colour; otherwise the index itself.
 std::vector<int> fill_pens(const Style& style);
 
 /// Gathers a drawing and arranges it for a plotter. Skips what the style makes invisible.
@@ -185,19 +186,20 @@ private:
     void read_layer(Gathered& from, double tolerance, glm::dvec2& at, PlotLayer& layer);
     void arrange_layer(PlotLayer& layer, glm::dvec2 start, double drawn);
     PlotCourse course() const;
-    PlotTally tally(const PlotCourse& course);
+    PlotTally tally(const PlotCourse& course, std::vector<PenTally>& pens) const;
+    void tally_as_drawn();
     std::vector<PlotTravel> travels(const PlotCourse& course) const;
 
     const Print& print_;
     PlotOptions options_;
-    std::vector<int> slots_;                             ///< of colour indices
+    std::vector<int> slots_;                             ///< slots of colour indices
     std::vector<int> fill_slots_;                        ///< pen slots of colour indices, for fills
     std::map<int, std::unique_ptr<Gathered>> gathered_;  ///< by slot
     std::map<int, std::unique_ptr<Gathered>> outlines_;  ///< outlines of fills by pen slot
     std::unique_ptr<Gathered> covered_;                  ///< middle lines of strokes drawn in several passes
     std::vector<std::unique_ptr<PlotLayer>> layers_;     ///< pens in their order
     PlotReport report_;
-    Gathered* into_ = nullptr;  ///< of the stroke that is being drawn; null if it is not seen
+    Gathered* into_ = nullptr;  ///< destination of the current stroke; null if it is invisible
     bool down_ = false;         ///< its piece with the present pen has begun
     bool is_whole_ = false;     ///< the pen has not changed since the stroke began
     Pen pen_;

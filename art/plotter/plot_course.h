@@ -22,10 +22,10 @@ struct PlotPiece {
 
 /// Lengths are millimetres.
 struct PlotCourse {
-    double step = 1.0;               ///< of one pattern unit
+    double step = 1.0;               ///< length of one pattern unit
     double split = 0.0;              ///< maximum length of a piece; 0: none
     double resume = 0.0;             ///< length drawn before: the course begins with the segment in which it ends
-    std::optional<Refill> refill{};  ///< of pens without their own
+    std::optional<Refill> refill{};  ///< refill of pens without their own
 };
 
 /// Visits all pieces in order. Strokes are cut only between segments. A pen is dipped before its first piece, and

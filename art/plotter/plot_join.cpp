@@ -15,7 +15,7 @@ constexpr Index none = PlotSegment::none;
 constexpr double smooth = -0.984807753012208;  // cosine of 170 degrees between the ways out of a point
 constexpr std::size_t crowd = 64;              // ends at one point that are all compared with each other
 
-/// Which segments follow each other where several meet.
+/// Chooses the segments that follow each other where several meet.
 class Joiner {
 public:
     Joiner(const PlotGraph& graph, const Monitor& monitor)
@@ -78,7 +78,7 @@ private:
     };
     static constexpr std::size_t missing = std::numeric_limits<std::size_t>::max();
 
-    /// Calls visit() with the spokes of each point of at least so many, sorted by their ends.
+    /// Calls visit() with the spokes of each point that has at least this many, sorted by their ends.
     template <class Visit>
     void for_each_node(std::size_t least, const Visit& visit) {
         Pulse pulse(monitor_);
@@ -124,7 +124,7 @@ private:
         std::vector<std::pair<double, Joint>> possible;
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t k = i + 1; k < count; ++k) {
-                // Of two that are as good, the one that was drawn.
+                // Between two equally good joints, take the one that was drawn.
                 const PlotEnd low = std::min(spokes_[i].end, spokes_[k].end);
                 const bool drawn = low % 2 == 1 && std::max(spokes_[i].end, spokes_[k].end) == low + 1;
                 possible.emplace_back(turn({i, k}) - (drawn ? 1e-9 : 0.0), Joint{i, k});

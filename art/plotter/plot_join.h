@@ -31,7 +31,7 @@ using PlotEnd = std::uint32_t;
 using CubicBezier = std::array<glm::dvec2, 4>;
 double bezier_length(const CubicBezier& bezier);
 
-/// Segments, none of them twice, between points that are told apart by their numbers.
+/// Distinct segments between points, which are identified by their numbers.
 struct PlotGraph {
     std::vector<glm::dvec2> points;
     std::vector<PlotSegment> segments;
@@ -39,7 +39,7 @@ struct PlotGraph {
     glm::dvec2 point(PlotEnd end) const {
         return points[end % 2 == 0 ? segments[end / 2].from : segments[end / 2].to];
     }
-    /// Of a curve, from the end at which it is entered.
+    /// The curve, from the end at which it is entered.
     CubicBezier bezier(PlotEnd end) const;
     double length(PlotEnd end) const;
     /// The way out of the end's point along its segment, of length 1; 0 for a segment without length.
@@ -47,7 +47,7 @@ struct PlotGraph {
 };
 
 struct PlotStroke {
-    std::uint32_t begin = 0, count = 0;  ///< of its segments in PlotStrokes::order
+    std::uint32_t begin = 0, count = 0;  ///< range of its segments in PlotStrokes::order
     bool closed = false;
 };
 /// The ends at which the segments of each stroke are entered, one after another.

@@ -3,6 +3,7 @@
 
 #include "art/plotter/pen_rules.h"
 #include "art/plotter/plot_join.h"
+#include "engine/base/chance.h"
 #include "engine/geometry/path.h"
 
 #include <glm/vec2.hpp>
@@ -15,22 +16,19 @@
 
 namespace sikku {
 
-/// What one pen draws.
+/// The lines that one pen draws.
 struct PlotLayer {
     Pen pen;
-    int number = 0;  ///< of the pen, from 1
+    int number = 0;  ///< number of the pen, from 1
     PenSettings settings;
     PlotGraph graph;
     PlotStrokes strokes;
     PlotStrokes as_drawn;               ///< the same lines in the strokes and the order of the drawing
-    std::vector<PlotSegment> repeated;  ///< while it is being arranged: what was drawn again
+    std::vector<PlotSegment> repeated;  ///< repeated segments, while the layer is arranged
 };
 
 inline std::uint64_t plot_hash(std::uint64_t a, std::uint64_t b) {
-    std::uint64_t hash = (a * 0x9e3779b97f4a7c15U) ^ (b + 0x632be59bd9b4e019U);
-    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9U;
-    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebU;
-    return hash ^ (hash >> 31);
+    return scrambled((a * 0x9e3779b97f4a7c15U) ^ (b + 0x632be59bd9b4e019U));
 }
 
 inline std::size_t plot_table_size(std::size_t entries) {

@@ -22,7 +22,7 @@ public:
     /// @param start   where the way to the first one begins
     PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start);
 
-    /// Of all ways between the strokes.
+    /// Length of all travel between the strokes.
     double length() const;
 
     /// 2-opt: ways a → b and c → d become a → c and b → d, and what lies between is turned round, as long as that
@@ -34,7 +34,7 @@ public:
 private:
     struct Change {
         double gain = 0;
-        std::uint32_t first = 0, last = 0;  // what is turned round
+        std::uint32_t first = 0, last = 0;  // the range that is reversed
     };
 
     /// Where the pen comes from on its way to the i-th stroke.

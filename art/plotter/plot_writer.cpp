@@ -10,7 +10,7 @@
 namespace sikku {
 
 void PlotWriter::change_pen(const Pen& pen) {
-    // The stroke ends and goes on as another one.
+    // The stroke ends and continues as another one.
     end_stroke(false);
     begin_stroke(here_, pen);
 }
@@ -44,7 +44,7 @@ void PlotWriter::require_on_page(glm::dvec2 millimetres) const {
     constexpr double slack = 1e-6;
     const auto inside = [](double value, double most) { return value >= -slack && value <= most + slack; };
     if (!inside(millimetres.x, print_.page.width) || !inside(millimetres.y, print_.page.height)) {
-        throw std::runtime_error("the drawing is larger than the page: a plotter does not cut off what lies outside");
+        throw std::runtime_error("the drawing is larger than the page, and a plotter cannot cut it off at the edge");
     }
 }
 

@@ -1,4 +1,4 @@
-// art/plotter/plot_writer.h: the common base of the writers of HP-GL and G-code.
+// art/plotter/plot_writer.h: the common base of the writers of HP-GL, G-code and DXF.
 #pragma once
 
 #include "art/print/print.h"
@@ -36,6 +36,8 @@ protected:
     glm::dvec2 on_page(glm::dvec2 point) const;
     /// Pens are counted from 1, in the order in which they come: plotters hold six or eight.
     int number(const Pen& pen);
+    /// The numbers given so far, by colour index.
+    const std::map<int, int>& numbers() const { return numbers_; }
     /// Into how many equal steps of its parameter a curve is cut so that chords stay within `tolerance`.
     /// Source: Wang, Proc. SPIE, 1984: by the second differences.
     static int chords(const Bezier& bezier, double tolerance);
@@ -47,7 +49,7 @@ protected:
     glm::dvec2 here_{0.0};  ///< where the stroke is, in pattern units
 
 private:
-    std::map<int, int> numbers_;  ///< of pens, by colour index
+    std::map<int, int> numbers_;  ///< numbers of pens, by colour index
 };
 
 }  // namespace sikku

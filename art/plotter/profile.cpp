@@ -170,6 +170,14 @@ void check_placeholders(const Span& value, Diagnostics& diagnostics) {
     }
 }
 
+/// Checks the places to which G-code moves.
+void check_places(const Span& value, Diagnostics& diagnostics) {
+    const std::string_view word = unreachable_word(value.view());
+    if (word.empty()) return;
+    diagnostics.error(value.part(static_cast<std::size_t>(word.data() - value.view().data()), word.size()),
+                      "expected a place within 10 m of the origin");
+}
+
 }  // namespace
 
 std::string_view language_name(PlotLanguage language) {
@@ -220,6 +228,7 @@ PlotterProfile parse_profile(const std::string& name, const std::string& text) {
         if (line.key->name.starts_with("pen ") || line.key->name == "dwell") {
             check_placeholders(line.value, diagnostics);
         }
+        if (line.key->languages == "g") check_places(line.value, diagnostics);
         apply(line);
     }
     diagnostics.throw_if_errors();
@@ -230,7 +239,7 @@ PlotterProfile read_profile(const std::filesystem::path& file) {
     std::string text = read_file(file, file.string(), most_bytes);
     if (text.size() > most_bytes) {
         throw std::runtime_error(
-            fmt::format("'{}' is larger than 64 kB: not the profile of a plotter", file.string()));
+            fmt::format("'{}' is larger than 64 kB, the limit for profiles of plotters", file.string()));
     }
     return parse_profile(file.string(), text);
 }

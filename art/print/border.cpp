@@ -15,10 +15,10 @@
 namespace sikku {
 namespace {
 
-// Of the border's depth: a loop is two radii and the line wide.
+// Shares of the border's depth; a loop takes two radii and the line's width.
 constexpr double loop_share = 0.38;
 constexpr double line_share = 0.24;
-constexpr double earth_share = 0.6;  // of the line
+constexpr double earth_share = 0.6;  // share of the line's width
 constexpr double dot_share = 0.4;    // of the loop
 
 /// Depth in parts of that of BorderKind::kaavi.
@@ -133,6 +133,50 @@ std::vector<Colour> motif_colours(const Style& style) {
     return colours;
 }
 
+/// Notes which colours of its style a recorded drawing uses, in the order of motif_colours().
+class ColourCensus : public PathSink {
+public:
+    explicit ColourCensus(const Style& style) : style_(style), is_used_(motif_colours(style).size()) {}
+    void begin_stroke(glm::dvec2, const Pen& pen) override { change_pen(pen); }
+    void change_pen(const Pen& pen) override {
+        if (style_.draws(pen)) is_used_[2 * place(pen)] = 1;
+    }
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen& pen) override { fill(pen); }
+    void area(std::span<const glm::dvec2>, const Pen& pen) override { fill(pen); }
+    void disc(glm::dvec2, double, const Pen& pen) override { fill(pen); }
+    const std::vector<char>& is_used() const { return is_used_; }
+
+private:
+    std::size_t place(const Pen& pen) const { return static_cast<std::size_t>(style_.index(pen)); }
+    void fill(const Pen& pen) {
+        if (style_.fill_colour(pen).alpha > 0) is_used_[2 * place(pen) + 1] = 1;
+    }
+    const Style& style_;
+    std::vector<char> is_used_;
+};
+
+/// The colours of a motif. Lines that would vanish on the ground get `visible` instead, unless fills may lie under
+/// them; fills do if nothing else of the motif is seen.
+std::vector<Colour> seen_colours(const BorderMotif& motif, Colour ground, Colour visible) {
+    constexpr double least = 0.2;  // in OKLab: lines are thin
+    std::vector<Colour> colours = motif_colours(motif.style);
+    ColourCensus census(motif.style);
+    motif.path.draw(census);
+    const auto is_seen = [&](std::size_t i) { return colour_distance(colours[i], ground) >= least; };
+    bool shows_lines = false, shows_fills = false;
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        if (census.is_used()[i]) (i % 2 == 0 ? shows_lines : shows_fills) |= is_seen(i);
+    }
+    if (shows_fills) return colours;
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        if (!is_seen(i) && colours[i].alpha > 0 && (i % 2 == 0 || !shows_lines)) colours[i] = visible;
+    }
+    return colours;
+}
+
 /// Draws a motif with its box in an area of a side.
 /// @param corner, along, down  of the area on the page: its top left corner as the motif stands, and its sides
 void draw_motif(const BorderMotif& motif, glm::dvec2 corner, glm::dvec2 along, glm::dvec2 down, int first,
@@ -191,20 +235,22 @@ double border_room(BorderKind kind, const Page& page) {
 }
 
 std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground) {
-    if (border.kind == BorderKind::pattern) {
-        std::vector<Colour> colours = motif_colours(border.repeat->style);
-        if (border.corner) {
-            for (const Colour colour : motif_colours(border.corner->style)) colours.push_back(colour);
-        }
-        return colours;
-    }
     constexpr double least = 0.14;  // in OKLab
     const Colour white = kolam_palette().front();
     const Colour under = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
     const Colour kaavi{0xb3, 0x45, 0x2c, 255};
     const Colour deep_earth{0x6e, 0x2c, 0x1c, 255};
     const Colour pale_earth{0xe0, 0x7a, 0x50, 255};
-    if (border.kind != BorderKind::kaavi && lightness(under) > 0.6) return {deep_earth, kaavi};
+    const bool is_light = lightness(under) > 0.6;
+    if (border.kind == BorderKind::pattern) {
+        std::vector<Colour> colours = seen_colours(*border.repeat, under, is_light ? deep_earth : white);
+        if (!border.corner) return colours;
+        for (const Colour colour : seen_colours(*border.corner, under, is_light ? deep_earth : white)) {
+            colours.push_back(colour);
+        }
+        return colours;
+    }
+    if (border.kind != BorderKind::kaavi && is_light) return {deep_earth, kaavi};
     return {white, colour_distance(kaavi, under) >= least ? kaavi : pale_earth};
 }
 

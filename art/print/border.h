@@ -12,23 +12,24 @@ namespace sikku {
 /// The repeat or the corner of a border, in steps, y up.
 struct BorderMotif {
     RecordedPath path;
-    Box box;      ///< of its ink, without the width of pens
-    Style style;  ///< of its pens
+    Box box;      ///< box of its ink, without the width of pens
+    Style style;  ///< style of its pens
 };
 
 /// A border that is ready to be drawn.
 struct Border {
     BorderKind kind = BorderKind::kaavi;
-    std::shared_ptr<const BorderMotif> repeat{};  ///< of BorderKind::pattern: upright at the top edge
+    std::shared_ptr<const BorderMotif> repeat{};  ///< motif of BorderKind::pattern, upright at the top edge
     std::shared_ptr<const BorderMotif> corner{};  ///< as it stands in the top left corner; null: a dot in a ring
 };
 
-/// How far the border reaches inwards from the margin, in millimetres; it grows with the page's shorter side.
+/// Depth of the border inwards from the margin, in millimetres; it grows with the page's shorter side.
 double border_depth(BorderKind kind, const Page& page);
 /// With the room that a drawing leaves to it.
 double border_room(BorderKind kind, const Page& page);
 /// Colours of draw_border(): those of a traditional border are rice flour and red earth (*kaavi*), in tones that
-/// stand out from the ground, or, on light ground, dark and light red earth; those of a pattern come from its style.
+/// stand out from the ground, or, on light ground, dark and light red earth; those of a pattern come from its style,
+/// except where its lines would vanish on the ground: they become rice flour or dark red earth.
 /// Without a ground, the paper is white.
 std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground);
 

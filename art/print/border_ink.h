@@ -85,7 +85,7 @@ private:
     std::vector<glm::dvec2> points_;
 };
 
-/// The borders of BorderKind of these names, within `sides`, of that depth in millimetres.
+/// Draw the borders of BorderKind with these names within `sides`, at this depth in millimetres.
 void draw_padi(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_lotus(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_rope(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);

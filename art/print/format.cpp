@@ -11,7 +11,7 @@ namespace {
 using enum PrintFormat;
 using enum FormatKind;
 
-constexpr std::array<FormatInfo, 11> table = {{
+constexpr std::array<FormatInfo, 12> table = {{
     {.format = svg, .kind = vectors, .label = "SVG", .extension = "svg", .is_animated = true, .is_text = true},
     {.format = pdf, .kind = vectors, .label = "PDF", .extension = "pdf", .has_plates = true},
     {.format = png, .kind = pixels, .label = "PNG", .extension = "png"},
@@ -21,6 +21,7 @@ constexpr std::array<FormatInfo, 11> table = {{
     {.format = gif, .kind = animation, .label = "GIF", .extension = "gif"},
     {.format = hpgl, .kind = plot, .label = "HP-GL", .extension = "hpgl", .alias = "plt", .is_text = true},
     {.format = gcode, .kind = plot, .label = "G-code", .extension = "gcode", .alias = "nc", .is_text = true},
+    {.format = dxf, .kind = plot, .label = "DXF", .extension = "dxf", .is_text = true},
     {.format = obj, .kind = model, .label = "OBJ", .extension = "obj", .is_text = true},
     {.format = glb, .kind = model, .label = "glTF", .extension = "glb"},
 }};

@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, obj, glb };
+enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, dxf, obj, glb };
 
 /// Contents of a format, which determine how it is drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
@@ -37,12 +37,12 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file);
 /// The format of that name or extension (`svg`, `plt`; any case), or nullopt.
 std::optional<PrintFormat> named_format(std::string_view name);
 
-/// SVG, PDF, HP-GL and G-code: lines rather than pixels.
+/// SVG, PDF, HP-GL, G-code and DXF: lines rather than pixels.
 inline bool is_vector(PrintFormat format) {
     const FormatKind kind = info(format).kind;
     return kind == FormatKind::vectors || kind == FormatKind::plot;
 }
-/// HP-GL and G-code, which describe movements of a pen.
+/// HP-GL, G-code and DXF, which describe movements of a pen or another tool.
 inline bool is_for_plotters(PrintFormat format) {
     return info(format).kind == FormatKind::plot;
 }

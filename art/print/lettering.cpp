@@ -108,7 +108,7 @@ struct Mark {
     Place place;
     std::string_view glyph;
     std::string_view bases;
-    std::u32string_view composed;  ///< of each of them
+    std::u32string_view composed;  ///< composed character of each base
 };
 constexpr Mark marks[] = {
     {0x300, Place::above, "SRPN", "AEIOUaeiouNnWwYy", U"ÀÈÌÒÙàèìòùǸǹẀẁỲỳ"},
@@ -135,7 +135,7 @@ using Polyline = std::vector<glm::dvec2>;
 struct Glyph {
     double width = 0.0;
     std::vector<Polyline> strokes;
-    double low = 0.0, high = 0.0;  ///< of the strokes, across
+    double low = 0.0, high = 0.0;  ///< extent of the strokes, across
     double top = 0.0;
 };
 
@@ -223,7 +223,7 @@ const Mark* combining_mark(char32_t code) {
     return found == std::end(marks) ? nullptr : found;
 }
 
-/// The character at the beginning and its bytes; U+FFFD for a byte that is none.
+/// The first character and its number of bytes; U+FFFD for an invalid byte.
 std::pair<char32_t, std::size_t> first_character(std::string_view text) {
     const std::size_t length = utf8_length(text);
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -15,7 +15,7 @@ namespace sikku {
 /// letters with their accents (also as combining marks), dashes, quotes, `…`, `→`, `−`, `×`, `·`, `°`. What the font
 /// does not have, and bytes that are no UTF-8, become a box; a line break is a space.
 
-/// How far accents rise above capital letters and descenders fall below the line, as parts of the height.
+/// Height of accents above capital letters, and of descenders below the line, as parts of the height.
 constexpr double letter_ascent = 1.4;
 constexpr double letter_descent = 0.4;
 

@@ -93,7 +93,7 @@ private:
     const Style& style_;
     std::vector<int> colours_;
     const std::vector<std::uint32_t>& lines_;
-    std::size_t stroke_ = SIZE_MAX;  ///< of those that are seen
+    std::size_t stroke_ = SIZE_MAX;  ///< index among the visible strokes
     bool is_seen_ = false;
 };
 

@@ -69,7 +69,7 @@ double breathing(const Balance& balance, glm::dvec2 room, glm::dvec2 size) {
 
 /// From the middle of the page to the place of the box's centre, in millimetres, y down.
 glm::dvec2 optical_shift(const Balance& balance, const Page& page, glm::dvec2 size) {
-    // Of what is free above and below, 46 % are above.
+    // 46 % of the free height is above the drawing.
     constexpr double rise = 0.04, pull = 0.6;
     const glm::dvec2 free(std::max(0.0, page.width - 2 * page.margin - size.x),
                           std::max(0.0, page.height - 2 * page.margin - size.y));

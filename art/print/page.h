@@ -33,7 +33,7 @@ struct Box {
     }
 };
 
-/// How pattern units become millimetres on the page, y down from the top left corner.
+/// Maps pattern units to millimetres on the page, y down from the top left corner.
 struct Placement {
     glm::dmat3x2 to_page{1.0};  ///< page = to_page * (x, y, 1)
     double step = 1.0;          ///< millimetres of one turtle step

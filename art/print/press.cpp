@@ -59,13 +59,13 @@ Spot parse_spot(std::string_view text) {
     if (name.empty()) refuse("its name is missing");
     if (name.size() > longest_name) refuse(fmt::format("its name is longer than {} bytes", longest_name));
     for (const char* reserved : {"All", "None", "Cyan", "Magenta", "Yellow", "Black"}) {
-        if (lower_case(name) == lower_case(reserved)) refuse(fmt::format("the name {} is taken", reserved));
+        if (lower_case(name) == lower_case(reserved)) refuse(fmt::format("the name {} is reserved", reserved));
     }
     if (!is_printable(name)) refuse("its name contains control characters or invalid UTF-8");
     if (colour_text.empty()) refuse("its colour is missing");
     const auto colour = parse_colour(colour_text);
     if (!colour) refuse(fmt::format("'{}' is not a colour: write #rrggbb or a CSS name", printable(colour_text)));
-    if (colour->alpha != 255) refuse("the colour of an ink is not transparent");
+    if (colour->alpha != 255) refuse("the colour of an ink cannot be transparent");
     return {std::string(name), *colour};
 }
 
@@ -92,7 +92,7 @@ void check_press(const Press& press, PrintFormat format) {
     const auto refuse_if = [](bool is_wrong, const char* option, const std::string& why) {
         if (is_wrong) refuse_option(option, "", why);
     };
-    // Also false for what is no number.
+    // Also false for NaN.
     const bool has_bleed = press.bleed >= 0.0 && press.bleed <= most_bleed;
     refuse_if(!has_bleed, "bleed", fmt::format("expected 0 to {:g}mm", most_bleed));
     refuse_if(press.bleed > 0.0 && is_for_plotters(format), "bleed", "a plot has no bleed");
@@ -105,10 +105,10 @@ void check_press(const Press& press, PrintFormat format) {
     refuse_if(press.overprint != Overprint::none && press.cmyk.empty() && press.spots.empty(), "overprint",
               "needs 'cmyk' or 'spot': colours that are not inks cannot overprint");
     refuse_if(format != PrintFormat::tiff && !is_pdf && !press.cmyk.empty(), "cmyk",
-              "only TIFF and PDF are made in CMYK");
-    refuse_if(format != PrintFormat::tiff && press.bits == 1, "bits", "only a TIFF is made in one bit");
+              "only TIFF and PDF support CMYK");
+    refuse_if(format != PrintFormat::tiff && press.bits == 1, "bits", "only TIFF supports one bit per channel");
     refuse_if(press.bits != 1 && press.screen != Screen{}, "screen", "applies only to pictures of one bit");
-    refuse_if(press.bits == 1 && !press.cmyk.empty(), "cmyk", "a picture in CMYK has 8 bits a channel");
+    refuse_if(press.bits == 1 && !press.cmyk.empty(), "cmyk", "a picture in CMYK has 8 bits per channel");
 }
 
 void check_spots(const Press& press, const Style& style) {

@@ -36,8 +36,8 @@ struct PressInks {
     std::function<std::array<double, 4>(Colour)> convert;
 };
 
-/// What prints over the inks beneath it instead of removing them, so that no paper shows if plates are misaligned:
-/// black lines and dots, areas and lines in spot colours, or both.
+/// The marks that overprint the inks beneath them instead of knocking them out, so that no paper shows if plates are
+/// misaligned: black lines and dots, areas and lines in spot colours, or both.
 enum class Overprint : std::uint8_t { none, black, spots, all };
 
 /// Settings for the print shop. The page of the print is the trimmed sheet.

@@ -34,9 +34,10 @@ struct Print {
     std::string made;                          ///< the recipe: `sikku 0.1.0, -n 4`
     std::optional<int> travel_colour;          ///< index of the colour that shows pen-up travel
     bool is_plot = false;                      ///< mark layers that no pen draws
-    std::map<int, std::string> layer_names{};  ///< of lines, by index of their colour, instead of number and colour
+    std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
-    std::optional<LessonPart> lesson;  ///< of a part of an SVG: see PrintWriter::begin_part()
+    std::optional<LessonPart> lesson;  ///< lesson of a part of an SVG: see PrintWriter::begin_part()
+    bool names_tiles = false;          ///< an SVG gives each polygon an identifier and classes
     Press press;                       ///< settings for the print shop
 };
 

@@ -1,5 +1,5 @@
 // art/print/recipe_comments.h: stores the pattern and the recipe of a print in the comments of formats without other
-// texts: G-code, HP-GL, OBJ, glTF, GIF.
+// texts: G-code, HP-GL, DXF, OBJ, glTF, GIF.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ constexpr std::size_t most_commented_bytes = std::size_t{1} << 20;
 /// interprets. Empty if pattern and recipe are larger than most_commented_bytes.
 std::vector<std::string> recipe_comments(std::string_view pattern, std::string_view made);
 
-/// Reads pattern and recipe from all pieces in a text, in order; nullopt if there are none or they are damaged.
+/// Reads pattern and recipe from all pieces in a text, in order; nullopt if they are absent or damaged.
 /// Cost: linear.
 std::optional<std::pair<std::string, std::string>> read_recipe_comments(std::string_view text);
 

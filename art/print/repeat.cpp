@@ -1,9 +1,11 @@
 #include "art/print/repeat.h"
 
-#include "art/print/page.h"
+#include "art/print/crop.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -33,7 +35,7 @@ enum class Lattice { rectangular, square, hexagonal };
 struct Group {
     std::string_view name;
     Lattice lattice = Lattice::rectangular;
-    int wide = 1, high = 1;  ///< of a rectangular cell, in units
+    int wide = 1, high = 1;  ///< size of a rectangular cell, in units
     std::vector<Operation> operations{};
     std::vector<glm::dvec2> unit{};  ///< corners of the asymmetric unit
     bool is_frieze = false;
@@ -117,12 +119,7 @@ const Group* find_group(std::string_view name) {
 
 constexpr std::string_view ring = "ring";
 
-/// A polygon as half planes: normal . point <= offset.
-struct HalfPlane {
-    glm::dvec2 normal;
-    double offset;
-};
-
+/// A polygon as half planes.
 std::vector<HalfPlane> half_planes(const std::vector<glm::dvec2>& corners) {
     double area = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -138,7 +135,7 @@ std::vector<HalfPlane> half_planes(const std::vector<glm::dvec2>& corners) {
     return planes;
 }
 
-/// How far points reach in a direction.
+/// Extent of points in a direction.
 double reach(std::span<const glm::dvec2> points, glm::dvec2 direction) {
     double most = -1e300;
     for (const glm::dvec2 point : points) most = std::max(most, glm::dot(point, direction));
@@ -232,6 +229,19 @@ bool read_count(std::string_view text, int& value) {
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= most_copies;
 }
 
+/// Parses `3x4`, `fill` or `3xfill`; of a frieze or a ring, `3`.
+bool read_cells(std::string_view text, bool is_row, Repeat& repeat) {
+    if (is_row) return read_count(text, repeat.columns);
+    const std::size_t x = std::min(text.find('x'), text.size());
+    repeat.fills = text == "fill" || (x < text.size() && text.substr(x + 1) == "fill");
+    if (text == "fill") return true;
+    if (x == text.size() || !read_count(text.substr(0, x), repeat.columns)) return false;
+    if (!repeat.fills) return read_count(text.substr(x + 1), repeat.rows);
+    // An upright page of paper is 1.41 times as high as wide.
+    repeat.rows = repeat.columns + (repeat.columns + 1) / 2;
+    return true;
+}
+
 }  // namespace
 
 int Repeat::copies() const {
@@ -252,13 +262,8 @@ std::optional<Repeat> parse_repeat(std::string_view text) {
     repeat.columns = is_ring ? 8 : is_row ? 5 : 3;
     repeat.rows = is_row ? 1 : 3;
     if (colon < head.size()) {
-        const std::string count = lower_case(trimmed(head.substr(colon + 1)));
-        const std::size_t x = count.find('x');
-        if (!read_count(std::string_view(count).substr(0, x), repeat.columns)) return std::nullopt;
-        if (is_row ? x != std::string::npos
-                   : x == std::string::npos || !read_count(std::string_view(count).substr(x + 1), repeat.rows)) {
-            return std::nullopt;
-        }
+        const bool is_read = read_cells(lower_case(trimmed(head.substr(colon + 1))), is_row, repeat);
+        if (!is_read) return std::nullopt;
     }
     if (comma < text.size()) {
         std::string gap = lower_case(trimmed(text.substr(comma + 1)));
@@ -282,21 +287,21 @@ std::vector<std::string_view> repeat_groups() {
     return names;
 }
 
-std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink) {
+Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink) {
     Box box;
     for (const glm::dvec2 point : hull) box.add(point);
     const glm::dvec2 size = box.high - box.low;
     const double gap = ink + repeat.gap * (repeat.gap_is_in_steps ? 1.0 : std::max(size.x, size.y));
-    if (repeat.group == ring) return ring_of(repeat.columns, hull, box, gap);
     const Group& group = *find_group(repeat.group);
-    glm::dvec2 a, b, across, up, shift;
+    Wallpaper wallpaper;
+    glm::dvec2 a, b, shift;
     if (group.lattice == Lattice::rectangular) {
         // Copies may overlap, but cells go on in their direction.
         const glm::dvec2 unit(std::max(size.x + gap, 1e-9), std::max(size.y + gap, 1e-9));
         a = {unit.x, 0};
         b = {0, unit.y};
-        across = static_cast<double>(group.wide) * a;
-        up = static_cast<double>(group.high) * b;
+        wallpaper.across = static_cast<double>(group.wide) * a;
+        wallpaper.up = static_cast<double>(group.high) * b;
         shift = unit / 2.0 - (box.low + box.high) / 2.0;
     } else {
         a = {1, 0};
@@ -307,21 +312,78 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
         const double cell = std::max(fit.size, 1e-9);
         a *= cell;
         b *= cell;
-        across = a;
-        up = b;
+        wallpaper.across = a;
+        wallpaper.up = b;
         shift = fit.shift;
     }
+    for (const Operation& operation : group.operations) wallpaper.cell.push_back(placed(operation, a, b, shift));
+    return wallpaper;
+}
+
+std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink) {
+    if (repeat.group == ring) {
+        Box box;
+        for (const glm::dvec2 point : hull) box.add(point);
+        const glm::dvec2 size = box.high - box.low;
+        const double gap = ink + repeat.gap * (repeat.gap_is_in_steps ? 1.0 : std::max(size.x, size.y));
+        return ring_of(repeat.columns, hull, box, gap);
+    }
+    const Wallpaper wallpaper = wallpaper_of(repeat, hull, ink);
+    const bool is_hexagonal = find_group(repeat.group)->lattice == Lattice::hexagonal;
     std::vector<glm::dmat3x2> copies;
     copies.reserve(static_cast<std::size_t>(repeat.copies()));
     for (int row = repeat.rows - 1; row >= 0; --row) {
         for (int column = 0; column < repeat.columns; ++column) {
             // Rows of a hexagonal lattice are moved back, so that the whole is about a rectangle.
-            const int back = group.lattice == Lattice::hexagonal ? row / 2 : 0;
-            const glm::dvec2 cell = static_cast<double>(column + back) * across + static_cast<double>(row) * up;
-            for (const Operation& operation : group.operations) {
-                glm::dmat3x2 copy = placed(operation, a, b, shift);
+            const int back = is_hexagonal ? row / 2 : 0;
+            const glm::dvec2 cell =
+                static_cast<double>(column + back) * wallpaper.across + static_cast<double>(row) * wallpaper.up;
+            for (glm::dmat3x2 copy : wallpaper.cell) {
                 copy[2] += cell;
                 copies.push_back(copy);
+            }
+        }
+    }
+    return copies;
+}
+
+std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box& box, const Box& area) {
+    std::vector<Box> one;  // of each copy of the cell
+    Box cell;
+    for (const glm::dmat3x2& copy : wallpaper.cell) {
+        Box& of_copy = one.emplace_back();
+        for (const double x : {box.low.x, box.high.x}) {
+            for (const double y : {box.low.y, box.high.y}) of_copy.add(copy * glm::dvec3(x, y, 1));
+        }
+        cell.add(of_copy.low);
+        cell.add(of_copy.high);
+    }
+    // Which translations may bring the cell into the area.
+    const glm::dmat2x2 to_lattice = glm::inverse(glm::dmat2x2(wallpaper.across, wallpaper.up));
+    Box range;
+    for (const double x : {area.low.x - cell.high.x, area.high.x - cell.low.x}) {
+        for (const double y : {area.low.y - cell.high.y, area.high.y - cell.low.y}) {
+            range.add(to_lattice * glm::dvec2(x, y));
+        }
+    }
+    constexpr double slack = 1e-9;
+    const glm::dvec2 low = glm::ceil(range.low - slack), high = glm::floor(range.high + slack);
+    const auto refuse = [] {
+        throw std::runtime_error(fmt::format(
+            "the page would be filled with more than {} copies: a longer step or fewer columns are needed",
+            most_copies));
+    };
+    if (!((high.x - low.x + 1) * (high.y - low.y + 1) <= 16.0 * most_copies)) refuse();
+    std::vector<glm::dmat3x2> copies;
+    for (double row = high.y; row >= low.y; --row) {
+        for (double column = low.x; column <= high.x; ++column) {
+            const glm::dvec2 shift = column * wallpaper.across + row * wallpaper.up;
+            for (std::size_t i = 0; i < one.size(); ++i) {
+                const glm::dvec2 from = one[i].low + shift, to = one[i].high + shift;
+                if (from.x > area.high.x || from.y > area.high.y || to.x < area.low.x || to.y < area.low.y) continue;
+                copies.push_back(wallpaper.cell[i]);
+                copies.back()[2] += shift;
+                if (copies.size() > static_cast<std::size_t>(most_copies)) refuse();
             }
         }
     }

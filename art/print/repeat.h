@@ -1,6 +1,8 @@
 // art/print/repeat.h: repeats of a drawing: friezes, the wallpaper groups, rings.
 #pragma once
 
+#include "art/print/page.h"
+
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -11,14 +13,17 @@
 
 namespace sikku {
 
-/// How a drawing is repeated.
+/// The repetition of a drawing.
 struct Repeat {
     std::string group;             ///< `frieze`, `p4m`, `ring`, …
     int columns = 1, rows = 1;     ///< translation cells; of a ring, `columns` copies
     double gap = 0.08;             ///< space between neighbouring copies; negative: they overlap
     bool gap_is_in_steps = false;  ///< the gap is in turtle steps, not a part of the drawing's larger side
+    /// Cover the page: `columns` cells are as wide as the page within its margins, unless the step is fixed, and the
+    /// wallpaper goes on to the edges.
+    bool fills = false;
 
-    /// Number of copies of the drawing.
+    /// Number of copies of the drawing; if they fill a page, about the number on an upright page of paper.
     int copies() const;
 };
 
@@ -26,10 +31,10 @@ struct Repeat {
 constexpr int most_copies = 10'000;
 
 /// Parses `GROUP[:COUNT][,gap=GAP]`. The group is a wallpaper group by its name (p1 p2 pm pg cm pmm pmg pgg cmm p4
-/// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3); a frieze group: frieze (translations alone),
-/// frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells (5); or ring with a number of copies (8). The
-/// gap is in steps, or in percent of the drawing's larger side (8%). Nullopt for anything else and for more than
-/// most_copies.
+/// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3), or `fill` or `COLUMNSxfill` to cover the page; a
+/// frieze group: frieze (translations alone), frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells
+/// (5); or ring with a number of copies (8). The gap is in steps, or in percent of the drawing's larger side (8%).
+/// Nullopt for anything else and for more than most_copies.
 std::optional<Repeat> parse_repeat(std::string_view text);
 
 /// All names of groups, in the order of parse_repeat().
@@ -42,5 +47,18 @@ std::vector<std::string_view> repeat_groups();
 /// @param hull  points of the convex hull of the drawing; at least one
 /// @param ink   width of its lines in steps, which is added to the gap
 std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
+
+/// A wallpaper without end: the copies of one cell, and the vectors by which the cell is repeated.
+struct Wallpaper {
+    std::vector<glm::dmat3x2> cell;
+    glm::dvec2 across{0.0}, up{0.0};
+};
+/// The wallpaper of a group, with copies as in copies_of(). @param repeat  neither a frieze nor a ring
+Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
+
+/// The copies of a wallpaper that may reach into an area, row by row from the top.
+/// @param box   of the drawing that is copied @param area  in the coordinates of the copies
+/// @throws std::runtime_error for more than most_copies
+std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box& box, const Box& area);
 
 }  // namespace sikku

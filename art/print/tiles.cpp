@@ -128,7 +128,7 @@ Tiling tiling_of(const Page& page, const TileOptions& options) {
         const glm::dvec2 room = glm::dvec2(tiling.sheet.width, tiling.sheet.height) - 2 * tiling.sheet.margin;
         if (!(options.overlap >= 0 && options.overlap < std::min(room.x, room.y))) {
             throw std::runtime_error(
-                fmt::format("sheets of {:g} x {:g} mm within their margins have no room for an overlap "
+                fmt::format("sheets of {:g} x {:g} mm within their margins are too small for an overlap "
                             "of {:g} mm",
                             room.x, room.y, options.overlap));
         }

@@ -51,6 +51,26 @@ bool begins_as_lilypond(std::string_view head) {
     return head.starts_with("\\version \"");
 }
 
+bool begins_as_mxl(std::string_view head) {
+    return head.starts_with("PK\x03\x04") && head.find("META-INF/container.xml") != std::string_view::npos;
+}
+
+bool begins_as_abc(std::string_view head) {
+    return head.starts_with("%abc");
+}
+
+bool begins_as_csound(std::string_view head) {
+    return head.starts_with("<CsoundSynthesizer>");
+}
+
+bool begins_as_csound_score(std::string_view head) {
+    return head.starts_with("; score for Csound\n");
+}
+
+bool begins_as_strudel(std::string_view head) {
+    return head.starts_with("// https://strudel.cc/#");
+}
+
 bool begins_as_wav(std::string_view head) {
     return head.starts_with("RIFF") && head.find("WAVE") == 8;
 }
@@ -66,7 +86,7 @@ struct Format {
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 16> formats = {{
+constexpr std::array<Format, 22> formats = {{
     {"a PNG file", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
     {"a TIFF file", begins_as_tiff, read_tiff_provenance},
     {"a JPEG file", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
@@ -76,10 +96,16 @@ constexpr std::array<Format, 16> formats = {{
     {"a GLB file", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
     {"an HP-GL file", begins_with<'I', 'N', ';'>, read_comment_provenance},
     {"a G-code file", begins_as_gcode, read_comment_provenance},
+    {"a DXF file", begins_with<'9', '9', '9', '\n'>, read_comment_provenance},
     {"an OBJ file", begins_as_obj, read_comment_provenance},
     {"a WAV file", begins_as_wav, read_nothing},
     {"a FLAC file", begins_with<'f', 'L', 'a', 'C'>, read_nothing},
     {"a LilyPond file", begins_as_lilypond, read_lilypond_provenance},
+    {"a compressed MusicXML file", begins_as_mxl, read_musicxml_provenance},
+    {"an ABC file", begins_as_abc, read_lilypond_provenance},
+    {"a Csound file", begins_as_csound, read_csound_provenance},
+    {"a Csound score", begins_as_csound_score, read_csound_provenance},
+    {"a Strudel program", begins_as_strudel, read_strudel_provenance},
     {"an HTML page", begins_as_html, read_page_provenance},
     {"a MusicXML file", begins_as_musicxml, read_musicxml_provenance},
     {"an SVG file", begins_as_xml, read_svg_provenance},

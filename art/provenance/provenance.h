@@ -22,10 +22,10 @@ struct KnownFormat {
 /// The format that a file begins as, or nullopt: none of those below, or it cannot be opened.
 std::optional<KnownFormat> known_format(const std::filesystem::path& file);
 
-/// Reads the pattern that the program put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF, GIF, HP-GL, G-code, OBJ, glTF,
-/// MusicXML, LilyPond, HTML. Sound (WAV, FLAC) contains none. Recognises the format by the first bytes, not by the
-/// name; never decodes pixels. Returns nullopt if the format is unknown or the file is not a regular file that can be
-/// opened.
+/// Reads the pattern that the program put into a file: PNG, TIFF, JPEG, EXR, SVG, PDF, GIF, HP-GL, G-code, DXF, OBJ,
+/// glTF, MusicXML, LilyPond, HTML. Sound (WAV, FLAC) contains none. Recognises the format by the first bytes, not by
+/// the name; never decodes pixels. Returns nullopt if the format is unknown or the file is not a regular file that
+/// can be opened.
 ///
 /// Safe for untrusted files: reading any file takes at most about a second and 200 MB.
 /// @throws std::runtime_error, naming the file, if it has one of the formats but contains no pattern, is damaged, or

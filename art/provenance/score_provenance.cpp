@@ -53,6 +53,30 @@ std::optional<Provenance> read_marked(const InputFile& file, std::string_view ma
     return found;
 }
 
+/// The texts as comments behind the first empty line: the recipe on one line, then the pattern.
+std::optional<Provenance> read_comments(const InputFile& file, std::string_view sign) {
+    InputStream in(file, 0, most_lilypond_bytes);
+    if (!in.skip_past("\n\n")) return std::nullopt;
+    Provenance found;
+    bool is_first = true;
+    while (in.skip_text(sign)) {
+        in.skip_text(" ");
+        std::string& text = std::exchange(is_first, false) ? found.made : found.pattern;
+        for (bool is_whole = false; !is_whole;) {
+            const std::string_view bytes = in.ahead();
+            if (bytes.empty()) refuse_damaged();
+            const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+            append_text(text, bytes.substr(0, end));
+            is_whole = end < bytes.size();
+            in.skip(end + 1);
+        }
+        if (&text == &found.pattern) append_text(text, "\n");
+    }
+    limit_made(found.made);
+    if (!found.made.starts_with("sikku ")) return std::nullopt;
+    return found;
+}
+
 }  // namespace
 
 XmlReference read_xml_reference(std::string_view bytes) {
@@ -93,26 +117,15 @@ std::optional<Provenance> read_page_provenance(const InputFile& file) {
 }
 
 std::optional<Provenance> read_lilypond_provenance(const InputFile& file) {
-    InputStream in(file, 0, most_lilypond_bytes);
-    if (!in.skip_past("\n\n")) return std::nullopt;
-    Provenance found;
-    bool is_first = true;
-    while (in.skip_text("%")) {
-        in.skip_text(" ");
-        std::string& text = std::exchange(is_first, false) ? found.made : found.pattern;
-        for (bool is_whole = false; !is_whole;) {
-            const std::string_view bytes = in.ahead();
-            if (bytes.empty()) refuse_damaged();
-            const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-            append_text(text, bytes.substr(0, end));
-            is_whole = end < bytes.size();
-            in.skip(end + 1);
-        }
-        if (&text == &found.pattern) append_text(text, "\n");
-    }
-    limit_made(found.made);
-    if (!found.made.starts_with("sikku ")) return std::nullopt;
-    return found;
+    return read_comments(file, "%");
+}
+
+std::optional<Provenance> read_csound_provenance(const InputFile& file) {
+    return read_comments(file, ";");
+}
+
+std::optional<Provenance> read_strudel_provenance(const InputFile& file) {
+    return read_comments(file, "//");
 }
 
 }  // namespace sikku

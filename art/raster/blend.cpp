@@ -227,6 +227,8 @@ void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage
 }
 
 void Canvas::polygon_span(int row, int first, int end, int coverage, Colour colour) {
+    // The last band of a page has fewer rows than a polygon that reaches below it.
+    if (row >= rows_) return;
     if (!bare_ready_) {
         bare_.assign(static_cast<std::size_t>(width_) * rows_, 255);
         bare_ready_ = true;

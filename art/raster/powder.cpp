@@ -111,20 +111,24 @@ PowderGrain::PowderGrain(const glm::dmat3x2& to_pixels, double grain) {
 
 PowderGrain::~PowderGrain() = default;
 
+/// Height of the grains at a place in 1/65536 texels, from -128 to 127.
+inline int PowderGrain::grain_at(std::int64_t x, std::int64_t y) const {
+    const std::uint32_t mask = (1u << bits_) - 1;
+    const std::uint32_t x0 = static_cast<std::uint32_t>(x >> 16) & mask, x1 = (x0 + 1) & mask;
+    const std::uint32_t y0 = (static_cast<std::uint32_t>(y >> 16) & mask) << bits_;
+    const std::uint32_t y1 = (y0 + mask + 1) & ((mask + 1) * (mask + 1) - 1);
+    const int across = static_cast<int>(x >> 8) & 255, down = static_cast<int>(y >> 8) & 255;
+    const int upper = (256 - across) * texels_[y0 + x0] + across * texels_[y0 + x1];
+    const int lower = (256 - across) * texels_[y1 + x0] + across * texels_[y1 + x1];
+    return (((256 - down) * upper + down * lower) >> 16) - 128;
+}
+
 void PowderGrain::settle(std::uint8_t* heights, int row, int first, int end) const {
     const std::int64_t row_x = origin_x_ + row_x_ * row, row_y = origin_y_ + row_y_ * row;
-    const std::uint32_t mask = (1u << bits_) - 1;
     for (int column = first; column < end; ++column) {
         const int height = heights[column];
         if (height == 0) continue;
-        const std::int64_t x = row_x + column_x_ * column, y = row_y + column_y_ * column;
-        const std::uint32_t x0 = static_cast<std::uint32_t>(x >> 16) & mask, x1 = (x0 + 1) & mask;
-        const std::uint32_t y0 = (static_cast<std::uint32_t>(y >> 16) & mask) << bits_;
-        const std::uint32_t y1 = (y0 + mask + 1) & ((mask + 1) * (mask + 1) - 1);
-        const int across = static_cast<int>(x >> 8) & 255, down = static_cast<int>(y >> 8) & 255;
-        const int upper = (256 - across) * texels_[y0 + x0] + across * texels_[y0 + x1];
-        const int lower = (256 - across) * texels_[y1 + x0] + across * texels_[y1 + x1];
-        const int grain = (((256 - down) * upper + down * lower) >> 16) - 128;
+        const int grain = grain_at(row_x + column_x_ * column, row_y + column_y_ * column);
         // Where the height with its grains is above that of the edge there is powder,
         const int above = height - edge_height + grain * 36 / 128;
         const int cover = std::clamp(128 + above * contrast_ / 16, 0, 255);
@@ -132,6 +136,16 @@ void PowderGrain::settle(std::uint8_t* heights, int row, int first, int end) con
         const int dense = std::clamp(192 + (height - 70) * 5 / 9 + grain / 5, 120, 255);
         const int paint = cover * dense / 255;
         heights[column] = static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);
+    }
+}
+
+void PowderGrain::strew(std::uint8_t* coverage, int row, int first, int end) const {
+    const std::int64_t row_x = origin_x_ + row_x_ * row, row_y = origin_y_ + row_y_ * row;
+    for (int column = first; column < end; ++column) {
+        const int grain = grain_at(row_x + column_x_ * column, row_y + column_y_ * column);
+        const int dense = std::clamp(226 + grain * 3 / 4, 0, 255);
+        const int paint = coverage[column] * dense / 255;
+        coverage[column] = static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);
     }
 }
 

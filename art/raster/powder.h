@@ -33,9 +33,13 @@ public:
 
     /// Replaces heights in [first, end) of a row of the page by coverage.
     void settle(std::uint8_t* heights, int row, int first, int end) const;
+    /// Thins coverage in [first, end) of a row of the page, as of powder strewn over an area: some ground shows
+    /// between its grains.
+    void strew(std::uint8_t* coverage, int row, int first, int end) const;
 
 private:
     struct Texture;
+    int grain_at(std::int64_t x, std::int64_t y) const;
     static const Texture& texture();
 
     const std::uint8_t* texels_;

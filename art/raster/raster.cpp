@@ -41,7 +41,7 @@ constexpr int longest_line = 2048 * subpixels;
 
 /// The streams of one colour (or of all polygons), a band each; made when the colour is first used.
 using Layer = std::vector<Stream>;
-/// What one band gets of powder.
+/// The powder in one band.
 using Powder = std::vector<PowderSegment>;
 
 /// Everything a thread needs for a band, used again and again.
@@ -66,8 +66,14 @@ private:
 
 class PolygonReader {
 public:
-    PolygonReader(Workplace& workplace, int top, const std::vector<Colour>& colours)
-        : workplace_(workplace), area_(workplace.area()), top_(top * subpixels), colours_(colours) {}
+    /// @param grain  of powder strewn over polygons, or null
+    PolygonReader(Workplace& workplace, int top, const std::vector<Colour>& colours, const PowderGrain* grain)
+        : workplace_(workplace),
+          area_(workplace.area()),
+          top_(top * subpixels),
+          colours_(colours),
+          grain_(grain),
+          strewn_(grain ? static_cast<std::size_t>(workplace.mask.width) : 0) {}
     ~PolygonReader() { paint(); }
     PolygonReader(const PolygonReader&) = delete;
     PolygonReader& operator=(const PolygonReader&) = delete;
@@ -87,14 +93,26 @@ public:
 private:
     void paint() {
         area_.sweep([&](int row, int first, int end, int coverage) {
+            if (grain_) return strew(row, first, end, coverage);
             workplace_.canvas.polygon_span(row, first, end, coverage, colour_);
         });
+    }
+    /// Paints a span of a row with grains.
+    void strew(int row, int first, int end, int coverage) {
+        std::fill(strewn_.begin() + first, strewn_.begin() + end, static_cast<std::uint8_t>(coverage));
+        grain_->strew(strewn_.data(), top_ / subpixels + row, first, end);
+        for (int column = first; column < end; ++column) {
+            const int paint = strewn_[static_cast<std::size_t>(column)];
+            if (paint > 0) workplace_.canvas.polygon_span(row, column, column + 1, paint, colour_);
+        }
     }
 
     Workplace& workplace_;
     AreaFill& area_;
     std::int32_t top_;
     const std::vector<Colour>& colours_;
+    const PowderGrain* grain_;
+    std::vector<std::uint8_t> strewn_;
     Colour colour_;
     SubPoint at_;
 };
@@ -279,7 +297,7 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
     if (size_.width > most_pixels || size_.height > most_pixels) {
         throw std::runtime_error("the print would be " + std::to_string(size_.width) + " x " +
                                  std::to_string(size_.height) + " pixels; at most " + std::to_string(most_pixels) +
-                                 " a side can be drawn");
+                                 " per side can be drawn");
     }
     millimetre_ = print.dpi / 25.4;
     matrix_ = print.placement.to_page;
@@ -689,7 +707,7 @@ void BandRaster::render_band(Workplace& workplace, int band) const {
     workplace.canvas.clear(ground_, std::min(band_rows_, size_.height - top));
     const std::size_t at = static_cast<std::size_t>(band);
     if (!polygons_.empty() && !polygons_[at].empty()) {
-        polygons_[at].read(PolygonReader(workplace, top, fill_colours_), watch_);
+        polygons_[at].read(PolygonReader(workplace, top, fill_colours_, grain_ ? &*grain_ : nullptr), watch_);
     }
     const auto paint = [&](const std::vector<Layer>& layers, const std::vector<Colour>& colours) {
         for (std::size_t slot = 0; slot < layers.size(); ++slot) {

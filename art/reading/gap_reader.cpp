@@ -129,7 +129,7 @@ std::vector<float> drawn_values(const Shape& shape, const Window& window, double
     return values;
 }
 
-/// How much each place of a window tells of the state: the variance between the means of the states. The root, for
+/// Information about the state in each place of a window: the variance between the means of the states. The root, for
 /// both sides of a product. Without it the strands that all states share would decide.
 std::vector<float> weights_of(const std::vector<Shape>& shapes, const Window& window, double half_width) {
     const std::size_t count = window.places.size();

@@ -10,11 +10,11 @@
 
 namespace sikku {
 
-/// How well the ink around a gap agrees with each state, -1 to 1.
+/// Agreement of the ink around a gap with each state, -1 to 1.
 struct GapEvidence {
     std::array<double, 3> agreement{};  ///< by GapState
     GapState best() const;
-    /// Of the best state, less that of the next.
+    /// Agreement of the best state minus that of the second best.
     double margin() const;
 };
 

@@ -56,7 +56,7 @@ std::vector<Loop> parse_sequence(std::string_view text) {
     int depth = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
         if (text[at] == '[') {
-            if (++depth > 2) refuse("brackets within the brackets of a loop");
+            if (++depth > 2) refuse("the brackets of a loop contain brackets");
             if (depth == 2) loops.emplace_back();
         } else if (text[at] == ']') {
             if (--depth == 0) return loops;
@@ -176,7 +176,7 @@ std::uint32_t quarters(const std::string& gesture, std::size_t loop, std::size_t
         refuse(place + " passes between four dots; only gestures that cross between two dots can be read as gaps");
     }
     if (!gesture.empty() && (gesture[0] == 'c' || gesture[0] == 'h')) {
-        refuse(place + " is a decoration that has no place on a grid of gaps");
+        refuse(place + " is a decoration, which a grid of gaps cannot represent");
     }
     refuse(place + " is unknown; expected O1 to O4, C1, H3L, H3R or OP");
 }
@@ -210,7 +210,8 @@ public:
             const bool anticlockwise = between_rows ? to_right == (ahead == 1) : up != (ahead == 0);
             const std::uint32_t entry = (ahead + 2) % 4;
             if (count == 0) {
-                if (loop_.gestures.size() != 1) refuse(fmt::format("loop {}: C1 is a loop by itself", number_));
+                if (loop_.gestures.size() != 1)
+                    refuse(fmt::format("loop {}: C1 must be the only gesture of its loop", number_));
                 for (const GridDot side : sides) line.emplace_back(dot.x + 0.5 * side.x, dot.y + 0.5 * side.y);
                 return line;
             }
@@ -296,16 +297,15 @@ ReadKolam read_gestures(std::string_view text) {
 
 std::string gestures_file(const DotGrid& grid, const GapStates& states) {
     if (grid.lattice() != DotLattice::square) {
-        throw std::runtime_error("the gestures of square loop kolams do not describe interlaced grids");
+        throw std::runtime_error("gestures can describe only straight grids; this one is interlaced");
     }
     const auto joined = std::find(states.begin(), states.end(), GapState::joined);
     if (joined != states.end()) {
         const auto gap = static_cast<std::size_t>(joined - states.begin());
         const GapPlace place = gap_places(grid)[gap];
-        throw std::runtime_error(
-            fmt::format("the gestures O1 to O4 and C1 do not describe joined gaps, as in row {}, "
-                        "gap {} ({} in all)",
-                        place.row, place.number, std::count(states.begin(), states.end(), GapState::joined)));
+        throw std::runtime_error(fmt::format("gestures cannot describe joined gaps, as in row {}, gap {} ({} in all)",
+                                             place.row, place.number,
+                                             std::count(states.begin(), states.end(), GapState::joined)));
     }
     std::int32_t left = INT32_MAX;
     std::int32_t bottom = INT32_MAX;

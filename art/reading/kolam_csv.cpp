@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -74,6 +75,25 @@ Columns find_columns(std::string_view heading, std::size_t number) {
     return columns;
 }
 
+/// Refuses a point far from its neighbours, as in a damaged table: the grid would grow to reach it.
+void check_steps(const ClosedLine& line, const std::vector<std::size_t>& rows) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(glm::distance(line[i - 1], line[i]));
+    std::vector<double> sorted = steps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double usual = *middle;
+    constexpr double most = 50;
+    const auto found = std::find_if(steps.begin(), steps.end(), [&](double step) { return step > most * usual; });
+    if (found == steps.end()) return;
+    // The first point is the far one if the line keeps to its steps behind it.
+    const bool is_first = found == steps.begin() && steps[1] <= most * usual;
+    const auto point = static_cast<std::size_t>(found - steps.begin()) + (is_first ? 0 : 1);
+    throw std::runtime_error(
+        fmt::format("row {}: the point {}, {} is {:.6g} from the one {} it; most points are {:.3g} apart",
+                    rows[point], line[point].x, line[point].y, *found, is_first ? "after" : "before", usual));
+}
+
 bool is_dot_like(std::int64_t doubled, std::int64_t dot) {
     return ((doubled - dot) % 4 + 4) % 4 == 0;
 }
@@ -104,7 +124,7 @@ std::optional<std::vector<GridDot>> dots_of(const ClosedLine& line) {
         const bool half_x = x % 2 != 0;
         const bool half_y = y % 2 != 0;
         if (half_x && half_y) return std::nullopt;
-        // The column of dots nearest to the point; midway between two of them there is none.
+        // The column of dots nearest to the point; none if it lies midway between two.
         const std::int64_t near_x = half_x ? (is_dot_like(x - 1, dot_x) ? x - 1 : x + 1) : x;
         const std::int64_t near_y = half_y ? (is_dot_like(y - 1, dot_y) ? y - 1 : y + 1) : y;
         const bool on_x = is_dot_like(near_x, dot_x);
@@ -143,6 +163,7 @@ ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monito
             fmt::format("the table has {}, but not number {}", counted(columns.kolams, "kolam"), number));
     }
     ClosedLine line;
+    std::vector<std::size_t> numbers;  // of the rows of its points
     Pulse pulse(monitor);
     bool has_ended = false;
     while (const auto row = rows.next()) {
@@ -162,10 +183,13 @@ ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monito
             throw std::runtime_error(fmt::format("row {}: expected two numbers below 1e9, not '{}' and '{}'",
                                                  rows.number(), printable(*x, 40), printable(*y, 40)));
         }
-        if (has_ended) throw std::runtime_error(fmt::format("row {}: the line goes on after a gap", rows.number()));
+        if (has_ended)
+            throw std::runtime_error(fmt::format("row {}: the line continues after empty cells", rows.number()));
         line.push_back(point);
+        numbers.push_back(rows.number());
     }
     if (line.size() < 4) throw std::runtime_error(fmt::format("kolam {} has no line", number));
+    check_steps(line, numbers);
     bool is_closed = line.front() == line.back();
     if (is_closed) line.pop_back();
     const auto dots = dots_of(line);
@@ -190,12 +214,13 @@ ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monito
 
 std::string kolam_csv_file(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
     if (grid.lattice() != DotLattice::square) {
-        throw std::runtime_error("the CSV of one-stroke kolams holds square grids only; this one is interlaced");
+        throw std::runtime_error(
+            "the CSV of one-stroke kolams can contain only straight grids; this one is interlaced");
     }
     const auto lines = lines_of_kolam(grid, states, 0.5, monitor);
     if (lines.size() != 1) {
-        throw std::runtime_error(
-            fmt::format("the CSV of one-stroke kolams holds a single line; this kolam has {}", lines.size()));
+        throw std::runtime_error(fmt::format(
+            "the CSV of one-stroke kolams can contain only single lines; this kolam has {}", lines.size()));
     }
     std::string text = "x-kolam 1,y-kolam 1\n";
     for (std::size_t i = 0; i <= lines[0].size(); ++i) {

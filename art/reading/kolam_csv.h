@@ -13,7 +13,7 @@ namespace sikku {
 /// dots, and turns back half a unit from its dot. Lines with other points are read as those of a drawing. Cost:
 /// linear.
 /// @param number  of the kolam in the table, from 1
-/// @throws std::runtime_error with the place of what is wrong
+/// @throws std::runtime_error with the place of the error
 ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monitor& monitor = {});
 
 /// True if a text begins with the heading of such a table.

@@ -22,15 +22,6 @@
 namespace sikku {
 namespace {
 
-/// The value of a comment that the program writes into patterns of kolams, or empty.
-std::string_view comment(std::string_view text, std::string_view name) {
-    const std::string mark = fmt::format("\n// {}: ", name);
-    const std::size_t at = text.find(mark);
-    if (at == std::string_view::npos) return {};
-    const std::string_view rest = text.substr(at + mark.size());
-    return trimmed(rest.substr(0, rest.find_first_of("\r\n")));
-}
-
 /// Joins strokes that meet end to end; open lines are counted.
 std::vector<ClosedLine> closed_lines(const Polylines<glm::dvec2>& strokes, std::size_t& open) {
     using Key = std::pair<std::int64_t, std::int64_t>;
@@ -85,8 +76,8 @@ std::vector<ClosedLine> closed_lines(const Polylines<glm::dvec2>& strokes, std::
 std::optional<ReadKolam> stated_kolam(const Document& document, const std::vector<ClosedLine>& lines,
                                       const Monitor& monitor) {
     const std::string_view text = document.source().text();
-    const std::string_view grid_text = comment(text, "grid");
-    const std::string_view gaps_text = comment(text, "gaps");
+    const std::string_view grid_text = kolam_comment(text, "grid");
+    const std::string_view gaps_text = kolam_comment(text, "gaps");
     if (grid_text.empty()) return std::nullopt;
     try {
         const DotGrid grid = parse_dot_grid(grid_text);
@@ -128,11 +119,12 @@ std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFil
 ReadKolam read_kolam_document(const Document& document, double budget, const Monitor& monitor) {
     const DrawnLines drawn = drawn_lines(document, budget, monitor);
     const auto* strokes = std::get_if<Polylines<glm::dvec2>>(&drawn);
-    if (!strokes) throw std::runtime_error("a kolam lies in the plane: this drawing pitches, rolls or bends");
+    if (!strokes)
+        throw std::runtime_error("a kolam lies in the plane: this drawing pitches, rolls, bends or has surfaces");
     std::size_t open = 0;
     const std::vector<ClosedLine> lines = closed_lines(*strokes, open);
     if (lines.empty()) {
-        throw std::runtime_error(open > 0 ? "a kolam has closed lines: those of this drawing are open"
+        throw std::runtime_error(open > 0 ? "a kolam has closed lines; all lines of this drawing are open"
                                           : "the drawing has no lines");
     }
     auto stated = open == 0 ? stated_kolam(document, lines, monitor) : std::nullopt;

@@ -14,9 +14,10 @@
 namespace sikku {
 
 struct KolamFileOptions {
-    std::size_t number = 1;                  ///< of the kolam in a table
-    std::optional<DotLattice> lattice = {};  ///< of drawings and photographs; none: as it fits best
-    bool repair = true;                      ///< doubtful gaps of photographs by symmetry
+    std::size_t number = 1;  ///< number of the kolam in a table
+    std::optional<DotLattice> lattice =
+        {};              ///< lattice of drawings and photographs; absent: the one that fits better
+    bool repair = true;  ///< doubtful gaps of photographs by symmetry
 };
 
 /// Reads a text: `.kolam.json`, CSV of one-stroke kolams, SVG, or gestures, whichever it looks like.

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuse(const std::string& what) {
-    throw std::runtime_error("not a .kolam.json file that can be read: " + what);
+    throw std::runtime_error("not a valid .kolam.json file: " + what);
 }
 
 const Json& member(const Json& object, const char* key) {
@@ -85,7 +85,7 @@ ReadKolam read_kolam_json(const std::string& text) {
     if (!format.is_string() || format.get<std::string>() != "kolam") refuse("'format' is not \"kolam\"");
     const Json& version = member(file, "version");
     if (!version.is_number_integer() || version.get<std::int64_t>() != 1) {
-        refuse("'version' is not 1, the version that is known");
+        refuse("'version' is not 1, the only supported version");
     }
     const Json& design = member(file, "design");
     const std::size_t rows = whole(design, "rows");
@@ -133,7 +133,7 @@ ReadKolam read_kolam_json(const std::string& text) {
 
 std::string kolam_json_file(const DotGrid& grid, const GapStates& states) {
     if (grid.lattice() != DotLattice::square) {
-        throw std::runtime_error(".kolam.json holds square grids only; this one is interlaced");
+        throw std::runtime_error(".kolam.json can contain only straight grids; this one is interlaced");
     }
     std::int32_t left = INT32_MAX;
     std::int32_t right = INT32_MIN;

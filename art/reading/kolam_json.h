@@ -10,7 +10,7 @@ namespace sikku {
 /// Reads `{"format": "kolam", "version": 1, "design": {"rows": R, "cols": C, "mask": […], "h": […], "v": […]}}`.
 /// `mask` has a text for each row, `1` where there is a dot; `h` those of the gaps within each row and `v` those to
 /// the next row: `x` crossed, `p` turned, `j` joined, `.` no gap. Other keys are skipped. Safe for untrusted texts.
-/// @throws std::runtime_error with the place of what is wrong
+/// @throws std::runtime_error with the place of the error
 ReadKolam read_kolam_json(const std::string& text);
 
 /// The same bytes for the same kolam. @throws std::runtime_error for interlaced grids, which the format lacks

@@ -92,7 +92,7 @@ public:
             const auto pieces = static_cast<std::size_t>(std::ceil(length * 6)) + 1;
             pieces_ += pieces;
             if (pieces_ > most_pieces)
-                throw std::runtime_error("the lines are too long for the distances of their dots");
+                throw std::runtime_error("the lines are too long for the distances between their dots");
             for (std::size_t k = i == 0 ? pieces : 1; k <= pieces; ++k) {
                 go(from + (to - from) * (static_cast<double>(k) / static_cast<double>(pieces)));
             }
@@ -132,7 +132,7 @@ public:
         }
         if (strayed_ > 0) {
             kolam.notes.push_back(
-                fmt::format("{} where a line leaves the way around the dots", counted(strayed_, "place")));
+                fmt::format("{} where a line strays from its path around the dots", counted(strayed_, "place")));
         }
         if (std::all_of(kolam.certainty.begin(), kolam.certainty.end(), [](float c) { return c == 1.0F; })) {
             kolam.certainty.clear();
@@ -387,7 +387,7 @@ ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::
     }
     std::optional<LatticeFit> fit = fit_lattice(dots, y_down, lattice, monitor);
     if (!fit && dots.size() == 1) {
-        // One dot: the line around it says how large the grid is.
+        // One dot: the line around it determines the scale of the grid.
         double reach = 0;
         for (const ClosedLine& line : lines) {
             for (const glm::dvec2 point : line) reach = std::max(reach, glm::distance(point, dots[0]));

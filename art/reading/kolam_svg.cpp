@@ -101,7 +101,7 @@ std::string property(pugi::xml_node node, const char* name) {
     return node.attribute(name).value();
 }
 
-/// What an element takes over from those around it.
+/// Properties that an element inherits from those around it.
 struct Inherited {
     Transform transform;
     bool is_filled = true;
@@ -196,7 +196,7 @@ private:
         for (glm::dvec2& point : path.points) {
             point = around.transform(point);
             if (!(std::fabs(point.x) < 1e9 && std::fabs(point.y) < 1e9))
-                throw std::runtime_error("a place is too far away");
+                throw std::runtime_error("a coordinate is too large");
         }
         lines.push_back(std::move(path.points));
     }
@@ -217,7 +217,7 @@ ReadKolam read_kolam_svg(std::string_view text, std::optional<DotLattice> lattic
     reader.visit(document.document_element(), {}, 0);
     if (reader.lines.empty()) {
         throw std::runtime_error(
-            reader.open > 0 ? fmt::format("the SVG has no closed lines, but {}", counted(reader.open, "open line"))
+            reader.open > 0 ? fmt::format("the SVG has no closed lines, only {}", counted(reader.open, "open line"))
                             : std::string("the SVG has no paths, polygons or polylines"));
     }
     ReadKolam kolam = kolam_of_lines(reader.lines, std::move(reader.dots), true, lattice, monitor);

@@ -239,7 +239,7 @@ std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& poin
                 const double angle = angle_between(first, second);
                 if (angle < 45 || angle > 135 || glm::length(second) > 1.9 * glm::length(first)) continue;
                 auto places = patch.grow(seed, first, second);
-                // Of equal patches that with shorter steps, which leaves fewer places empty.
+                // Among equal patches, the one with shorter steps leaves fewer places empty.
                 const double area = std::fabs(cross(first, second));
                 if (places.size() > best.size() || (places.size() == best.size() && area < 0.9 * best_area)) {
                     best = std::move(places);
@@ -490,7 +490,8 @@ std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, boo
     }
     const bool is_affine = steps.is_row || patch.size() < 6;
     if (is_affine) {
-        // A row, or so few that perspective cannot be told from wobble: helping points make the map affine.
+        // A row, or so few that perspective cannot be distinguished from errors: auxiliary points make the map
+        // affine.
         const glm::dvec2 at = to[0];
         const glm::dvec2 base = from[0];
         from.push_back(base + lattice_point(axes.lattice, {2, 0}));

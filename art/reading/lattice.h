@@ -39,7 +39,7 @@ GridDot nearest_place(DotLattice lattice, glm::dvec2 point);
 struct LatticeFit {
     DotLattice lattice = DotLattice::square;
     Homography map;                              ///< from the plane of the lattice to that of the points
-    std::vector<std::optional<GridDot>> places;  ///< of each point; none if it lies off the lattice
+    std::vector<std::optional<GridDot>> places;  ///< place of each point; absent if it lies off the lattice
     std::size_t fitted = 0;                      ///< points that have a place
     double angle = 90;                           ///< degrees between its two shortest steps, 60 to 90, in the middle
 };

@@ -1,4 +1,4 @@
-// Draws what was read over a photograph.
+// Draws the kolam that was read over its photograph.
 #include "art/reading/kolam_lines.h"
 #include "art/reading/photograph.h"
 
@@ -125,7 +125,7 @@ std::array<std::array<glm::dvec2, 2>, 2> strands(GapState state, DotLattice latt
 
 void write_overlay(const Photograph& photograph, const std::filesystem::path& path) {
     DecodedPicture picture = photograph.picture;
-    // The picture steps back behind what is drawn.
+    // The picture is faded behind the drawing.
     for (std::uint8_t& value : picture.pixels) value = static_cast<std::uint8_t>(40 + (value * 2U) / 3U);
     Canvas canvas(picture);
     const ReadKolam& kolam = photograph.kolam;

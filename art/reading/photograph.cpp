@@ -7,11 +7,15 @@
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -24,13 +28,13 @@ constexpr std::size_t most_dots = 10'000;
 /// Dots closer than that are looked for once more in a larger picture.
 constexpr double least_spacing = 18;
 
-/// A lattice in a picture, and what its dots look like.
+/// A lattice in a picture, and the appearance of its dots.
 struct FoundGrid {
     PlacedGrid placed;
     Homography map;  ///< from the plane of the grid to pixels
     double spacing = 0;
     double dot_radius = 0;  ///< in spacings
-    double strength = 0;    ///< of most dots
+    double strength = 0;    ///< strength of most dots
     double angle = 90;
     double score = 0;
     std::size_t left_out = 0;
@@ -56,7 +60,8 @@ std::optional<Homography> moved(const Homography& map, DotLattice lattice, GridD
 }
 
 /// Dots of the lattice: spots on it, and places beside them where a weaker spot is.
-std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFit& fit, const SpotFinder& finder) {
+std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFit& fit, const SpotFinder& finder,
+                                 const Monitor& monitor) {
     using Key = std::pair<std::int32_t, std::int32_t>;
     std::map<Key, Spot> dots;
     for (std::size_t i = 0; i < spots.size(); ++i) {
@@ -82,6 +87,9 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
                     0,
                     0};
 
+    // The map of a chance lattice may be degenerate.
+    if (!(found.spacing < finder.longer_side())) return std::nullopt;
+
     const std::vector<GridDot> around =
         fit.lattice == DotLattice::square ? std::vector<GridDot>{{2, 0}, {0, 2}, {-2, 0}, {0, -2}}
                                           : std::vector<GridDot>{{2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}};
@@ -101,13 +109,16 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
         found.left_out = lonely.size();
     }
     // Places beside dots, again and again, for a dot may be weak and yet be there.
+    std::set<Key> tried;
     for (int round = 0; round < 8; ++round) {
         std::map<Key, Spot> more;
         for (const auto& [place, spot] : dots) {
+            monitor.check();
             for (const GridDot way : around) {
                 const Key to{place.first + way.x, place.second + way.y};
-                if (dots.contains(to) || more.contains(to)) continue;
+                if (dots.contains(to) || tried.contains(to)) continue;
                 if (neighbours(to) < (dots.size() < 6 ? 1U : 2U)) continue;
+                tried.insert(to);
                 const glm::dvec2 at = lattice_point(fit.lattice, {to.first, to.second});
                 const auto steps = fit.map.derivatives(at);
                 const double spacing = 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
@@ -150,10 +161,8 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
 }
 
 /// The best lattice through the stronger spots.
-std::optional<FoundGrid> find_grid(const GreyPicture& ink, std::optional<DotLattice> lattice,
-                                   const Monitor& monitor) {
-    const SpotFinder finder(ink, monitor);
-    const std::vector<Spot> all = finder.find(monitor);
+std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<Spot>& all,
+                                   std::optional<DotLattice> lattice, const Monitor& monitor) {
     if (all.size() < 2) return std::nullopt;
     const double high = all[all.size() / 20].strength;
     std::optional<FoundGrid> best;
@@ -169,7 +178,7 @@ std::optional<FoundGrid> find_grid(const GreyPicture& ink, std::optional<DotLatt
         for (const Spot& spot : spots) points.push_back(spot.at);
         const auto fit = fit_lattice(points, true, lattice, monitor);
         if (!fit || fit->fitted < 2) continue;
-        auto found = grid_of(spots, *fit, finder);
+        auto found = grid_of(spots, *fit, finder, monitor);
         if (!found) continue;
         // Chance finds lattices among many spots, too.
         const double share = static_cast<double>(fit->fitted) / static_cast<double>(count);
@@ -204,6 +213,8 @@ struct Reading {
     double agreement = 0;         ///< mean of the gaps, with their margins
     std::vector<GridDot> added;   ///< dots that were not seen, but have lines around them
     std::vector<GridDot> unsure;  ///< places beside the grid that might be dots
+    bool reaches_edge = false;
+    bool has_border = false;  ///< around the kolam, left out
 };
 
 void rate(Reading& reading) {
@@ -219,20 +230,87 @@ bool is_inside(const GreyPicture& picture, glm::dvec2 at) {
            at.y < static_cast<double>(picture.height);
 }
 
-/// Whether a place beside the grid lies outside of the picture.
-bool reaches_edge(const FoundGrid& found, const DecodedPicture& picture) {
-    const DotGrid& grid = found.placed.grid;
-    for (const GridDot dot : grid.dots()) {
-        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
-            const GridDot way = grid.step(side);
-            const GridDot to{dot.x + way.x, dot.y + way.y};
-            const glm::dvec2 at = found.map(lattice_point(grid.lattice(), to));
-            if (!grid.dot_at(to) && !(at.x >= 0 && at.y >= 0 && at.x < picture.width && at.y < picture.height)) {
-                return true;
+/// True if the edge cuts the loop around a dot, or if there is ink where the way to the next place leaves the
+/// picture.
+class EdgeCheck {
+public:
+    EdgeCheck(const GreyPicture& ink, const FoundGrid& found) : ink_(ink), found_(found) {
+        std::vector<double> dots;
+        for (const GridDot dot : grid().dots())
+            dots.push_back(ink.at(found.map(lattice_point(grid().lattice(), dot))));
+        least_ = 0.5 * median(std::move(dots));
+    }
+    /// Whether the kolam seems to continue outside of the picture.
+    bool reaches_edge() const {
+        std::size_t ways = 0;
+        std::size_t lines = 0;
+        for (const GridDot dot : grid().dots()) {
+            const glm::dvec2 from = lattice_point(grid().lattice(), dot);
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                const GridDot way = grid().step(side);
+                const GridDot to{dot.x + way.x, dot.y + way.y};
+                const glm::dvec2 along = lattice_point(grid().lattice(), way);
+                if (grid().dot_at(to) || is_inside(ink_, found_.map(from + along))) continue;
+                constexpr double loop = 0.35;
+                const double leaves = leaves_at(from, along);
+                if (leaves < loop) return true;
+                ++ways;
+                lines += has_line(from, along, leaves);
             }
         }
+        return lines > 0 && 6 * lines >= ways;
     }
-    return false;
+
+private:
+    const DotGrid& grid() const { return found_.placed.grid; }
+    /// The part of the way that lies in the picture.
+    double leaves_at(glm::dvec2 from, glm::dvec2 along) const {
+        double part = 0;
+        while (part < 1 && is_inside(ink_, found_.map(from + part * along))) part += 0.02;
+        return part;
+    }
+    bool has_line(glm::dvec2 from, glm::dvec2 along, double leaves) const {
+        constexpr double beyond_loops = 0.56;
+        const glm::dvec2 aside(-along.y, along.x);
+        std::size_t inked = 0;
+        for (double part = std::max(beyond_loops, leaves - 0.12); part < leaves - 0.02; part += 0.02) {
+            for (double off = -0.4; off <= 0.4; off += 0.02) {
+                const glm::dvec2 at = found_.map(from + part * along + off * aside);
+                inked += is_inside(ink_, at) && ink_.at(at) > least_;
+            }
+        }
+        return inked > 3;
+    }
+    const GreyPicture& ink_;
+    const FoundGrid& found_;
+    double least_;
+};
+
+/// Removes places outside of the box of a grid if they lie on all of its sides, as the ornaments of a border do.
+/// @return whether there were any
+bool remove_border(const DotGrid& grid, std::vector<GridDot>& added, std::vector<GridDot>& unsure) {
+    const auto [left, right] =
+        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.x < b.x; });
+    const auto [below, above] =
+        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.y < b.y; });
+    const GridDot low{left->x, below->y};
+    const GridDot high{right->x, above->y};
+    std::array<bool, 4> sides{};
+    for (const auto* places : {&added, &unsure}) {
+        for (const GridDot place : *places) {
+            sides[0] = sides[0] || place.x < low.x;
+            sides[1] = sides[1] || place.x > high.x;
+            sides[2] = sides[2] || place.y < low.y;
+            sides[3] = sides[3] || place.y > high.y;
+        }
+    }
+    if (!std::all_of(sides.begin(), sides.end(), [](bool has) { return has; })) return false;
+    for (auto* places : {&added, &unsure}) {
+        std::erase_if(*places, [&](GridDot place) {
+            return place.x < low.x || place.x > high.x || place.y < low.y || place.y > high.y;
+        });
+    }
+    return true;
 }
 
 /// Adds places beside the grid that have lines around them although no dot was seen there: of all their gaps to dots,
@@ -282,6 +360,7 @@ bool add_encircled(const GreyPicture& smooth, Reading& reading, const Monitor& m
             reading.unsure.push_back(here);
         }
     }
+    if (remove_border(grid, added, reading.unsure)) reading.has_border = true;
     if (added.empty()) return false;
     std::vector<GridDot> all = grid.dots();
     all.insert(all.end(), added.begin(), added.end());
@@ -295,28 +374,144 @@ bool add_encircled(const GreyPicture& smooth, Reading& reading, const Monitor& m
     return true;
 }
 
+/// Whether most gaps of the dots in an outer row or column agree with no state.
+bool is_bad_side(const Reading& reading, const std::function<bool(GridDot)>& is_outer) {
+    const DotGrid& grid = reading.grid.placed.grid;
+    std::size_t gaps = 0;
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < reading.evidence.size(); ++i) {
+        const GridGap& gap = grid.gaps()[i];
+        if (!is_outer(grid.dots()[gap.from]) && !is_outer(grid.dots()[gap.to])) continue;
+        const GapEvidence& found = reading.evidence[i];
+        ++gaps;
+        bad += found.agreement[static_cast<std::size_t>(found.best())] < 0.85;
+    }
+    return 5 * bad > 3 * gaps;
+}
+
+/// Takes off the outer rows and columns of a grid that agree with no kolam on three sides at least: ornaments of a
+/// border that look like dots. @return nothing if there are none
+std::optional<FoundGrid> without_border(const Reading& reading) {
+    const DotGrid& grid = reading.grid.placed.grid;
+    const auto [left, right] =
+        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.x < b.x; });
+    const auto [below, above] =
+        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.y < b.y; });
+    const std::array<std::function<bool(GridDot)>, 4> sides = {
+        [x = left->x](GridDot dot) { return dot.x == x; }, [x = right->x](GridDot dot) { return dot.x == x; },
+        [y = below->y](GridDot dot) { return dot.y == y; }, [y = above->y](GridDot dot) { return dot.y == y; }};
+    std::vector<const std::function<bool(GridDot)>*> bad;
+    for (const auto& side : sides) {
+        if (is_bad_side(reading, side)) bad.push_back(&side);
+    }
+    if (bad.size() < 3) return std::nullopt;
+    std::vector<GridDot> kept = grid.dots();
+    std::erase_if(kept, [&](GridDot dot) {
+        return std::any_of(bad.begin(), bad.end(), [&](const auto* side) { return (*side)(dot); });
+    });
+    if (kept.size() < 4) return std::nullopt;
+    FoundGrid inner = reading.grid;
+    inner.placed = place_grid(grid.lattice(), std::move(kept));
+    const auto map = moved(reading.grid.map, grid.lattice(), inner.placed.origin);
+    if (!map) return std::nullopt;
+    inner.map = *map;
+    return inner;
+}
+
 Reading read_states(const GreyPicture& ink, FoundGrid grid, const Monitor& monitor) {
     const GreyPicture smooth = blurred(ink, 0.018 * grid.spacing);
-    Reading reading{std::move(grid), {}, 0, {}, {}};
+    Reading reading{std::move(grid), {}, 0, {}, {}, false, false};
     for (int round = 0; round < 4 && add_encircled(smooth, reading, monitor); ++round) {
     }
     reading.evidence =
         read_gap_evidence(smooth, reading.grid.placed.grid, reading.grid.map, reading.grid.dot_radius, monitor);
     rate(reading);
+    for (int round = 0; round < 2; ++round) {
+        auto inner = without_border(reading);
+        if (!inner) break;
+        Reading within{std::move(*inner), {}, 0, {}, {}, false, true};
+        within.evidence =
+            read_gap_evidence(smooth, within.grid.placed.grid, within.grid.map, within.grid.dot_radius, monitor);
+        rate(within);
+        if (within.agreement <= reading.agreement) break;
+        reading = std::move(within);
+    }
+    reading.reaches_edge = EdgeCheck(smooth, reading.grid).reaches_edge();
+    return reading;
+}
+
+/// The ink of a picture and the spots in it.
+struct InkSpots {
+    GreyPicture ink;
+    SpotFinder finder;
+    bool is_dark;
+    std::vector<Spot> spots = {};
+
+    InkSpots(Ink found, const Monitor& monitor)
+        : ink(std::move(found.values)), finder(ink, monitor), is_dark(true), spots(finder.find(monitor)) {
+        if (!found.is_dark) negate(monitor);
+    }
+    void negate(const Monitor& monitor) {
+        for (float& value : ink.values) value = -value;
+        finder.negate();
+        is_dark = !is_dark;
+        spots = finder.find(monitor);
+    }
+    /// Spots everywhere, as in noise.
+    bool is_rough() const { return spots.size() >= SpotFinder::most_spots; }
+};
+
+/// True for a lattice whose inside is empty, as of the dots of a border.
+bool is_hollow(const FoundGrid& found) {
+    const auto count = static_cast<double>(found.placed.grid.dots().size());
+    const auto gaps = static_cast<double>(found.placed.grid.gaps().size());
+    const double full = found.placed.grid.lattice() == DotLattice::square ? 2 : 3;
+    return count >= 16 && gaps < 0.75 * full * (count - 1.6 * std::sqrt(count));
+}
+
+/// Reads the kolam within a border of dots, if there is one that agrees better.
+std::optional<Reading> read_inside(const InkSpots& ink, const Reading& border, std::optional<DotLattice> lattice,
+                                   const Monitor& monitor) {
+    const FoundGrid& found = border.grid;
+    std::vector<glm::dvec2> dots;
+    glm::dvec2 low(1e300);
+    glm::dvec2 high(-1e300);
+    for (const GridDot dot : found.placed.grid.dots()) {
+        dots.push_back(found.map(lattice_point(found.placed.grid.lattice(), dot)));
+        low = glm::min(low, dots.back());
+        high = glm::max(high, dots.back());
+    }
+    std::vector<Spot> inside;
+    for (const Spot& spot : ink.spots) {
+        const bool is_in = spot.at.x > low.x && spot.at.y > low.y && spot.at.x < high.x && spot.at.y < high.y;
+        const bool is_of_border = std::any_of(dots.begin(), dots.end(), [&](glm::dvec2 dot) {
+            return glm::distance(dot, spot.at) < 0.6 * found.spacing;
+        });
+        if (is_in && !is_of_border) inside.push_back(spot);
+    }
+    auto again = find_grid(ink.finder, inside, lattice, monitor);
+    if (!again || again->placed.grid.dots().size() < 4) return std::nullopt;
+    Reading reading = read_states(ink.ink, std::move(*again), monitor);
+    if (reading.agreement <= border.agreement) return std::nullopt;
+    reading.has_border = true;
     return reading;
 }
 
 /// Reads the ink; where the angle of the lattice does not decide, the one whose gaps agree better.
-std::optional<Reading> read_ink(const GreyPicture& ink, std::optional<DotLattice> lattice, const Monitor& monitor) {
-    auto found = find_grid(ink, lattice, monitor);
+std::optional<Reading> read_ink(const InkSpots& ink, std::optional<DotLattice> lattice, const Monitor& monitor) {
+    if (ink.is_rough()) return std::nullopt;
+    auto found = find_grid(ink.finder, ink.spots, lattice, monitor);
     if (!found) return std::nullopt;
     const double angle = found->angle;
     const DotLattice first = found->placed.grid.lattice();
-    Reading reading = read_states(ink, std::move(*found), monitor);
+    Reading reading = read_states(ink.ink, std::move(*found), monitor);
+    if (is_hollow(reading.grid)) {
+        if (auto kolam = read_inside(ink, reading, lattice, monitor)) return kolam;
+    }
     if (!lattice && angle > 64 && angle < 84) {
         const DotLattice other = first == DotLattice::square ? DotLattice::triangular : DotLattice::square;
-        if (auto again = find_grid(ink, other, monitor)) {
-            Reading second = read_states(ink, std::move(*again), monitor);
+        if (auto again = find_grid(ink.finder, ink.spots, other, monitor)) {
+            Reading second = read_states(ink.ink, std::move(*again), monitor);
             if (second.agreement > reading.agreement + 0.3 &&
                 2 * second.grid.placed.grid.dots().size() > reading.grid.placed.grid.dots().size()) {
                 return second;
@@ -324,6 +519,14 @@ std::optional<Reading> read_ink(const GreyPicture& ink, std::optional<DotLattice
         }
     }
     return reading;
+}
+
+/// Refuses a picture of something else: in kolams, even in bad pictures, most gaps are certain.
+void refuse_unreadable(const ReadKolam& kolam) {
+    const std::size_t doubts = kolam.doubtful().size();
+    if (5 * doubts <= 3 * kolam.states.size()) return;
+    throw std::runtime_error(fmt::format("no kolam found: {} of {} between the dots cannot be read", doubts,
+                                         counted(kolam.states.size(), "gap")));
 }
 
 /// Makes the gaps of a dot doubtful.
@@ -336,11 +539,6 @@ void doubt_around(ReadKolam& kolam, std::uint32_t dot) {
     }
 }
 
-GreyPicture negative(GreyPicture ink) {
-    for (float& value : ink.values) value = -value;
-    return ink;
-}
-
 }  // namespace
 
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options,
@@ -348,27 +546,32 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
     std::optional<Reading> best;
     DecodedPicture picture;
     bool is_dark = true;
+    bool is_rough = false;
     for (const int side : {1500, 4000}) {
         picture = read_picture(path, side, options.most_pixels, monitor);
         if (std::min(picture.width, picture.height) < 16) throw std::runtime_error("the picture is too small");
-        const Ink ink = find_ink(picture, monitor);
+        InkSpots ink(find_ink(picture, monitor), monitor);
         is_dark = ink.is_dark;
-        best = read_ink(is_dark ? ink.values : negative(ink.values), options.lattice, monitor);
+        best = read_ink(ink, options.lattice, monitor);
+        is_rough = ink.is_rough();
         if (!best || best->agreement < 0.85) {
             // The other way round, as where the ground has a pattern.
-            auto other = read_ink(is_dark ? negative(ink.values) : ink.values, options.lattice, monitor);
+            ink.negate(monitor);
+            is_rough = is_rough && ink.is_rough();
+            auto other = read_ink(ink, options.lattice, monitor);
             if (other && (!best || other->agreement > best->agreement + 0.1)) {
                 best = std::move(other);
-                is_dark = !is_dark;
+                is_dark = ink.is_dark;
             }
         }
         const bool is_smaller = picture.width < picture.file_width;
-        if (!is_smaller || (best && best->grid.spacing >= least_spacing)) break;
+        if (!is_smaller || is_rough || (best && best->grid.spacing >= least_spacing)) break;
     }
-    if (!best) throw std::runtime_error("no lattice of dots was found in the picture");
+    if (!best && is_rough) throw std::runtime_error("no kolam found: too many spots to be the dots of a kolam");
+    if (!best) throw std::runtime_error("no kolam found: the picture has no lattice of dots");
     FoundGrid& grid = best->grid;
     if (grid.placed.grid.dots().size() < 4 || (best->agreement < 0.75 && !best->evidence.empty())) {
-        throw std::runtime_error("no kolam was found in the picture: too few dots, or no lines around them");
+        throw std::runtime_error("no kolam found: too few dots, or no lines around them");
     }
 
     ReadKolam kolam{
@@ -378,13 +581,14 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
         kolam.states[i] = best->evidence[i].best();
         kolam.certainty[i] = certainty(best->evidence[i], grid.placed.grid.lattice(), bad);
     }
-    if (reaches_edge(grid, picture)) {
+    if (best->reaches_edge) {
         kolam.notes.emplace_back(
-            "the grid reaches the edge of the picture: dots beyond it would be missing, and lines to them");
+            "the kolam seems to continue outside of the picture: dots and lines there are missing");
     }
+    if (best->has_border) kolam.notes.emplace_back("a border around the kolam was left out");
     if (!best->added.empty()) {
         kolam.notes.push_back(
-            fmt::format("{} without a visible dot taken for a dot, for lines run around it",
+            fmt::format("{} without a visible dot taken for a dot, because lines run around it",
                         best->added.size() == 1 ? "1 place was" : fmt::format("{} places were", best->added.size())));
         for (const GridDot place : best->added) {
             if (const auto dot = kolam.grid.dot_at(place)) doubt_around(kolam, *dot);
@@ -405,9 +609,10 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
                                       picture.width, picture.height));
     if (grid.angle > 66 && grid.angle < 82 && !options.lattice) {
         kolam.notes.push_back(
-            fmt::format("rows of dots meet at {:.0f} degrees: the grid was taken as {}", grid.angle,
+            fmt::format("rows of dots meet at {:.0f} degrees: the grid was read as {}", grid.angle,
                         grid.placed.grid.lattice() == DotLattice::square ? "square" : "interlaced"));
     }
+    refuse_unreadable(kolam);
     if (options.repair) repair_by_symmetry(kolam);
     return {std::move(kolam), std::move(picture), grid.map};
 }

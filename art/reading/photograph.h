@@ -34,8 +34,9 @@ struct Photograph {
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
 
-/// Draws what was read over the picture, as PNG: dots as rings, strands in the colour of their state (crossed green,
-/// turned blue, joined magenta), doubtful gaps in orange rings with their row and number, repaired ones in yellow.
+/// Draws the kolam that was read over the picture, as PNG: dots as rings, strands in the colour of their state
+/// (crossed green, turned blue, joined magenta), doubtful gaps in orange rings with their row and number, repaired
+/// ones in yellow.
 /// @throws std::runtime_error if the file cannot be written
 void write_overlay(const Photograph& photograph, const std::filesystem::path& path);
 

@@ -59,6 +59,8 @@ GreyPicture blurred(const GreyPicture& picture, double radius) {
     if (picture.values.empty()) return result;
     // Each average of 2 r + 1 values adds ((2 r + 1)^2 - 1) / 12 to the variance.
     GreyPicture turned;
+    // A wider average than the picture is that of its border.
+    radius = std::min(radius, static_cast<double>(std::max(picture.width, picture.height)));
     double missing = radius * radius;
     for (int pass = 3; pass > 0; --pass) {
         const auto r = static_cast<std::size_t>(std::lround((std::sqrt(12 * missing / pass + 1) - 1) / 2));

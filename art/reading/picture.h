@@ -18,7 +18,7 @@ struct GreyPicture {
 
     GreyPicture() = default;
     GreyPicture(std::size_t columns, std::size_t rows) : width(columns), height(rows), values(columns * rows) {}
-    /// Bilinear; the border goes on outside.
+    /// Bilinear; pixels outside continue the border.
     float at(glm::dvec2 point) const;
 };
 

@@ -146,7 +146,7 @@ std::size_t repair_by_symmetry(ReadKolam& kolam) {
         if (*best == 0 || std::accumulate(votes.begin(), votes.end(), std::size_t{0}) != *best) continue;
         const auto state = static_cast<GapState>(best - votes.begin());
         if (state == kolam.states[gap]) continue;
-        kolam.notes.push_back(fmt::format("row {}, gap {}: read as {}, taken as {} by symmetry", places[gap].row,
+        kolam.notes.push_back(fmt::format("row {}, gap {}: read as {}, changed to {} by symmetry", places[gap].row,
                                           places[gap].number, gap_state_name(kolam.states[gap]),
                                           gap_state_name(state)));
         kolam.states[gap] = state;

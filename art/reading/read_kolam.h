@@ -17,8 +17,8 @@ struct ReadKolam {
     /// For each gap 0 (guessed) to 1 (certain); below doubtful_below the gap is doubtful. Empty: all are certain.
     std::vector<float> certainty = {};
     std::vector<std::uint32_t> repaired = {};  ///< gaps changed by symmetry or by hand, ascending
-    std::vector<std::string> notes = {};       ///< what a user should know: assumptions, repairs, what was left out
-    std::string title = {};                    ///< of the file; may be empty
+    std::vector<std::string> notes = {};       ///< notes for the user: assumptions, repairs, omissions
+    std::string title = {};                    ///< title in the file; may be empty
 
     static constexpr float doubtful_below = 0.5F;
     bool is_doubtful(std::uint32_t gap) const { return !certainty.empty() && certainty[gap] < doubtful_below; }

@@ -11,11 +11,10 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_spots = 20'000;
 constexpr double least_radius = 1.6;
 constexpr double scale_step = 1.35;
 constexpr std::size_t ring_points = 20;
-/// Of the points around a spot, so many may be noise.
+/// Number of points around a spot that may be noise.
 constexpr std::size_t noise_points = 2;
 
 }  // namespace
@@ -26,6 +25,12 @@ SpotFinder::SpotFinder(const GreyPicture& ink, const Monitor& monitor) {
         monitor.check();
         radii_.push_back(radius);
         blurred_.push_back(blurred(ink, 0.55 * radius));
+    }
+}
+
+void SpotFinder::negate() {
+    for (GreyPicture& picture : blurred_) {
+        for (float& value : picture.values) value = -value;
     }
 }
 

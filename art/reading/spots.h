@@ -3,6 +3,8 @@
 
 #include "art/reading/picture.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -21,9 +23,14 @@ public:
     /// @param ink  positive on lines and dots
     SpotFinder(const GreyPicture& ink, const Monitor& monitor);
 
-    /// All spots, the strongest first; none within another. At most 20,000.
+    /// The longer side of the picture.
+    double longer_side() const { return static_cast<double>(std::max(blurred_[0].width, blurred_[0].height)); }
+    /// Exchanges ink and ground, as if the picture had been a negative.
+    void negate();
+    /// All spots, the strongest first; none within another. At most `most_spots`.
     std::vector<Spot> find(const Monitor& monitor) const;
-    /// The strongest spot of about that radius within `reach` of a place; strength 0 if there is none.
+    static constexpr std::size_t most_spots = 20'000;
+    /// The strongest spot of about this radius within `reach` of a place; strength 0 if none is found.
     Spot near(glm::dvec2 at, double radius, double reach) const;
 
 private:

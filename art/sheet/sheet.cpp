@@ -10,7 +10,9 @@
 #include "art/sheet/sheet_plot.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
+#include "engine/base/option.h"
 #include "engine/base/output.h"
+#include "engine/base/text.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
@@ -50,10 +52,10 @@ struct TextLine {
     Pen pen;
 };
 
-/// What of each cell is known before it has a place.
+/// The facts about a cell that are known before it has a place.
 struct Subject {
     std::unique_ptr<Drawing> drawing;
-    DrawingCost cost;  ///< of a picture
+    DrawingCost cost;  ///< cost of a picture
     DrawnExtent extent;
     glm::dvec2 size{0.0};  ///< in steps, without the pen
     std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
@@ -79,10 +81,10 @@ struct Plan {
     std::vector<PlacedCell> cells;
 };
 
-/// How much of a picture is made at a time.
+/// The part of a picture that is made at a time.
 struct Room {
     int readers = 1;  ///< drawings
-    int rows = 0;     ///< of a strip; 0: all
+    int rows = 0;     ///< rows of a strip; 0: all
 };
 
 /// Rethrows what a drawing throws with the name of its cell; exceptions of the caller pass as they are.
@@ -125,7 +127,7 @@ Print cell_print(const SheetCell& cell, const SheetOptions& options, std::size_t
 class Sheet {
 public:
     Sheet(const std::vector<SheetCell>& cells, const SheetOptions& options) : cells_(cells), options_(options) {
-        if (cells.empty()) throw std::runtime_error("a sheet without prints");
+        if (cells.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
         if (options_.format != PrintFormat::pdf) {
             // Only PDF has a separate box for the bleed.
             const double bleed = std::exchange(options_.press.bleed, 0.0);
@@ -140,6 +142,7 @@ public:
         print_.pattern = options.pattern;
         print_.made = options.made;
         print_.animation = options.animation;
+        print_.names_tiles = options.names_tiles;
         print_.style.ground = options.ground;
         print_.style.stroke = {1.0, false, 1.0};
         print_.style.palette = {options.ink, options.pale_ink};
@@ -153,6 +156,11 @@ public:
 
     const Print& print() const { return print_; }
     const Plan& arrange();
+    std::vector<DrawReport> reports() const {
+        std::vector<DrawReport> all(subjects_.size());
+        for (std::size_t i = 0; i < all.size(); ++i) subjects_[i].drawing->report(all[i]);
+        return all;
+    }
     void write_vectors(PrintWriter& writer) const;
     DrawReport write_plot(Output& output) const;
     void write_pixels(Output& output, const std::filesystem::path& file) const;
@@ -170,7 +178,7 @@ private:
     double letters_of(double width) const;
     double score(const Grid& grid) const;
     struct Measures {
-        double width = 0, height = 0;     ///< of a cell's window
+        double width = 0, height = 0;     ///< size of a cell's window
         double across = 0, down = 0;      ///< from one cell to the next
         glm::dvec2 first{0.0};            ///< the first cell's corner
         double caption = 0, letters = 0;  ///< heights
@@ -183,9 +191,14 @@ private:
     void arrange_rows();
     void arrange_slots();
     void lay_out(const Grid& grid, const Measures& m);
+    std::vector<double> shared_units() const;
     void place_drawings();
     void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
+    /// Where a line of text begins that belongs to a place of that width.
+    double aligned(const std::string& text, double height, double left, double width) const {
+        return options_.is_centred ? left + (width - text_width(text, height)) / 2 : left;
+    }
     void write_texts(double top, double bottom, PathSink& sink) const;
     std::vector<Strip> strips(PixelSize size, Colour ground) const;
     Room room(const std::vector<Strip>& strips, double stride) const;
@@ -227,7 +240,7 @@ void Sheet::measure() {
         const double least = std::max(1e-9, 0.05 * std::max(subject.size.x, subject.size.y));
         shapes.push_back(std::max(subject.size.y, least) / std::max(subject.size.x, least));
     }
-    // Rather too high than too low: what is wide leaves room above and below and looks well.
+    // Rather too high than too low: a wide drawing leaves room above and below, which looks good.
     const auto at = shapes.begin() + static_cast<std::ptrdiff_t>((shapes.size() - 1) * 6 / 10);
     std::nth_element(shapes.begin(), at, shapes.end());
     usual_shape_ = *at;
@@ -268,7 +281,7 @@ double Sheet::letters_of(double width) const {
     return options_.letters ? *options_.letters : std::clamp(width * 0.036, 0.9, 7.0);
 }
 
-/// Of the longest caption, with the distance from its cell.
+/// Height of the longest caption and its distance from the cell.
 double Sheet::caption_height(double width, double letters) const {
     double most = 0;
     for (const SheetCell& cell : cells_) {
@@ -302,7 +315,7 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
     const double title = std::clamp(shorter * 0.032, 2.0, 40.0);
     if (!options_.title.empty()) m.title = title * (options_.subtitle.empty() ? 2.2 : 3.1);
     const auto headings = static_cast<double>(std::count(grid.headed.begin(), grid.headed.end(), true));
-    // Cells are about as high as their drawings are; what is left widens the gaps, or stays free on both sides.
+    // Cells are about as high as their drawings; the remaining space widens the gaps, or stays free on both sides.
     const double shape = std::clamp(usual_shape_, 0.6, 1.7);
     const double full = m.width;
     // A narrower cell has more lines below it, which leave less height: until its caption has its room.
@@ -339,7 +352,7 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
     return m;
 }
 
-/// Millimetres of a step of what is fitted into a cell.
+/// Millimetres of a step of a drawing that is fitted into a cell.
 double Sheet::drawn_step(const Subject& subject, double width, double height, double factor) const {
     const Style& style = cells_[static_cast<std::size_t>(&subject - subjects_.data())].style;
     const double widest = subject.extent.widest;
@@ -386,7 +399,8 @@ void Sheet::write_caption(const SheetCell& cell, const Window& window, double le
         for (std::string& line :
              wrapped(cell.caption[i], height, window.width, i == 0 ? 2 : options_.caption_lines - lines)) {
             y += height * line_pitch;
-            plan_.texts.push_back({std::move(line), {window.left, y}, height, text_pen(stem * height, i > 0)});
+            const double left = aligned(line, height, window.left, window.width);
+            plan_.texts.push_back({std::move(line), {left, y}, height, text_pen(stem * height, i > 0)});
             ++lines;
         }
     }
@@ -399,7 +413,10 @@ const Plan& Sheet::arrange() {
     } else if (std::none_of(cells_.begin(), cells_.end(), has_slot)) {
         arrange_rows();
     } else {
-        throw std::runtime_error("some drawings have a place on the sheet; then all of them need one");
+        const auto missing = std::find_if_not(cells_.begin(), cells_.end(), has_slot);
+        throw SettingError(
+            "", "",
+            fmt::format("'{}' has no place on the sheet; if one drawing has a place, all need one", missing->title));
     }
     place_drawings();
     check_inks();
@@ -427,8 +444,9 @@ void Sheet::arrange_slots() {
         const auto last = plan_.cells.end() - 1;
         const auto found = std::find_if(plan_.cells.begin(), last, overlaps);
         if (is_vector(options_.format) || found == last) continue;
-        throw std::runtime_error(
-            fmt::format("the places of '{}' and '{}' overlap; pictures draw each on a ground of its own",
+        throw SettingError(
+            "", "",
+            fmt::format("the places of '{}' and '{}' overlap; in pictures each has its own ground",
                         cells_[static_cast<std::size_t>(found - plan_.cells.begin())].title, cells_[i].title));
     }
 }
@@ -446,9 +464,9 @@ void Sheet::arrange_rows() {
         }
     }
     if (!best) {
-        throw std::runtime_error(
-            fmt::format("{} prints with their captions have no room on a sheet of {:g} x {:g} mm", cells_.size(),
-                        options_.page.width, options_.page.height));
+        throw SettingError("", "",
+                           fmt::format("{} with their captions do not fit on a sheet of {:g} x {:g} mm",
+                                       counted(cells_.size(), "drawing"), options_.page.width, options_.page.height));
     }
     const Measures m = measures(*best);
     lay_out(*best, m);
@@ -496,18 +514,41 @@ void Sheet::write_title(double left) {
         const double room = page.width - 2 * page.margin;
         double height = std::clamp(shorter * 0.032, 2.0, 40.0);
         height = std::min(height, height * room / text_width(options_.title, height));
-        plan_.texts.push_back(
-            {options_.title, {left, page.margin + height}, height, text_pen(title_stem * height, false)});
+        const auto begin = [&](const std::string& text, double size) {
+            return options_.is_centred ? aligned(text, size, page.margin, room) : left;
+        };
+        plan_.texts.push_back({options_.title,
+                               {begin(options_.title, height), page.margin + height},
+                               height,
+                               text_pen(title_stem * height, false)});
         const double small = height * 0.36;
-        plan_.texts.push_back({shortened(options_.subtitle, small, room),
-                               {left, page.margin + height + small * 2.4},
+        std::string subtitle = shortened(options_.subtitle, small, room);
+        const double subtitle_left = begin(subtitle, small);
+        plan_.texts.push_back({std::move(subtitle),
+                               {subtitle_left, page.margin + height + small * 2.4},
                                small,
                                text_pen(stem * small, true)});
     }
 }
 
+/// What drawings of one scale share, in steps of each: the distance between dots if all in a row have them, else the
+/// step.
+std::vector<double> Sheet::shared_units() const {
+    std::vector<char> have_dots;
+    for (const Subject& subject : subjects_) {
+        if (have_dots.size() <= subject.row) have_dots.push_back(1);
+        if (!(subject.drawing->dot_distance() > 0)) have_dots.back() = 0;
+    }
+    std::vector<double> units;
+    for (const Subject& subject : subjects_) {
+        units.push_back(have_dots[subject.row] ? subject.drawing->dot_distance() : 1.0);
+    }
+    return units;
+}
+
 /// Places the drawings in their cells.
 void Sheet::place_drawings() {
+    const std::vector<double> units = shared_units();
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         named(cells_[i], [&] {
@@ -517,8 +558,9 @@ void Sheet::place_drawings() {
                              : drawn_step(subjects_[i], window.width, window.height,
                                           pen_factor(cells_[i], window.width, window.height));
         });
-        if (least.size() <= subjects_[i].row) least.push_back(steps[i]);
-        least.back() = std::min(least.back(), steps[i]);
+        const double unit = steps[i] * units[i];
+        if (least.size() <= subjects_[i].row) least.push_back(unit);
+        least.back() = std::min(least.back(), unit);
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         PlacedCell& cell = plan_.cells[i];
@@ -530,7 +572,7 @@ void Sheet::place_drawings() {
         print.dpi = options_.dpi;
         print.page = {width, height, 0.0};
         PlacementOptions placement = subjects_[i].drawing->placement();
-        placement.step = options_.same_scale ? least[subjects_[i].row] : steps[i];
+        placement.step = options_.same_scale ? least[subjects_[i].row] / units[i] : steps[i];
         print.page.height -= subjects_[i].drawing->foot_space(print.page);
         print.placement = place(subjects_[i].extent.box, print.page, placement, 0.0, 0.0);
         print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
@@ -549,7 +591,8 @@ void Sheet::place_drawings() {
             print.style.dots->size->value *= factor;
         }
         const glm::dvec2 size = subjects_[i].size * *placement.step + pen;
-        cell.window.clips = cells_[i].window || size.x > width || size.y > height;
+        const bool is_filled = cells_[i].repeat && cells_[i].repeat->fills;
+        cell.window.clips = cells_[i].window || is_filled || size.x > width || size.y > height;
         print.press = options_.press;
         if (options_.format != PrintFormat::pdf) print = as_picture(print);
     }
@@ -594,11 +637,7 @@ DrawReport Sheet::write_plot(Output& output) const {
     }
     DrawOptions options;
     options.format = options_.format;
-    options.plot = options_.plot;
-    options.shows_travel = options_.shows_travel;
-    options.gcode = options_.gcode;
-    options.hpgl = options_.hpgl;
-    options.layer_codes = options_.layer_codes;
+    static_cast<PlotSetup&>(options) = options_;
     options.monitor = options_.monitor;
     const SheetDrawing all(
         std::move(drawings), print_, [this](PathSink& sink) { write_texts(0.0, options_.page.height, sink); },
@@ -754,6 +793,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
             sheet.write_pixels(output, file);
         }
         output.commit();
+        layout.reports = sheet.reports();
         return layout;
     });
 }

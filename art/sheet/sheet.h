@@ -29,7 +29,7 @@ struct SheetCell : DrawingOptions {
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
 };
 
-struct SheetOptions {
+struct SheetOptions : PlotSetup {
     PrintFormat format = PrintFormat::svg;
     Page page{420.0, 594.0, 20.0};
     double dpi = 300.0;
@@ -41,22 +41,21 @@ struct SheetOptions {
     int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
     std::optional<double> gap;  ///< millimetres between cells, exactly; absent: about a tenth of their width
     double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell
-    std::optional<double> letters;    ///< height of a caption's capitals in millimetres; absent: by the cell's width
-    std::size_t caption_lines = 5;    ///< maximum number of lines of a caption; longer ones end in `…`
-    bool same_scale = false;          ///< use one step length, in each row if rows have headings, otherwise in all
+    std::optional<double> letters;  ///< height of a caption's capitals in millimetres; absent: by the cell's width
+    bool is_centred = false;        ///< headings and captions are centred instead of beginning on the left
+    std::size_t caption_lines = 5;  ///< maximum number of lines of a caption; longer ones end in `…`
+    /// Use one scale, in each row if rows have headings, otherwise in all: the same distance between dots if all
+    /// draw dots, otherwise the same step length.
+    bool same_scale = false;
     Press press;                      ///< settings for the print shop
     std::string pattern;              ///< text stored in the file, so that it can be made again
     std::string made;                 ///< recipe stored in the file
     std::optional<double> animation;  ///< seconds in which an SVG draws itself
-    std::optional<PlotOptions> plot;  ///< arrange the lines of SVG and PDF for a plotter; see DrawOptions::plot
-    bool shows_travel = false;        ///< draw pen-up travel of the plot in a separate layer
-    GcodeOptions gcode;
-    HpglOptions hpgl;
-    LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
-    int threads = 0;           ///< 0: all cores
-    int compression = 6;       ///< PNG compression, 1 (fast) to 9 (small)
-    double memory = 0;         ///< bytes for the pixels and cells of a picture at a time; 0: no limit
-    Monitor monitor = {};      ///< polled in long stages that read no words
+    bool names_tiles = false;         ///< see Print::names_tiles
+    int threads = 0;                  ///< 0: all cores
+    int compression = 6;              ///< PNG compression, 1 (fast) to 9 (small)
+    double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};             ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };
@@ -68,6 +67,7 @@ struct SheetLayout {
     std::vector<Window> windows;  ///< windows of the cells, in their order
     double letters = 0.0;         ///< height of a caption's capitals
     std::optional<PlotReport> plot;
+    std::vector<DrawReport> reports;  ///< findings of the drawings, in their order; without places and plots
 };
 
 /// Draws the sheet into `file`, which appears whole or not at all; the same cells give the same bytes. Windows and,
@@ -75,9 +75,9 @@ struct SheetLayout {
 /// one row and, for each thread, one drawing, as Raster keeps it. If that exceeds the memory of the options, a row is
 /// made in bands, with all its drawings in memory; the bytes are the same.
 /// Plots (HP-GL, G-code, or with plot options) hold the lines and fills of all cells, without their grounds.
-/// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; std::runtime_error if
-/// there are no cells, the cells do not fit, slots overlap in a picture, memory is insufficient, or the file cannot
-/// be written
+/// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; SettingError if there
+/// are no cells, the cells do not fit, only some have slots, or slots overlap in a picture; std::runtime_error if
+/// memory is insufficient, or the file cannot be written
 SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& options,
                        const std::filesystem::path& file, Destination& destination = file_system());
 

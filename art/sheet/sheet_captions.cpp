@@ -25,7 +25,7 @@ std::string angle_of(const Grammar& grammar) {
     return "";
 }
 
-/// A word with a real minus, and cut where no caption goes on.
+/// A word with a true minus sign, cut at the maximum length of a caption.
 std::string word_text(const Grammar& grammar, const Word& word) {
     constexpr std::size_t most = 400;
     std::string text = to_text(grammar, std::span<const Symbol>(word).first(std::min(word.size(), most)));
@@ -34,7 +34,7 @@ std::string word_text(const Grammar& grammar, const Word& word) {
     return word.size() > most ? result + "…" : result;
 }
 
-/// As the file states them, where words alone do not tell: with parameters, conditions and weights.
+/// Productions as the file states them, where words alone are incomplete: with parameters, conditions and weights.
 std::string productions_as_written(const Pattern& pattern, std::size_t most) {
     std::string text;
     const auto add = [&](const std::vector<ProductionText>& productions) {

@@ -13,7 +13,7 @@ namespace sikku {
 /// A cell as pixels of the sheet.
 struct CellPicture {
     std::size_t cell = 0;
-    Print print;  ///< whose page is the cell
+    Print print;  ///< a print whose page is the cell
     int left = 0, right = 0;
     int top = 0, bottom = 0;
 };

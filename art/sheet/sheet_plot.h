@@ -34,7 +34,7 @@ private:
     Style style_;                          ///< with the colours of all drawings
     std::vector<std::vector<int>> lines_;  ///< for each drawing and colour, the index of its line colour
     std::vector<std::vector<int>> fills_;  ///< the index of its fill colour
-    DrawnExtent extent_;                   ///< of the sheet
+    DrawnExtent extent_;                   ///< extent of the sheet
 };
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 
 #include "art/print/recipe_comments.h"
 
+#include "art/space/tessellation.h"
 #include "art/space/triangles.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -15,10 +16,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -36,6 +39,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;      // of length 1, one for each position
     std::vector<std::uint32_t> corners;  // three for each triangle, anticlockwise from outside
+    std::vector<Colour> colours{};       // one for each position, or none: all have `colour`
 
     std::uint32_t add(const glm::dvec3& position, const glm::dvec3& normal) {
         if (!(glm::length(position) < 1e30)) throw std::runtime_error("the model has corners that are not finite");
@@ -71,6 +75,7 @@ public:
                 meshes_.push_back({fills ? style_.fill_colour(pen) : style_.line_colour(pen), fills, {}, {}, {}});
             }
         }
+        meshes_.push_back({Colour{255, 255, 255, 255}, true, {}, {}, {}});
         // Colours that are the same share a material.
         line_slots_ = style_.line_slots();
         fill_slots_ = style_.fill_slots();
@@ -96,6 +101,8 @@ private:
     Mesh& fills(int colour) {
         return meshes_[line_slots_.size() + static_cast<std::size_t>(fill_slots_[static_cast<std::size_t>(colour)])];
     }
+    /// The mesh of polygons whose vertices have colours of their own.
+    Mesh& blends() { return meshes_.back(); }
     double radius(const SceneWidth& width) const { return style_.line_width(width.pen(0), step_) / step_ / 2; }
 
     void add_stems() {
@@ -162,17 +169,35 @@ private:
         }
     }
 
+    /// The same corner for polygons that share a vertex and its normal.
+    std::uint32_t shared_corner(Mesh& mesh, const glm::vec3& position, const glm::vec3& normal) {
+        const std::array key = {position.x, position.y, position.z, normal.x, normal.y, normal.z};
+        const auto [found, fresh] = shared_.try_emplace({&mesh, key}, 0);
+        if (fresh) found->second = mesh.add(position, normal);
+        return found->second;
+    }
+
     void add_polygon(const ScenePolygon& polygon) {
         const std::span<const glm::vec3> vertices = scene_.vertices(polygon);
         const glm::dvec3 normal = area_normal(vertices);
         if (!(glm::length(normal) > 0)) return;
-        Mesh& mesh = fills(polygon.colour);
-        std::uint32_t first = 0;
+        const auto corners = scene_.corners(polygon);
+        const bool is_blend = std::any_of(corners.begin(), corners.end(), [&](const SceneCorner& corner) {
+            return corner.colour != corners[0].colour;
+        });
+        Mesh& mesh = is_blend ? blends() : fills(corners.empty() ? polygon.colour : corners[0].colour);
+        std::vector<std::uint32_t> indices;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const std::uint32_t corner = mesh.add(vertices[i], normal);
-            if (i == 0) first = corner;
+            const glm::vec3 own = corners.empty() ? glm::vec3(0.0F) : corners[i].normal;
+            if (!is_blend && glm::length(own) > 0) {
+                indices.push_back(shared_corner(mesh, vertices[i], own));
+                continue;
+            }
+            indices.push_back(mesh.add(vertices[i], glm::length(own) > 0 ? glm::dvec3(own) : normal));
+            if (is_blend) mesh.colours.push_back(style_.fill_colour({.colour = corners[i].colour}));
         }
-        for (const auto& [a, b, c] : triangulate(vertices).triangles) mesh.triangle(first + a, first + b, first + c);
+        for (const auto& [a, b, c] : triangulate(vertices).triangles)
+            mesh.triangle(indices[a], indices[b], indices[c]);
     }
 
     void add_sphere(const SceneSphere& sphere) {
@@ -208,11 +233,13 @@ private:
     const Style& style_;
     double step_;
     Pulse pulse_;
+    std::map<std::pair<const Mesh*, std::array<float, 6>>, std::uint32_t> shared_;
     std::vector<Mesh> meshes_;  ///< by colour: of lines, then of fills
     std::vector<int> line_slots_, fill_slots_;
 };
 
 std::string material_name(const Mesh& mesh) {
+    if (!mesh.colours.empty()) return "fill-blend";
     return fmt::format("{}-{:02x}{:02x}{:02x}{}", mesh.two_sided ? "fill" : "line", mesh.colour.red,
                        mesh.colour.green, mesh.colour.blue,
                        mesh.colour.alpha < 255 ? fmt::format("{:02x}", mesh.colour.alpha) : "");
@@ -234,7 +261,8 @@ void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
     materials_file.replace_extension(".mtl");
     const std::string name = materials_file.filename().string();
     if (std::any_of(name.begin(), name.end(), [](char byte) { return byte >= 0 && byte < ' '; })) {
-        throw std::runtime_error("the name of an OBJ file, which stands in it, has no control characters");
+        throw std::runtime_error(
+            "the name of an OBJ file cannot contain control characters, because the file contains its name");
     }
     const auto materials_opened = destination.open(materials_file);
     const auto opened = destination.open(file);
@@ -250,10 +278,16 @@ void write_obj(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
                                     mesh.colour.red / 255.0, mesh.colour.green / 255.0, mesh.colour.blue / 255.0,
                                     mesh.colour.alpha / 255.0));
         output.write(fmt::format("o {}\nusemtl {}\n", material, material));
-        for (const glm::vec3& local : mesh.positions) {
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             pulse();
-            const glm::dvec3 at = origin + glm::dvec3(local);
-            output.write(fmt::format("v {:.9g} {:.9g} {:.9g}\n", at.x, at.y, at.z));
+            const glm::dvec3 at = origin + glm::dvec3(mesh.positions[i]);
+            output.write(fmt::format("v {:.9g} {:.9g} {:.9g}", at.x, at.y, at.z));
+            if (!mesh.colours.empty()) {
+                const Colour& own = mesh.colours[i];
+                output.write(
+                    fmt::format(" {:.4f} {:.4f} {:.4f}", own.red / 255.0, own.green / 255.0, own.blue / 255.0));
+            }
+            output.write("\n");
         }
         for (const glm::vec3& n : mesh.normals) {
             pulse();
@@ -329,10 +363,15 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
             R"({{"bufferView":{1},"componentType":5126,"count":{3},"type":"VEC3"}},)"
             R"({{"bufferView":{2},"componentType":5125,"count":{4},"type":"SCALAR"}})",
             next, next + 1, next + 2, mesh.positions.size(), mesh.corners.size(), triple(low), triple(high));
+        if (!mesh.colours.empty()) {
+            accessors += fmt::format(R"(,{{"bufferView":{},"componentType":5126,"count":{},"type":"VEC3"}})",
+                                     next + 3, mesh.colours.size());
+        }
         constexpr int vertices = 34962, indices = 34963;
         view(mesh.positions.size() * sizeof(glm::vec3), vertices);
         view(mesh.normals.size() * sizeof(glm::vec3), vertices);
         view(mesh.corners.size() * sizeof(std::uint32_t), indices);
+        if (!mesh.colours.empty()) view(mesh.colours.size() * sizeof(glm::vec3), vertices);
         comma(materials);
         materials += fmt::format(
             R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.6f},{:.6f},{:.6f},{:.6f}],)"
@@ -341,9 +380,10 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
             mesh.colour.alpha / 255.0, mesh.two_sided ? R"(,"doubleSided":true)" : "",
             mesh.colour.alpha < 255 ? R"(,"alphaMode":"BLEND")" : "");
         comma(primitives);
-        primitives += fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{},"material":{}}})",
-                                  next, next + 1, next + 2, i);
-        next += 3;
+        primitives +=
+            fmt::format(R"({{"attributes":{{"POSITION":{},"NORMAL":{}{}}},"indices":{},"material":{}}})", next,
+                        next + 1, mesh.colours.empty() ? "" : fmt::format(R"(,"COLOR_0":{})", next + 3), next + 2, i);
+        next += mesh.colours.empty() ? 3 : 4;
     }
     const std::string name = json_string(print.title.empty() ? "drawing" : print.title);
     std::string json = fmt::format(
@@ -364,6 +404,11 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
         write_raw(output, mesh.positions, monitor);
         write_raw(output, mesh.normals, monitor);
         write_raw(output, mesh.corners, monitor);
+        std::vector<glm::vec3> colours;
+        for (const Colour& colour : mesh.colours) {
+            colours.emplace_back(linear(colour.red), linear(colour.green), linear(colour.blue));
+        }
+        write_raw(output, colours, monitor);
     }
     output.commit();
 }
@@ -372,9 +417,13 @@ void write_glb(const std::vector<Mesh>& meshes, const glm::dvec3& origin, const 
 
 ModelReport write_model(const Scene& scene, const Print& print, PrintFormat format, const std::filesystem::path& file,
                         const Monitor& monitor, Destination& destination) {
+    if (!scene.surfaces().empty()) {
+        return write_model(tessellated(scene, {.share = 1.0 / 40}, monitor), print, format, file, monitor,
+                           destination);
+    }
     const Modeller modeller(scene, print, monitor);
     const std::vector<Mesh>& meshes = modeller.meshes();
-    if (meshes.empty()) throw std::runtime_error("there is nothing to model: everything is without width and area");
+    if (meshes.empty()) throw std::runtime_error("nothing to model: every line and polygon lacks width and area");
     if (format == PrintFormat::obj) {
         write_obj(meshes, modeller.origin(), print, file, monitor, destination);
     } else {

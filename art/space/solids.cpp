@@ -1,8 +1,10 @@
 #include "art/space/solids.h"
 
 #include "art/space/stage.h"
+#include "art/space/tessellation.h"
 #include "art/space/triangles.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +22,9 @@ namespace {
 constexpr int shades = 24;
 constexpr double wide_stem = 0.8;    // millimetres; wider ones are lit in strips,
 constexpr int strips = 6;            // so many
+constexpr double widening = 0.06;    // millimetres, of polygons within a surface
+constexpr double least_part = 0.5;   // millimetres, of a polygon in several shades
+constexpr double longest_side = 4;   // millimetres, of the polygons of a surface
 constexpr double round_stem = 0.35;  // wider ones have round ends
 
 /// The colours of a palette that with_shades() made.
@@ -72,7 +78,7 @@ public:
         for (const SceneSphere& sphere : scene_.spheres()) {
             add(stage_.place(sphere.centre).z + stage_.radius(sphere));
         }
-        // What is round is as near as its nearest point. Of what is equally near, the later one lies over the
+        // A round shape is as near as its nearest point. Of what is equally near, the later one lies over the
         // earlier.
         std::stable_sort(items.begin(), items.end(),
                          stoppable(monitor, [](const Item& a, const Item& b) { return a.depth < b.depth; }));
@@ -164,7 +170,78 @@ private:
         glm::dvec3 normal = area_normal(placed);
         if (normal.z < 0) normal = -normal;
         if (!(glm::length(normal) > 0)) return outline_.clear();
+        if (polygon.corners) return draw_smooth(polygon);
         fill(polygon.colour, true, stage_.brightness(normal));
+    }
+
+    /// The whole polygon in its mean brightness; on it parts in that of their places.
+    void draw_smooth(const ScenePolygon& polygon) {
+        const std::vector<double> lights = corner_lights(scene_, polygon, stage_);
+        const auto corners = scene_.corners(polygon);
+        const std::vector<glm::dvec2> points = outline_;
+        const double light = std::accumulate(lights.begin(), lights.end(), 0.0) / static_cast<double>(lights.size());
+        const bool is_even = std::all_of(corners.begin(), corners.end(), [&](const SceneCorner& corner) {
+            return corner.colour == corners[0].colour;
+        });
+        overlap(polygon.inner_edges);
+        fill(is_even ? corners[0].colour : polygon.colour, true, light);
+        double size = 0;
+        for (const glm::dvec2 point : points) size = std::max(size, glm::distance(point, points[0]));
+        const auto [low, high] = std::minmax_element(lights.begin(), lights.end());
+        const double steps = is_even ? (*high - *low) * shades : 8;
+        const int parts = std::min({8, static_cast<int>(steps), static_cast<int>(size * step_ / least_part)});
+        if (parts < 2) return;
+        for (const auto& [a, b, c] : triangulate(scene_.vertices(polygon)).triangles) {
+            draw_parts({points[a], points[b], points[c]}, {lights[a], lights[b], lights[c]},
+                       {corners[a].colour, corners[b].colour, corners[c].colour}, parts);
+        }
+    }
+
+    /// Widens the outline beyond edges that lie within a surface, lest the ground be seen between its polygons.
+    void overlap(std::uint32_t inner_edges) {
+        const std::vector<glm::dvec2> points = outline_;
+        double area = 0;
+        const auto next = [&](std::size_t i) { return i + 1 < points.size() ? i + 1 : 0; };
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            area += points[i].x * points[next(i)].y - points[i].y * points[next(i)].x;
+        }
+        for (std::size_t i = 0; i < std::min<std::size_t>(points.size(), 32); ++i) {
+            const glm::dvec2 along = points[next(i)] - points[i];
+            if ((inner_edges >> i & 1U) == 0 || !(glm::length(along) > 0)) continue;
+            const glm::dvec2 out = glm::normalize(glm::dvec2(along.y, -along.x)) * (area < 0 ? -widening : widening);
+            outline_[i] += out / step_;
+            outline_[next(i)] += out / step_;
+        }
+    }
+
+    /// A triangle in parts^2 small ones, each in the light of its middle and the colour of the nearest corner.
+    void draw_parts(const std::array<glm::dvec2, 3>& points, const std::array<double, 3>& lights,
+                    const std::array<std::int32_t, 3>& colours, int parts) {
+        const auto shares = [&](double p, double q) { return glm::dvec3(parts - p - q, p, q) / double(parts); };
+        for (int i = 0; i < parts; ++i) {
+            for (int k = 0; k < parts - i; ++k) {
+                for (const bool is_upper : {false, true}) {
+                    if (is_upper && i + k + 2 > parts) continue;
+                    const double third = is_upper ? 2.0 / 3 : 1.0 / 3;
+                    const glm::dvec3 middle = shares(i + third, k + third);
+                    const auto add = [&](double p, double q) {
+                        // Larger than it is, as far as the triangle reaches, so that there are no gaps.
+                        glm::dvec3 share = glm::max(middle + (shares(p, q) - middle) * 1.6, glm::dvec3(0.0));
+                        share /= share.x + share.y + share.z;
+                        outline_.push_back(points[0] * share.x + points[1] * share.y + points[2] * share.z);
+                    };
+                    if (is_upper) add(i + 1, k + 1);
+                    add(i + 1, k);
+                    if (!is_upper) add(i, k);
+                    add(i, k + 1);
+                    const int nearest = middle.x >= middle.y && middle.x >= middle.z ? 0
+                                        : middle.y >= middle.z                       ? 1
+                                                                                     : 2;
+                    fill(colours[std::size_t(nearest)], true,
+                         lights[0] * middle.x + lights[1] * middle.y + lights[2] * middle.z);
+                }
+            }
+        }
     }
 
     void draw_sphere(const SceneSphere& sphere) {
@@ -198,11 +275,17 @@ Style with_shades(const Style& style) {
 }
 
 void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor) {
-    Painter(scene, print, sink).draw(monitor);
+    if (scene.surfaces().empty()) return Painter(scene, print, sink).draw(monitor);
+    const double step = print.placement.step;
+    const Scene divided = tessellated(scene, {.deviation = 0.15 / step, .side = longest_side / step}, monitor);
+    Painter(divided, print, sink).draw(monitor);
 }
 
 SceneExtent extent_of(const Scene& scene, const Style& style, const glm::dmat3x2& orientation,
                       const Monitor& monitor) {
+    if (!scene.surfaces().empty()) {
+        return extent_of(tessellated(scene, {.share = 1.0 / 2000}, monitor), style, orientation, monitor);
+    }
     Pulse pulse(monitor);
     SceneExtent extent;
     const Projection projection(style.camera, scene.bounds());

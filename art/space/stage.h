@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <vector>
 
 namespace sikku {
 
@@ -19,11 +20,19 @@ public:
     /// measure; `unit` is that of one step.
     Stage(const Scene& scene, const Print& print, const glm::dmat3x2& units, double unit);
 
-    /// Of a point of the scene.
+    /// Place of a point of the scene on the page.
     glm::dvec3 place(const glm::vec3& point) const;
+    /// A direction of the scene at a point of it, as it is seen; its length has no meaning.
+    glm::dvec3 direction(const glm::vec3& point, const glm::vec3& along) const;
+    /// The point of the scene at a place of the page.
+    glm::dvec3 point(const glm::dvec3& place) const;
+    /// The direction of the scene that is seen so at a point without perspective.
+    glm::dvec3 direction_back(const glm::dvec3& seen) const;
+    /// The direction of the scene from a point to the eye; of length 1.
+    glm::dvec3 to_eye(const glm::vec3& point) const;
     /// Half the width of a line there.
     double radius(const SceneWidth& width, const glm::vec3& at) const;
-    /// Of a sphere; of a dot by the pen.
+    /// Radius of a sphere; that of a dot is the pen's.
     double radius(const SceneSphere& sphere) const;
     /// How bright a surface with that normal (of any length but 0) is, from 0 to 1; `glm::dvec3(0, 0, 1)` faces the
     /// eye. The light comes from above on the left of the page, and a little of it from everywhere.
@@ -42,6 +51,9 @@ private:
     double step_;  ///< millimetres
     glm::dvec3 light_;
 };
+
+/// The brightness of a polygon at its corners, which are lit on the side that faces the eye.
+std::vector<double> corner_lights(const Scene& scene, const ScenePolygon& polygon, const Stage& stage);
 
 /// A colour as bright as that: of white, the brightness itself; the darker it is the more of a sheen it has where it
 /// is brightest, so that black has a shape.

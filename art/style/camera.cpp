@@ -100,8 +100,16 @@ glm::dvec3 Projection::operator()(const glm::dvec3& point) const {
     const glm::dvec3 centre = axes_ * middle_;
     const glm::dvec3 away = seen - centre;
     const double factor = distance_ / (distance_ - away.z);
-    // Of all measures of nearness this one keeps planes flat.
+    // This is the measure of nearness that keeps planes flat.
     return {centre.x + away.x * factor, centre.y + away.y * factor, distance_ * (factor - 1)};
+}
+
+glm::dvec3 Projection::point(const glm::dvec3& seen) const {
+    if (distance_ == 0) return turned_back(seen);
+    const glm::dvec3 centre = axes_ * middle_;
+    const double factor = seen.z / distance_ + 1;
+    const glm::dvec3 away((seen.x - centre.x) / factor, (seen.y - centre.y) / factor, distance_ - distance_ / factor);
+    return turned_back(centre + away);
 }
 
 glm::dvec3 Projection::to_eye(const glm::dvec3& point) const {

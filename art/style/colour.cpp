@@ -219,7 +219,7 @@ std::string hex(Colour colour) {
 }
 
 std::string colour_name(Colour colour) {
-    // Of two names for one colour the better known: cyan and magenta before aqua and fuchsia, as printers say.
+    // The better known of two names for one colour: cyan and magenta, the printers' names, before aqua and fuchsia.
     for (const std::string_view name : {"cyan", "magenta"}) {
         if (const auto known = parse_colour(name); hex(*known) == hex(colour)) return std::string(name);
     }

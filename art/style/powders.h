@@ -16,10 +16,11 @@ struct Powders {
     std::string_view colours;  ///< separated by blanks
 };
 
-/// All sets, in the order of the manual. `distinct` is told apart by the colour-blind as well (Okabe and Ito 2008).
+/// All sets, in the order of the manual. The colour-blind, too, can distinguish the colours of `distinct` (Okabe and
+/// Ito 2008).
 std::vector<std::string_view> powder_names();
 
-/// The colours of a set; nullopt if there is none of that name.
+/// The colours of a set; nullopt for an unknown name.
 std::optional<std::vector<Colour>> find_powders(std::string_view name);
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 
 #include "art/style/length.h"
 #include "art/style/powders.h"
+#include "art/style/values.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
@@ -19,17 +20,9 @@ namespace {
 constexpr double widest = 1000.0;      // of a stroke: millimetres or steps
 constexpr double widest_pen_mm = 1e5;  // after the turtle's factors, so that every writer can print the number
 constexpr std::size_t most_colours = 4096;
-constexpr std::size_t most_quoted = 40;  // bytes of the file in a message
 
 constexpr Colour black{0, 0, 0, 255};
 constexpr Colour white{255, 255, 255, 255};
-
-std::string quoted(std::string_view text) {
-    if (text.size() <= most_quoted) return fmt::format("'{}'", text);
-    std::size_t end = most_quoted;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-    return fmt::format("'{}…'", text.substr(0, end));
-}
 
 bool is_separator(char byte, bool commas) {
     return byte == ' ' || byte == '\t' || (commas && byte == ',');
@@ -52,14 +45,14 @@ Span next_word(const Span& value, std::size_t& at, bool commas) {
 
 std::string colour_complaint(std::string_view text, std::string_view expected) {
     if (text.starts_with('#')) {
-        return fmt::format("{} is not a colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted(text));
+        return fmt::format("{} is not a colour: 3, 4, 6 or 8 hexadecimal digits follow '#'", quoted_value(text));
     }
     if (text.find('(') != std::string_view::npos) {
-        return fmt::format("{} is not a colour here: write #rrggbb or a CSS name", quoted(text));
+        return fmt::format("{} is not a colour here: write #rrggbb or a CSS name", quoted_value(text));
     }
     const std::string_view near = nearest(lower_case(text), colour_names());
-    if (!near.empty()) return fmt::format("{} is not a colour; did you mean '{}'?", quoted(text), near);
-    return fmt::format("{} is not a colour: expected {}", quoted(text), expected);
+    if (!near.empty()) return fmt::format("{} is not a colour; did you mean '{}'?", quoted_value(text), near);
+    return fmt::format("{} is not a colour: expected {}", quoted_value(text), expected);
 }
 
 std::optional<Colour> read_colour(const Span& word, std::string_view expected, Diagnostics& diagnostics) {
@@ -78,7 +71,7 @@ std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnos
     }
     if (const Span second = next_word(key.value, at, false); !second.empty()) {
         diagnostics.error(second,
-                          fmt::format("unexpected {}: '{}:' is {}", quoted(second.view()), key.name, expected));
+                          fmt::format("unexpected {}: '{}:' is {}", quoted_value(second.view()), key.name, expected));
         return std::nullopt;
     }
     return word;
@@ -107,8 +100,8 @@ void read_line(const Key& key, Style& style, Diagnostics& diagnostics) {
         const std::string_view near = nearest(text, {"straight", "spline"});
         diagnostics.error(
             *word, near.empty()
-                       ? fmt::format("{} is not a line style: expected {}", quoted(word->view()), expected)
-                       : fmt::format("{} is not a line style; did you mean '{}'?", quoted(word->view()), near));
+                       ? fmt::format("{} is not a line style: expected {}", quoted_value(word->view()), expected)
+                       : fmt::format("{} is not a line style; did you mean '{}'?", quoted_value(word->view()), near));
     }
 }
 
@@ -118,8 +111,8 @@ void read_hand(const Key& key, Style& style, Diagnostics& diagnostics) {
     if (!word) return;
     if (!read_number(std::string(word->view()), style.hand) || !(style.hand >= 0 && style.hand <= 1)) {
         style.hand = 0;
-        diagnostics.error(
-            *word, fmt::format("{} is not a strength of the hand: expected {}", quoted(word->view()), expected));
+        diagnostics.error(*word, fmt::format("{} is not a strength of the hand: expected {}",
+                                             quoted_value(word->view()), expected));
     }
 }
 
@@ -148,7 +141,7 @@ public:
         }
         if (lower_case(word.view()) == "none") {
             if (const Span second = next_word(key_.value, at, false); !second.empty()) {
-                diagnostics_.error(second, fmt::format("'{}: none' stands alone", key_.name));
+                diagnostics_.error(second, fmt::format("'{}: none' must stand alone", key_.name));
             }
             is_none = true;
             return;
@@ -158,10 +151,10 @@ public:
             if (begins_number(text)) {
                 read_width(word, at);
             } else if (lower_case(text) == "none") {
-                diagnostics_.error(word, fmt::format("'none' stands alone in '{}:'", key_.name));
+                diagnostics_.error(word, fmt::format("'none' must stand alone in '{}:'", key_.name));
             } else if (has_colour_) {
-                diagnostics_.error(word,
-                                   fmt::format("unexpected {}: '{}:' is {}", quoted(text), key_.name, expected));
+                diagnostics_.error(
+                    word, fmt::format("unexpected {}: '{}:' is {}", quoted_value(text), key_.name, expected));
                 return;
             } else {
                 has_colour_ = true;
@@ -176,7 +169,8 @@ private:
 
     void read_width(const Span& word, std::size_t& at) {
         if (has_width_) {
-            diagnostics_.error(word, fmt::format("{} is a second width: one is enough", quoted(word.view())));
+            diagnostics_.error(word,
+                               fmt::format("{} is a second width; expected only one", quoted_value(word.view())));
         }
         has_width_ = true;
         std::string_view text = word.view();
@@ -200,7 +194,7 @@ private:
         const std::string unit = lower_case(unit_at.view());
         if (!unit.empty() && !is_unit(unit)) {
             diagnostics_.error(unit_at, fmt::format("{} is not a unit; expected mm, cm, in, pt, px or step",
-                                                    quoted(unit_at.view())));
+                                                    quoted_value(unit_at.view())));
             return;
         }
         StrokeWidth stroke;
@@ -209,7 +203,7 @@ private:
         stroke.value = number * stroke.unit;
         if (error != std::errc() || !std::isfinite(stroke.value) || stroke.value >= widest) {
             diagnostics_.error(
-                word, fmt::format("a {} is narrower than 1000 {}", what(), stroke.in_steps ? "steps" : "mm"));
+                word, fmt::format("a {} must be narrower than 1000 {}", what(), stroke.in_steps ? "steps" : "mm"));
             return;
         }
         if (stroke.value == 0.0) {
@@ -219,7 +213,7 @@ private:
             return;
         }
         if (stroke.value < 0.0) {
-            diagnostics_.error(word, fmt::format("a {}'s width is above 0", what()));
+            diagnostics_.error(word, fmt::format("the width of a {} must be above 0", what()));
             return;
         }
         width = stroke;
@@ -263,10 +257,11 @@ void read_ground(const Key& key, Style& style, Diagnostics& diagnostics) {
     if (style.ground && style.ground->alpha == 0) style.ground.reset();
 }
 
-void read_fill(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::string_view expected = "a colour or none";
+void read_fill(const Key& key, bool is_map, Style& style, Diagnostics& diagnostics) {
+    const std::string_view expected = is_map ? "a colour, age, sides or none" : "a colour or none";
     const auto word = only_word(key, expected, diagnostics);
     if (!word) return;
+    if (const std::string text = lower_case(word->view()); is_map && (text == "age" || text == "sides")) return;
     style.fill = lower_case(word->view()) == "none" ? Colour{0, 0, 0, 0} : read_colour(*word, expected, diagnostics);
 }
 
@@ -326,7 +321,7 @@ void read_powders(const Key& key, Style& style, Diagnostics& diagnostics) {
             const std::string_view near = nearest(lower_case(word.view()), powder_names());
             diagnostics.error(word, near.empty() ? colour_complaint(word.view(), expected)
                                                  : fmt::format("unknown powders {}; did you mean '{}'?",
-                                                               quoted(word.view()), near));
+                                                               quoted_value(word.view()), near));
         }
         if (style.powders.size() > most_colours) {
             diagnostics.error(word, fmt::format("there are at most {} powders", most_colours));
@@ -338,51 +333,68 @@ void read_powders(const Key& key, Style& style, Diagnostics& diagnostics) {
     }
 }
 
-void read_fields(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::array<std::pair<std::string_view, FieldsBy>, 6> ways = {{{"chessboard", FieldsBy::chessboard},
-                                                                            {"kind", FieldsBy::kind},
-                                                                            {"distance", FieldsBy::distance},
-                                                                            {"centre", FieldsBy::centre},
-                                                                            {"strand", FieldsBy::strand},
-                                                                            {"symmetry", FieldsBy::symmetry}}};
-    constexpr std::string_view expected =
-        "chessboard, by kind, by distance, by centre, by strand, by symmetry or none";
+/// One of several names, perhaps after "by". @param expected  all of them, for messages
+template <class Value, std::size_t count>
+std::optional<Value> read_choice(const Key& key, const std::array<std::pair<std::string_view, Value>, count>& choices,
+                                 std::string_view expected, Diagnostics& diagnostics) {
     std::size_t at = 0;
     Span word = next_word(key.value, at, false);
     if (lower_case(word.view()) == "by") word = next_word(key.value, at, false);
     const std::string text = lower_case(word.view());
     if (word.empty()) {
-        diagnostics.error(key.name_at, fmt::format("'fields:' is incomplete: expected {}", expected));
-        return;
+        diagnostics.error(key.name_at, fmt::format("'{}:' is incomplete: expected {}", key.name, expected));
+        return std::nullopt;
     }
     if (const Span second = next_word(key.value, at, false); !second.empty()) {
-        diagnostics.error(second, fmt::format("unexpected {}: 'fields:' is {}", quoted(second.view()), expected));
-        return;
-    }
-    if (text == "none") return;
-    const auto* found = std::find_if(ways.begin(), ways.end(), [&](const auto& way) { return way.first == text; });
-    if (found != ways.end()) {
-        style.fields = found->second;
-        return;
+        diagnostics.error(second,
+                          fmt::format("unexpected {}: '{}:' is {}", quoted_value(second.view()), key.name, expected));
+        return std::nullopt;
     }
     std::vector<std::string_view> names;
-    for (const auto& [name, way] : ways) names.push_back(name);
+    for (const auto& [name, value] : choices) {
+        if (name == text) return value;
+        names.push_back(name);
+    }
     const std::string_view near = nearest(text, names);
-    diagnostics.error(word, near.empty() ? fmt::format("{}: expected {}", quoted(word.view()), expected)
-                                         : fmt::format("{}: did you mean '{}'?", quoted(word.view()), near));
+    diagnostics.error(word, near.empty() ? fmt::format("{}: expected {}", quoted_value(word.view()), expected)
+                                         : fmt::format("{}: did you mean '{}'?", quoted_value(word.view()), near));
+    return std::nullopt;
 }
 
-/// A number from `least` to `most`, or nullopt.
-std::optional<double> number_in(std::string_view text, double least, double most) {
-    double number = 0.0;
-    const auto [end, error] = parse_number(text, number);
-    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
-    return is_number && number >= least && number <= most ? std::optional(number) : std::nullopt;
+void read_fields(const Key& key, Style& style, Diagnostics& diagnostics) {
+    using Way = std::pair<std::string_view, std::optional<FieldsBy>>;
+    constexpr std::array ways = {Way{"chessboard", FieldsBy::chessboard},
+                                 Way{"kind", FieldsBy::kind},
+                                 Way{"distance", FieldsBy::distance},
+                                 Way{"centre", FieldsBy::centre},
+                                 Way{"strand", FieldsBy::strand},
+                                 Way{"symmetry", FieldsBy::symmetry},
+                                 Way{"none", std::nullopt}};
+    style.fields =
+        read_choice(key, ways, "chessboard, by kind, by distance, by centre, by strand, by symmetry or none",
+                    diagnostics)
+            .value_or(std::nullopt);
+}
+
+void read_tile_colours(const Key& key, Style& style, Diagnostics& diagnostics) {
+    using Way = std::pair<std::string_view, std::optional<TileColours>>;
+    constexpr std::array ways = {Way{"shape", TileColours::shape},           Way{"hand", TileColours::hand},
+                                 Way{"direction", TileColours::direction},   Way{"distance", TileColours::distance},
+                                 Way{"neighbours", TileColours::neighbours}, Way{"none", std::nullopt}};
+    style.tile_colours =
+        read_choice(key, ways, "by shape, by hand, by direction, by distance, by neighbours or none", diagnostics)
+            .value_or(std::nullopt);
+}
+
+void read_tile_edges(const Key& key, Style& style, Diagnostics& diagnostics) {
+    using Way = std::pair<std::string_view, TileEdges>;
+    constexpr std::array ways = {Way{"each", TileEdges::each}, Way{"once", TileEdges::once},
+                                 Way{"border", TileEdges::border}, Way{"none", TileEdges::none}};
+    style.tile_edges = read_choice(key, ways, "each, once, border or none", diagnostics).value_or(TileEdges::each);
 }
 
 void read_weave(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::string_view expected =
-        "yes, none, or the gap beside the upper strand in widths of the stroke, 0 to 5";
+    constexpr std::string_view expected = "yes, none, or the gap beside the upper strand in stroke widths, 0 to 5";
     constexpr double usual_gap = 0.4;
     constexpr double widest_gap = 5;
     const auto word = only_word(key, expected, diagnostics);
@@ -390,13 +402,13 @@ void read_weave(const Key& key, Style& style, Diagnostics& diagnostics) {
     const std::string text = lower_case(word->view());
     if (text == "none" || text == "no") return;
     style.weave = text == "yes" ? usual_gap : number_in(text, 0, widest_gap);
-    if (!style.weave) diagnostics.error(*word, fmt::format("{}: expected {}", quoted(word->view()), expected));
+    if (!style.weave) diagnostics.error(*word, fmt::format("{}: expected {}", quoted_value(word->view()), expected));
 }
 
 void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
     constexpr std::string_view expected =
-        "a number of parallel lines, 1 to 9, and optionally the distance from one to the next in widths of the "
-        "stroke, 1 to 50";
+        "a number of parallel lines, 1 to 9, and optionally the distance from one to the next in "
+        "stroke widths, 1 to 50";
     std::size_t at = 0;
     const Span count = next_word(key.value, at, false);
     const Span spacing = next_word(key.value, at, false);
@@ -406,7 +418,7 @@ void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
         return;
     }
     const auto refuse = [&](const Span& word) {
-        diagnostics.error(word, fmt::format("{}: expected {}", quoted(word.view()), expected));
+        diagnostics.error(word, fmt::format("{}: expected {}", quoted_value(word.view()), expected));
     };
     const auto number = number_in(count.view(), 1, 9);
     if (!number || *number != std::floor(*number)) return refuse(count);
@@ -416,6 +428,7 @@ void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
     const auto width = number_in(spacing.view(), 1, 50);
     if (!width) return refuse(spacing);
     style.parallel.spacing = *width;
+    style.parallel.is_spaced = true;
 }
 
 std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&) const) {
@@ -438,6 +451,15 @@ void read_border(const Key& key, Style& style, Diagnostics& diagnostics) {
                           "expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern file such as "
                           "petal.lsys, optionally followed by a comma and another for the corners");
     }
+}
+
+void read_sway(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "degrees from 0 to 90";
+    const auto word = only_word(key, expected, diagnostics);
+    if (!word) return;
+    const auto degrees = number_in(word->view(), 0, 90);
+    if (!degrees) diagnostics.error(*word, fmt::format("{}: expected {}", quoted_value(word->view()), expected));
+    style.sway = degrees.value_or(0.0);
 }
 
 }  // namespace
@@ -464,7 +486,20 @@ std::optional<BorderStyle> parse_border(std::string_view text) {
     return border;
 }
 
-/// Okabe and Ito 2008, Color Universal Design: told apart by the colour-blind as well.
+std::vector<Colour> fill_powders(const Style& style, std::span<const Colour> others) {
+    if (!style.powders.empty() && !style.powders_are_named) return style.powders;
+    const std::vector<Colour> all = style.powders.empty() ? *find_powders(powder_names().front()) : style.powders;
+    // A line on powder of its own colour could not be seen, nor powder on ground of that colour.
+    constexpr double least = 0.1;  // in OKLab
+    std::vector<Colour> seen;
+    for (const Colour colour : all) {
+        const auto is_near = [&](Colour other) { return colour_distance(other, colour) < least; };
+        if (std::none_of(others.begin(), others.end(), is_near)) seen.push_back(colour);
+    }
+    return seen.empty() ? all : seen;
+}
+
+/// Okabe and Ito 2008, Color Universal Design: distinguishable by the colour-blind.
 std::vector<Colour> default_palette() {
     return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
             {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
@@ -524,11 +559,13 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     if (const Key* key = pattern.find("dots")) read_dots(*key, dpi, style, diagnostics);
     if (const Key* key = pattern.find("border")) read_border(*key, style, diagnostics);
     if (const Key* key = pattern.find("fields")) read_fields(*key, style, diagnostics);
+    if (const Key* key = pattern.find("tile colours")) read_tile_colours(*key, style, diagnostics);
+    if (const Key* key = pattern.find("tile edges")) read_tile_edges(*key, style, diagnostics);
     if (const Key* key = pattern.find("powders")) read_powders(*key, style, diagnostics);
     if (const Key* key = pattern.find("weave")) read_weave(*key, style, diagnostics);
     if (const Key* key = pattern.find("parallel")) read_parallel(*key, style, diagnostics);
     if (const Key* key = pattern.find("ground")) read_ground(*key, style, diagnostics);
-    if (const Key* key = pattern.find("fill")) read_fill(*key, style, diagnostics);
+    if (const Key* key = pattern.find("fill")) read_fill(*key, pattern.find("map") != nullptr, style, diagnostics);
     if (const Key* key = pattern.find("view")) {
         if (const auto camera = parse_camera(key->value.view())) {
             style.camera = *camera;
@@ -538,12 +575,16 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
                               "then optionally ,perspective and ,DISTANCE in radii of the drawing, 1.01 to 1000000");
         }
     }
-    if (const Key* key = pattern.find("palette")) {
-        read_palette(*key, style, diagnostics);
+    style.light = read_light(pattern, diagnostics);
+    if (const Key* key = pattern.find("sway")) read_sway(*key, style, diagnostics);
+    const Key* palette = pattern.find("palette");
+    if (palette) {
+        read_palette(*palette, style, diagnostics);
     } else if (style.stroke_colour) {
         // Without a palette of its own a drawing in white has white dots as well.
         style.palette.front() = *style.stroke_colour;
     }
+    style.map = read_map_style(pattern, palette ? style.palette : std::vector<Colour>(), diagnostics);
     return style;
 }
 

@@ -1,14 +1,17 @@
 // art/style/style.h: the style of a drawing, from the keys line, hand, stroke, ground, fill, palette, dots, border,
-// view.
+// view, light.
 #pragma once
 
 #include "art/style/camera.h"
 #include "art/style/colour.h"
+#include "art/style/light.h"
+#include "art/style/map_style.h"
 #include "engine/geometry/path.h"
 #include "engine/language/pattern.h"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,51 +24,64 @@ enum class Line { straight, spline };
 struct StrokeWidth {
     double value = 0.4;
     bool in_steps = false;
-    double unit = 1.0;  ///< what a width of 1 is that the turtle sets: millimetres of the pattern's unit, or 1 step
+    double unit = 1.0;  ///< size of a width of 1 set by the turtle: millimetres of the pattern's unit, or 1 step
 };
 
-/// How the dots of a kolam are drawn.
+/// Style of the dots of a kolam.
 struct DotStyle {
     std::optional<StrokeWidth> size;  ///< diameter; absent: a sixth of the way to the nearest dot
     std::optional<Colour> colour;     ///< absent: of the lines
 };
 
-/// How a print is framed.
+/// Frame of a print.
 enum class BorderKind : std::uint8_t { kaavi, padi, lotus, rope, diamonds, waves, pattern };
 struct BorderStyle {
     BorderKind kind = BorderKind::kaavi;
-    std::string pattern{};  ///< of BorderKind::pattern: the pattern whose drawing is repeated, by path or name
+    std::string pattern{};  ///< for BorderKind::pattern: the pattern whose drawing is repeated, by path or name
     std::string corner{};   ///< the pattern drawn in the corners; empty: a dot in a ring
     bool operator==(const BorderStyle&) const = default;
 };
 
-/// What decides the colour of a field between lines.
+/// Edges of polygons that are drawn: those of each, all of them once, only those without a polygon on either side,
+/// or none.
+enum class TileEdges : std::uint8_t { each, once, border, none };
+
+/// The property that determines the colour of a polygon.
+enum class TileColours : std::uint8_t { shape, hand, direction, distance, neighbours };
+
+/// The property that determines the colour of a field between lines.
 enum class FieldsBy { chessboard, kind, distance, centre, strand, symmetry };
 
-/// Lines drawn as several parallel ones.
+/// Lines drawn as several parallel lines.
 struct ParallelStyle {
     int count = 1;
-    double spacing = 2.0;  ///< from line to line, in widths of the stroke
+    double spacing = 2.0;    ///< from line to line, in stroke widths
+    bool is_spaced = false;  ///< the spacing was requested; otherwise lines move closer where they have to
 };
 
 struct Style {
     Line line = Line::straight;
     bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
-    double hand = 0.0;        ///< how much lines waver and swell, as drawn by a hand with powder: 0, not at all, to 1
+    double hand = 0.0;        ///< amount by which lines waver and swell, as if drawn by a hand with powder, 0 to 1
     StrokeWidth stroke;
-    std::optional<Colour> stroke_colour;  ///< of colour index 0; absent: the palette's first
+    std::optional<Colour> stroke_colour;  ///< colour of index 0; absent: the palette's first
     bool stroked = true;                  ///< false for `stroke: none`
     std::optional<Colour> ground;         ///< absent: transparent
-    std::optional<Colour> fill;           ///< of polygons and discs with colour index 0; absent: the palette's
+    std::optional<Colour> fill;           ///< colour of polygons and discs with index 0; absent: the palette's
     std::vector<Colour> palette;          ///< never empty after read_style
     std::optional<DotStyle> dots;         ///< absent: none are drawn
     std::optional<BorderStyle> border;    ///< absent: none is drawn
     std::optional<FieldsBy> fields;       ///< absent: fields between lines are not filled
-    std::vector<Colour> powders;          ///< of fields, transparent for `none`; empty: the first set of powders
-    bool powders_are_named = false;       ///< a set by its name, from which colours of the lines are left out
-    std::optional<double> weave;          ///< gap beside upper strands, in widths of the stroke; absent: no weave
+    TileEdges tile_edges = TileEdges::each;
+    std::optional<TileColours> tile_colours;  ///< absent: polygons have the colours of their pens
+    std::vector<Colour> powders;     ///< colours of fields, transparent for `none`; empty: the first set of powders
+    bool powders_are_named = false;  ///< a set by its name, from which colours of the lines are left out
+    std::optional<double> weave;     ///< gap beside upper strands, in stroke widths; absent: no weave
     ParallelStyle parallel;
-    Camera camera;  ///< of drawings in space
+    MapStyle map;       ///< style of maps
+    Camera camera;      ///< camera of drawings in space
+    Light light;        ///< light of pictures of them
+    double sway = 0.0;  ///< degrees by which their branches are turned out of their places at most
 
     /// True if undrawn steps are control points of the line.
     bool moves_draw() const { return line == Line::spline && !moves_lift; }
@@ -91,7 +107,11 @@ struct Style {
 /// bundled patterns.
 std::optional<BorderStyle> parse_border(std::string_view text);
 
-/// Eight colours that are told apart by everyone, black first.
+/// The powders of a style, for fields and tiles: those of a set without the colours near `others`, the colours of
+/// lines and the ground.
+std::vector<Colour> fill_powders(const Style& style, std::span<const Colour> others);
+
+/// Eight colours that everyone can distinguish, black first.
 std::vector<Colour> default_palette();
 
 /// Reads and checks the keys that KeyOwner::art owns; an absent key keeps its default: straight, 0.4 mm, black on

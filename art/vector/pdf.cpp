@@ -38,7 +38,7 @@ constexpr double quarter_circle = 0.5522847498307936;
 std::string packed_profile(const std::vector<std::uint8_t>& bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, 9, Z_DEFLATED, 15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::runtime_error("zlib: no memory");
+        throw std::runtime_error("zlib: out of memory");
     }
     std::string packed(bytes.size() + bytes.size() / 1000 + 64, '\0');
     stream.next_in = const_cast<Bytef*>(bytes.data());
@@ -48,7 +48,7 @@ std::string packed_profile(const std::vector<std::uint8_t>& bytes) {
     const bool is_packed = deflate(&stream, Z_FINISH) == Z_STREAM_END;
     packed.resize(packed.size() - stream.avail_out);
     deflateEnd(&stream);
-    if (!is_packed) throw std::runtime_error("zlib: no memory");
+    if (!is_packed) throw std::runtime_error("zlib: out of memory");
     return packed;
 }
 
@@ -57,7 +57,7 @@ class Deflater {
 public:
     Deflater() {
         if (deflateInit2(&stream_, 6, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-            throw std::runtime_error("zlib: no memory");
+            throw std::runtime_error("zlib: out of memory");
         }
     }
     ~Deflater() { deflateEnd(&stream_); }
@@ -362,7 +362,7 @@ private:
     std::string user(double millimetres) const {
         return decimal(millimetres * 1000.0 * points_of_micrometre / unit_, 4);
     }
-    /// Of a point in millimetres from the top left corner of the trimmed sheet, y down.
+    /// Coordinates of a point in millimetres from the top left corner of the trimmed sheet, y down.
     std::string user_x(double x) const { return user(edge_ + x); }
     std::string user_y(double y) const { return user(edge_ + size_.height - y); }
 

@@ -3,6 +3,7 @@
 #include "art/vector/vector_writer.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/polygon_classes.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -287,11 +288,13 @@ private:
 
     void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
         Layer& layer = polygon_run(colour);
-        char* const begin = layer.text.room((vertices.size() + 1) * line_room + 32);
-        char* out = begin;
+        const std::string name = print_.names_tiles ? tile_name(vertices, colour) : "";
+        char* out = layer.text.room((vertices.size() + 1) * line_room + 32 + name.size());
         const MicrometrePlacement place = place_;
         const Micrometres start = place(vertices.front());
-        out = put_text(out, "<path d=\"M");
+        out = put_text(out, "<path ");
+        out = put_text(out, name);
+        out = put_text(out, "d=\"M");
         out = put_number(out, start.x);
         out = put_next(out, start.y);
         PathData path(start);
@@ -299,6 +302,14 @@ private:
         out = put_text(out, "z\"/>\n");
         layer.text.filled_to(out);
         flush(layer);
+    }
+
+    /// Identifier and classes of a polygon, numbered from 1 in the order of the drawing.
+    std::string tile_name(std::span<const glm::dvec2> vertices, Colour colour) {
+        const PolygonClass found = tile_classes_.classify(vertices);
+        const auto [at, is_new] = tile_colours_.try_emplace(hex(colour), tile_colours_.size() + 1);
+        return fmt::format("id=\"t{}\" class=\"shape-{}{} direction-{} colour-{}\" ", ++tiles_, found.shape + 1,
+                           found.is_reflected ? " reflected" : "", found.direction + 1, at->second);
     }
 
     void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
@@ -483,6 +494,9 @@ private:
     bool has_falling_ = false;          ///< pieces of lines drawn by hand
     double piece_length_ = 0.0;         ///< of an animated print, in millimetres
     double drawn_length_ = 0.0;         ///< of all its pieces so far
+    std::int64_t tiles_ = 0;            ///< polygons with names
+    PolygonClasses tile_classes_;
+    std::map<std::string, std::size_t> tile_colours_;  ///< numbers of their colours, from 1
     Micrometres piece_start_;
     PathData data_{Micrometres{}};
 };

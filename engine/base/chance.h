@@ -18,7 +18,7 @@ constexpr std::uint64_t scrambled(std::uint64_t bits) {
 constexpr std::uint64_t child_place(std::uint64_t parent, std::uint64_t index) {
     return scrambled(parent + 0x9E3779B97F4A7C15U * (index + 1));
 }
-/// Of a module of the axiom.
+/// Place of a module of the axiom.
 constexpr std::uint64_t axiom_place(std::uint64_t seed, std::uint64_t index) {
     return child_place(scrambled(seed ^ 0x5851F42D4C957F2DU), index);
 }

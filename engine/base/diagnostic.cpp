@@ -184,6 +184,11 @@ void Diagnostics::add(const Span& where, const std::string& message, bool warnin
                      excerpt(where.source->text(), where.at), warning});
 }
 
+void Diagnostics::add(const Diagnostic& diagnostic) {
+    if (!diagnostic.warning && ++errors_ > most_errors) return;
+    list_.push_back(diagnostic);
+}
+
 std::vector<Diagnostic> Diagnostics::sorted() const {
     std::vector<Diagnostic> result = list_;
     std::stable_sort(result.begin(), result.end(), [](const Diagnostic& a, const Diagnostic& b) {

@@ -80,6 +80,8 @@ class Diagnostics {
 public:
     void error(const Span& where, const std::string& message) { add(where, message, false); }
     void warning(const Span& where, const std::string& message) { add(where, message, true); }
+    /// Adds one of another collection.
+    void add(const Diagnostic& diagnostic);
     const std::vector<Diagnostic>& list() const { return list_; }
     bool has_errors() const { return errors_ > 0; }
     /// The text is no pattern at all; looking further at it would tell nothing.

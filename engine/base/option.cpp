@@ -40,12 +40,14 @@ double read_budget(const std::string& text) {
 }
 
 OptionInfo key_option(std::string_view key, std::string_view group, bool is_alone) {
-    static std::deque<std::string> help;  // string_views point into it
+    static std::deque<std::string> texts;  // string_views point into it
     static std::mutex mutex;
     const std::lock_guard guard(mutex);
     const KeyInfo& row = *find_language_key(key);
-    help.push_back(fmt::format("{}: {}", row.help, row.values));
-    return {.name = key, .help = help.back(), .value = "VALUE", .group = group, .is_alone = is_alone, .is_key = true};
+    const std::string& help = texts.emplace_back(fmt::format("{}: {}", row.help, row.values));
+    std::string& name = texts.emplace_back(key);
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return {.name = name, .help = help, .value = "VALUE", .group = group, .is_alone = is_alone, .is_key = true};
 }
 
 const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name) {

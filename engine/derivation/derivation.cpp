@@ -23,7 +23,12 @@ bool is_same(const ModuleWord& one, const ModuleWord& other) {
 
 }  // namespace
 
+void require_word(const Grammar& grammar) {
+    if (grammar.map()) throw WordError("this pattern is a map; it has no word that a turtle could read");
+}
+
 Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
+    require_word(grammar);
     const std::int64_t whole = grammar.whole_word_steps();
     if (whole == 0) return grammar;
     std::shared_ptr<const ModuleWord> word;
@@ -68,6 +73,7 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
 }
 
 void derive(const Grammar& given, SymbolSink& sink, const DerivationOptions& options) {
+    require_word(given);
     if (given.whole_word_steps() > 0) return derive(resolve_contexts(given, options), sink, options);
     const Levels levels(given, options.interpreted);
     if (given.is_plain()) {

@@ -52,6 +52,9 @@ public:
     bool active = true;  ///< while false, nothing is asked
 };
 
+/// @throws WordError if the grammar is that of a map, which has no word. All that reads words calls it.
+void require_word(const Grammar& grammar);
+
 struct DerivationOptions {
     /// Apply `interpret:` to the finished word.
     bool interpreted = false;

@@ -41,7 +41,7 @@ public:
         std::vector<Drawn> drawn;
     };
 
-    /// Of no use (is_usable()) where weights or conditions are to be computed, or successors are long.
+    /// Not usable (is_usable()) where weights or conditions have to be computed, or successors are long.
     Choices(const Grammar& grammar, const Table& table) {
         const std::size_t symbols = grammar.symbols().size();
         is_usable_ = !grammar.is_parametric() && grammar.is_stochastic() && symbols <= most_symbols;
@@ -100,7 +100,7 @@ private:
         };
         for (const std::uint32_t index : candidates) {
             const Production& production = table.production(index);
-            // Of several groups the first one applies.
+            // The first of several groups applies.
             if (production.group != table.production(candidates.front()).group) break;
             const auto weight = production.weight ? production.weight->constant() : std::optional(1.0);
             is_usable_ = is_usable_ && !production.condition && weight && *weight >= 0 && !production.has_context() &&

@@ -347,6 +347,8 @@ namespace {
 }  // namespace
 
 Grammar shorten(const Grammar& grammar) {
+    // A map has no word, and its derivation limits its steps.
+    if (grammar.map()) return grammar;
     if (grammar.steps() <= most_steps) return grammar;
     if (!grammar.is_plain() || grammar.cut()) refuse_steps(grammar);
     const std::vector<char> reached = grammar.reachable();
@@ -414,7 +416,8 @@ double drawn_symbols(const Grammar& grammar, const Forecast& forecast) {
     double drawn = 0;
     for (std::size_t i = 0; i < std::min(forecast.rough_counts.size(), grammar.symbols().size()); ++i) {
         const Action action = grammar.symbols()[i].command.action;
-        if (action == Action::draw || action == Action::disc) drawn += forecast.rough_counts[i];
+        if (action == Action::draw || action == Action::disc || action == Action::surface)
+            drawn += forecast.rough_counts[i];
     }
     return drawn;
 }

@@ -22,7 +22,7 @@ struct Forecast {
     /// the word; subwords known to be empty are not visited. May be infinite.
     double nodes = 0.0;
     double log10_length = 0.0;  ///< of the word; -infinity if it is empty
-    /// Of each symbol in the word, to 15 digits: its number (infinity if a double does not hold it), and log10 of it.
+    /// Number of each symbol in the word, to 15 digits (infinity if a double does not hold it), and log10 of it.
     std::vector<double> rough_counts;
     std::vector<double> log10_counts;
     /// Exact number of each symbol in the word, unless the word's length has over 10^4 digits.
@@ -42,7 +42,7 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 /// The same without exact counts, at a cost that does not grow with the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
-/// Estimates the number of symbols of a forecast word that draw lines or discs.
+/// Estimates the number of symbols of a forecast word that draw lines, discs or surfaces.
 double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
 
 /// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.

@@ -48,6 +48,19 @@ std::int64_t decimal_denominator(double value) {
     return 0;
 }
 
+/// Cosine and sine of at most 45 degrees, within one unit in the last place. The functions of C libraries differ in
+/// their last bits, and so would drawings; Taylor's series has the same bits everywhere.
+glm::dvec2 small_angle(double radians) {
+    const double square = radians * radians;
+    double cosine = 0;
+    double sine = 0;
+    for (int power = 16; power > 0; power -= 2) {
+        cosine = square / ((power - 1) * power) * (1 - cosine);
+        sine = square / (power * (power + 1)) * (1 - sine);
+    }
+    return {1 - cosine, radians - radians * sine};
+}
+
 }  // namespace
 
 FoldedTurn fold_turn(TurnFraction turn) {
@@ -69,7 +82,7 @@ glm::dvec2 unit_vector(TurnFraction turn) {
         near = glm::dvec2(std::sqrt(0.5));
     } else if (distance != 0) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(distance) / (4 * static_cast<double>(q));
-        near = {std::cos(angle), std::sin(angle)};
+        near = small_angle(angle);
     }
     if (folded.rest < 0) near.y = -near.y;
     return by_quarters(folded.quarter, near);
@@ -80,7 +93,9 @@ glm::dvec2 unit_vector(double degrees) {
     // Whole multiples of a thousandth of a degree are folded exactly, too.
     const double thousandths = turned * 1000;
     if (thousandths == std::floor(thousandths)) return unit_vector(TurnFraction{std::llround(thousandths), 360'000});
-    return {std::cos(turned * std::numbers::pi / 180), std::sin(turned * std::numbers::pi / 180)};
+    const double rest = std::remainder(turned, 90.0);
+    const auto quarter = static_cast<int>(std::lround((turned - rest) / 90));
+    return by_quarters(((quarter % 4) + 4) % 4, small_angle(rest * std::numbers::pi / 180));
 }
 
 Lattice make_lattice(const Grammar& grammar) {

@@ -23,7 +23,7 @@ struct Lattice {
     double unit = 1.0;            ///< length of one unit, in turtle steps
     double first_heading = 90.0;  ///< degrees anticlockwise from the x axis
 
-    /// Of one unit step for each heading, in the plane, the first heading included.
+    /// One unit step for each heading, in the plane, the first heading included.
     std::vector<glm::dvec2> direction;
     /// Coordinates of zeta^h for each heading h; only the first `rank` count.
     std::vector<std::array<std::int8_t, 8>> power;

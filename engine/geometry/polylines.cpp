@@ -86,6 +86,7 @@ public:
         kept.add(std::span(&to, 1));
     }
     void polygon(std::span<const glm::dvec3>, const Pen&) override {}
+    void surface(const Surface&, const glm::dmat4x3&, const Pen&) override {}
     void sphere(const glm::dvec3&, double, const Pen&) override {}
 
     Keeper<glm::dvec3> kept;

@@ -5,6 +5,7 @@
 #include "engine/geometry/path.h"
 
 #include <cstdint>
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -25,6 +26,13 @@ public:
                          bool goes_on) = 0;
     /// A filled polygon of at least three vertices, without the first repeated at the end; it need not be flat.
     virtual void polygon(std::span<const glm::dvec3> vertices, const Pen& pen) = 0;
+    /// A polygon of a framework. Such polygons that share vertices are one smooth surface.
+    /// @param colours  of its vertices
+    virtual void facet(std::span<const glm::dvec3> vertices, std::span<const int> /*colours*/, const Pen& pen) {
+        polygon(vertices, pen);
+    }
+    /// A predefined surface. @param map  from its coordinates
+    virtual void surface(const Surface& surface, const glm::dmat4x3& map, const Pen& pen) = 0;
     /// `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void sphere(const glm::dvec3& centre, double radius, const Pen& pen) = 0;
 };
@@ -41,6 +49,7 @@ struct SpaceSurvey {
     std::uint64_t drawn = 0;         ///< segments drawn
     std::uint64_t moves = 0;         ///< steps, drawn or not
     double length = 0.0;             ///< drawn, in steps
+    std::uint64_t polygons = 0;      ///< closed by `}` or an inserted edge
     SpaceBounds box;                 ///< of all positions, the start included
     std::optional<SpaceBounds> ink;  ///< of the segments drawn
     glm::dvec3 end{0.0};
@@ -56,7 +65,9 @@ struct SpaceSurvey {
 class SpaceTurtle : public SymbolSink {
 public:
     /// Draws into `sink`, if there is one; what it surveys it tells in any case.
-    static std::unique_ptr<SpaceTurtle> make(const Grammar& grammar, SpaceSink* sink = nullptr);
+    /// @param sway  degrees, 0 or more: each branch leans to a side by up to as much, and rolls by up to as much, at
+    ///              random by the grammar's seed
+    static std::unique_ptr<SpaceTurtle> make(const Grammar& grammar, SpaceSink* sink = nullptr, double sway = 0);
 
     /// After finish().
     virtual const SpaceSurvey& survey() const = 0;

@@ -130,7 +130,7 @@ double SplineOutlines::parameter(const Stroke& stroke, std::size_t control) cons
     const std::size_t segments = stroke.controls - 1;
     if (stroke.ended && control == segments) return end;
     if (control == 0) return 0;
-    // Of fewer than four segments the end points count three times.
+    // With fewer than four segments, the end points count three times.
     if (stroke.ended && segments < 4) return k + 1;
     if (stroke.ended && control + 1 == segments) return end - 1.0 / 3;
     return control == 1 ? 1.0 / 3 : k - 1;

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace sikku {
@@ -120,11 +122,13 @@ public:
           sink_(sinks.path),
           places_(sinks.places),
           outlines_(sinks.outlines),
-          moves_draw_(moves_draw) {
+          moves_draw_(moves_draw),
+          edges_(grammar) {
+        edges_.start(state_.place);
         for (const SymbolInfo& symbol : grammar.symbols()) {
             commands_.push_back({symbol.command.action, symbol.command.value,
                                  std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees),
-                                 symbol.command.takes_argument, symbol.arity});
+                                 symbol.command.takes_argument, symbol.command.is_vertex, symbol.arity});
         }
         points_.reserve(points_in_block);
     }
@@ -159,6 +163,7 @@ public:
     void finish() override {
         stack_.finish();
         polygons_.finish();
+        edges_.finish();
         lift();
         survey_.end = walker_.point(state_.place);
         survey_.closed = State().place.same_place(state_.place);
@@ -174,12 +179,15 @@ private:
     struct State {
         Place place;
         Pen pen;
+        std::size_t node = 0;    ///< of the inserted edges' tree
+        std::size_t places = 0;  ///< in it, when the branch began
     };
     struct Instruction {
         Action action;
         double value;
         bool finite;
         bool takes_argument;
+        bool is_vertex;
         std::uint32_t arity;
     };
 
@@ -246,12 +254,20 @@ private:
             } else {
                 lift();
                 walk<Own>(symbol, command);
-                if (outlines_ && !polygons_.empty()) outlines_->outline_vertex(walker_.point(state_.place));
+                if (outlines_ && is_outlining_ && !polygons_.empty())
+                    outlines_->outline_vertex(walker_.point(state_.place));
             }
-            if (!polygons_.empty()) {
-                polygons_.add(state_.place, [this](const Place& place) { return walker_.point(place); });
-            }
+            if (command.is_vertex) add_vertex();
+            edges_.step(state_.place, state_.node, position_);
         }
+    }
+
+    void add_vertex() {
+        if (polygons_.empty()) return;
+        polygons_.add(state_.place, [this](const Place& place) {
+            if (places_) note_place(place, vertices_);
+            return walker_.point(place);
+        });
     }
 
     static void widen(Bounds& bounds, glm::dvec2 point) {
@@ -267,6 +283,7 @@ private:
         switch (command.action) {
             case Action::push:
                 if (moves_draw_) lift();
+                state_.places = edges_.size();
                 stack_.push(state_, position_);
                 survey_.depth = std::max(survey_.depth, stack_.depth());
                 break;
@@ -274,17 +291,30 @@ private:
                 State popped = stack_.pop(position_);
                 lift();
                 state_ = popped;
+                edges_.pop(state_.places);
                 break;
             }
             case Action::polygon_begin:
-                polygons_.begin(state_.place, position_);
-                if (outlines_) {
+                refuse_cylinder(position_, command.value);
+                is_outlining_ = command.is_vertex;
+                polygons_.begin(state_.place, is_outlining_, position_);
+                if (places_) vertices_begin_.push_back(vertices_.size());
+                if (outlines_ && is_outlining_) {
                     flush();
                     outlines_->begin_outline(walker_.point(state_.place));
                 }
                 break;
             case Action::polygon_end:
                 end_polygon();
+                break;
+            case Action::polygon_vertex:
+                if constexpr (!Surveying) add_vertex();
+                break;
+            case Action::edge_begin:
+                edges_.open(state_.node, position_);
+                break;
+            case Action::edge_end:
+                end_edge();
                 break;
             case Action::width_factor:
             case Action::width_set:
@@ -307,13 +337,51 @@ private:
 
     void end_polygon() {
         const std::vector<glm::dvec2> vertices = polygons_.end(position_);
-        if (outlines_) {
+        ++survey_.polygons;
+        if (outlines_ && is_outlining_) {
             flush();
             outlines_->end_outline(state_.pen, vertices.size() >= 3);
         } else if (sink_ && vertices.size() >= 3) {
             flush();
+            if (places_) tell_vertices(vertices.size());
             sink_->polygon(vertices, state_.pen);
         }
+        if (!places_) return;
+        vertices_.resize(vertices_begin_.back());
+        vertices_begin_.pop_back();
+    }
+
+    /// Tells the places of the polygon's vertices, of which there are `count`.
+    void tell_vertices(std::size_t count) {
+        std::span<const std::int64_t> all = std::span(vertices_).subspan(vertices_begin_.back());
+        if (!all.empty()) all = all.first(count * std::tuple_size_v<decltype(coordinates_of(state_.place))>);
+        places_->vertices(all, position_, polygons_.was_closed());
+    }
+
+    void end_edge() {
+        const std::vector<Place> cycle = edges_.close(state_.node, position_);
+        ++survey_.polygons;
+        if (!sink_) return;
+        if (outlines_ && is_outlining_ && !polygons_.empty()) {
+            throw_at(position_, "an inserted edge within the outline of a polygon, which follows a spline");
+        }
+        lift();
+        if (cycle.size() >= 3) {
+            std::vector<glm::dvec2> vertices;
+            for (const Place& place : cycle) vertices.push_back(walker_.point(place));
+            sink_->polygon(vertices, state_.pen);
+        }
+        if (cycle.size() < 2) return;
+        for (const Place& place : {cycle.front(), cycle.back()}) {
+            note_place(place, coordinates_);
+            if (places_) places_->places(coordinates_);
+            coordinates_.clear();
+            const glm::dvec2 point = walker_.point(place);
+            down_ ? sink_->lines({&point, 1}) : sink_->begin_stroke(point, state_.pen);
+            down_ = true;
+        }
+        sink_->end_stroke(false);
+        down_ = false;
     }
 
     /// Before a segment is drawn: the pen is down, and it is the right one.
@@ -350,10 +418,18 @@ private:
         coordinates_.clear();
     }
 
-    void note_place() {
-        if constexpr (requires { state_.place.at.begin(); }) {
-            coordinates_.insert(coordinates_.end(), state_.place.at.begin(), state_.place.at.end());
+    /// Whole coordinates of a place; none if places are doubles.
+    static auto coordinates_of(const Place& place) {
+        if constexpr (requires { place.at.begin(); }) {
+            return place.at;
+        } else {
+            return std::array<std::int64_t, 0>{};
         }
+    }
+    void note_place() { note_place(state_.place, coordinates_); }
+    void note_place(const Place& place, std::vector<std::int64_t>& list) {
+        const auto coordinates = coordinates_of(place);
+        list.insert(list.end(), coordinates.begin(), coordinates.end());
     }
 
     std::unique_ptr<Lattice> lattice_;
@@ -366,12 +442,16 @@ private:
     State state_;
     BracketStack<State> stack_;
     PolygonStack<Place, glm::dvec2> polygons_;
+    InsertedEdges<Place> edges_;
+    bool is_outlining_ = false;  ///< the pattern's polygons are outlines
     std::uint64_t position_ = 0;
     bool down_ = false;
     Pen pen_;
     Place start_;
     std::vector<glm::dvec2> points_;
     std::vector<std::int64_t> coordinates_;  // of points_
+    std::vector<std::int64_t> vertices_;     // coordinates of the vertices of open polygons, if places are told
+    std::vector<std::size_t> vertices_begin_;
     Survey survey_;
 };
 

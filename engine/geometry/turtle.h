@@ -19,11 +19,12 @@ struct Bounds {
 
 /// What a walk through a word tells of it; the turtle starts at 0 0, one step is 1.
 struct Survey {
-    std::uint64_t drawn = 0;    ///< segments drawn
-    std::uint64_t moves = 0;    ///< steps, drawn or not
-    double length = 0.0;        ///< drawn, in steps
-    Bounds box;                 ///< of all positions, the start included
-    std::optional<Bounds> ink;  ///< of the segments drawn
+    std::uint64_t drawn = 0;     ///< segments drawn
+    std::uint64_t moves = 0;     ///< steps, drawn or not
+    double length = 0.0;         ///< drawn, in steps
+    std::uint64_t polygons = 0;  ///< closed by `}` or an inserted edge
+    Bounds box;                  ///< of all positions, the start included
+    std::optional<Bounds> ink;   ///< of the segments drawn
     glm::dvec2 end{0.0};
     double heading = 0.0;    ///< degrees in [0, 360)
     bool closed = false;     ///< ended where it began
@@ -37,6 +38,11 @@ public:
     /// Lattice::rank coordinates for each point that the PathSink is told next, by begin_stroke or by lines; empty
     /// if that is 0. The span lives until the PathSink was told.
     virtual void places(std::span<const std::int64_t> coordinates) = 0;
+    /// The same for the vertices of a polygon between `{` and `}` that the PathSink is told next. @param position  of
+    /// the `}` in the word, from 1
+    /// @param is_closed  the outline ended where it began; marked vertices always close
+    virtual void vertices(std::span<const std::int64_t> /*coordinates*/, std::uint64_t /*position*/,
+                          bool /*is_closed*/) {}
 };
 
 /// A turtle in the plane. Symbols of the third dimension are passed over.

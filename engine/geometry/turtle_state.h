@@ -37,6 +37,14 @@ inline void change_pen(Pen& pen, Action action, double value) {
     }
 }
 
+/// A parameter of `{` other than 0 is the type of a cylinder in cpfg.
+inline void refuse_cylinder(std::uint64_t position, double type) {
+    if (type == 0) return;
+    throw_at(position,
+             "'{' with a parameter begins a generalised cylinder, which is not supported; '{' alone begins "
+             "a polygon");
+}
+
 constexpr std::size_t deepest_nesting = std::size_t{1} << 20;
 
 /// The states that `[` keeps for `]`.
@@ -66,20 +74,28 @@ private:
     std::vector<Saved> saved_;
 };
 
-/// The polygons between `{` and `}`, of vertices that a walker's places lead to.
+/// The polygons between `{` and `}`, of vertices that a walker's places lead to. Branches do not concern them.
+/// Those of an outline begin with the place of `{`; those of a framework have only the vertices that are added, and
+/// equal ones that follow each other are one.
 template <class Place, class Point>
 class PolygonStack {
 public:
     bool empty() const { return open_.empty(); }
-    void begin(const Place& place, std::uint64_t position) {
+    void begin(const Place& place, bool is_outline, std::uint64_t position) {
         if (open_.size() >= deepest_nesting) throw_at(position, "braces nest deeper than 1,048,576");
-        open_.push_back({{}, place, place, position});
+        open_.push_back({{}, place, place, is_outline, position});
     }
-    /// After each step; `point_of` makes a Point of a Place.
+    /// Adds a vertex; `point_of` makes a Point of a Place.
     template <class PointOf>
     void add(const Place& place, PointOf&& point_of) {
         Polygon& polygon = open_.back();
-        if (polygon.vertices.empty()) polygon.vertices.push_back(point_of(polygon.first));
+        if (polygon.is_outline) {
+            if (polygon.vertices.empty()) polygon.vertices.push_back(point_of(polygon.first));
+        } else if (polygon.vertices.empty()) {
+            polygon.first = place;
+        } else if (polygon.last.same_place(place)) {
+            return;
+        }
         polygon.vertices.push_back(point_of(place));
         polygon.last = place;
     }
@@ -88,9 +104,13 @@ public:
         if (open_.empty()) throw_at(position, "'}' without '{'");
         Polygon polygon = std::move(open_.back());
         open_.pop_back();
-        if (polygon.vertices.size() > 1 && polygon.first.same_place(polygon.last)) polygon.vertices.pop_back();
+        const bool returns = polygon.vertices.size() > 1 && polygon.first.same_place(polygon.last);
+        was_closed_ = returns || !polygon.is_outline;
+        if (returns) polygon.vertices.pop_back();
         return std::move(polygon.vertices);
     }
+    /// The outline that ended last ended where it began; frameworks always close.
+    bool was_closed() const { return was_closed_; }
     void finish() const {
         if (!open_.empty()) throw_at(open_.back().position, "this '{' is not closed");
     }
@@ -100,9 +120,85 @@ private:
         std::vector<Point> vertices;
         Place first;
         Place last;  // of the last vertex
+        bool is_outline;
         std::uint64_t position;
     };
     std::vector<Polygon> open_;
+    bool was_closed_ = true;
+};
+
+/// The places that a walker came through, as a tree, and the inserted edges that are open in it. Closing an edge
+/// closes a cycle in the tree: from where the edge began back to the branching point, and on to where it ends.
+/// Memory: that of the branches that lead to the walker and to the ends of open edges.
+template <class Place>
+class InsertedEdges {
+public:
+    explicit InsertedEdges(const Grammar& grammar) {
+        for (const SymbolInfo& symbol : grammar.symbols()) {
+            in_use_ = in_use_ || symbol.command.action == Action::edge_begin;
+        }
+    }
+    /// Call first.
+    void start(const Place& place) {
+        if (in_use_) nodes_.push_back({place, 0, 0});
+    }
+    /// After each step. `node` is the walker's own, which its state keeps.
+    void step(const Place& place, std::size_t& node, std::uint64_t position) {
+        if (!in_use_) return;
+        if (nodes_.size() >= most) throw_at(position, "more than 16,777,216 steps lead to inserted edges");
+        nodes_.push_back({place, node, nodes_[node].depth + 1});
+        node = nodes_.size() - 1;
+    }
+    /// Number of places so far, for pop().
+    std::size_t size() const { return nodes_.size(); }
+    /// The walker is back from a branch that began when there were `size` places.
+    void pop(std::size_t size) {
+        if (in_use_ && (open_.empty() || open_.back().newest < size)) nodes_.resize(size);
+    }
+    void open(std::size_t node, std::uint64_t position) {
+        if (open_.size() >= deepest_nesting) throw_at(position, "inserted edges nest deeper than 1,048,576");
+        open_.push_back({node, open_.empty() ? node : std::max(node, open_.back().newest), position});
+    }
+    /// The places of the cycle, from the beginning of the edge to its end.
+    std::vector<Place> close(std::size_t node, std::uint64_t position) {
+        if (open_.empty()) throw_at(position, "the end of an inserted edge without its beginning");
+        std::size_t first = open_.back().node;
+        open_.pop_back();
+        std::vector<Place> cycle, rest;
+        while (first != node) {
+            const bool back = nodes_[first].depth >= nodes_[node].depth;
+            std::size_t& deeper = back ? first : node;
+            add(nodes_[deeper].place, back ? cycle : rest);
+            deeper = nodes_[deeper].parent;
+            if (++visited_ > most) throw_at(position, "inserted edges bound more than 16,777,216 steps in all");
+        }
+        add(nodes_[node].place, cycle);
+        for (; !rest.empty(); rest.pop_back()) add(rest.back(), cycle);
+        return cycle;
+    }
+    void finish() const {
+        if (!open_.empty()) throw_at(open_.back().position, "this inserted edge has no end");
+    }
+
+private:
+    static constexpr std::size_t most = std::size_t{1} << 24;
+    static void add(const Place& place, std::vector<Place>& list) {
+        if (list.empty() || !list.back().same_place(place)) list.push_back(place);
+    }
+    struct Node {
+        Place place;
+        std::size_t parent;
+        std::size_t depth;
+    };
+    struct Open {
+        std::size_t node;
+        std::size_t newest;  ///< node of all open edges
+        std::uint64_t position;
+    };
+    bool in_use_ = false;
+    std::vector<Node> nodes_;
+    std::vector<Open> open_;
+    std::size_t visited_ = 0;
 };
 
 }  // namespace sikku

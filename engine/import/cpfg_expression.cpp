@@ -31,7 +31,7 @@ void combine(Value& left, std::string_view sign, int level, const Value& right, 
     left.is_enclosed = false;
     left.is_random = left.is_random || right.is_random;
     if (sign == "%") {
-        // Of whole numbers, cut off towards 0.
+        // The remainder of whole numbers, with division rounded towards 0.
         const auto whole = [&](const Value& value) {
             if (is_whole(value)) return value.text;
             if (value.is_random) lose(at, "'%' would draw the same chance twice");

@@ -101,8 +101,11 @@ public:
         std::string body;
         for (const auto& [define, text] : system_.defines) body += fmt::format("define {} = {}\n", define, text);
         if (!body.empty()) body += '\n';
-        body += fmt::format("derivation length: {}\n{}\nturn: left\nforward: F G\nmove: f g\n", system_.steps,
-                            view_.angle.empty() ? "angle increment: 45" : view_.angle);
+        // Polygons of cpfg are those of a framework, in which G and g add no vertex.
+        const bool has_polygons = system_.letters.symbols.contains("{");
+        body += fmt::format("derivation length: {}\n{}\nturn: left\n{}\n", system_.steps,
+                            view_.angle.empty() ? "angle increment: 45" : view_.angle,
+                            has_polygons ? "polygons: framework" : "forward: F G\nmove: f g");
         if (system_.seed) body += fmt::format("seed: {}\n", std::abs(*system_.seed));
         if (!view_.scale.empty()) body += view_.scale + '\n';
         const std::string stroke = view_.stroke.empty() && system_.letters.sets_width ? "stroke: 1 px" : view_.stroke;

@@ -90,7 +90,7 @@ private:
         preprocessor_.finish();
     }
 
-    /// Of a block of C that has begun in this line; 0 in other lines.
+    /// Number of open braces of a block of C that began in this line; 0 in other lines.
     std::size_t open_braces(std::size_t begin, std::size_t end) {
         // What was counted once is not counted again, however many lines there are.
         if (counted_begin_ != begin) {

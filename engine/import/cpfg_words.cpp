@@ -66,11 +66,6 @@ void Words::note(char letter, std::size_t at) {
     if (letter == '~') report_.once("~", at, "surfaces");
     if (letter == ';' || letter == ',') report_.once(";", at, "the colours, which are in a separate colour map");
     if (letter == '?' || letter == '$') report_.once("?", at, "queries and sub-L-systems");
-    if (letter == '{') {
-        report_.once("{", at,
-                     "the vertices of polygons: here they are the position of '{' and the ends of all steps, without "
-                     "special rules for '.' and G");
-    }
 }
 
 std::string Words::word(Reader& reader, bool is_drawn) {
@@ -80,7 +75,7 @@ std::string Words::word(Reader& reader, bool is_drawn) {
         const char byte = reader.peek();
         if (byte == 0 || byte == ':') break;
         const std::size_t at = reader.where();
-        if (byte == '*') mistake(at, "'*' is the empty word and stands alone");
+        if (byte == '*') mistake(at, "'*' is the empty word and must stand alone");
         const std::string letter = symbol(reader);
         note(letter[0], at);
         std::vector<std::string> arguments;
@@ -161,7 +156,7 @@ std::vector<Formal> Words::formal_modules(Reader& reader) {
         const std::size_t at = reader.where();
         Formal module{symbol(reader), {}};
         if (module.letter[0] != '@') letters.named.insert(module.letter[0]);
-        if (module.letter == "%") lose(at, "the cut symbol is gone before productions apply");
+        if (module.letter == "%") lose(at, "the cut symbol is removed before productions apply");
         if (reader.peek() == '(') {
             do {
                 reader.take();

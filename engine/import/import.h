@@ -56,7 +56,7 @@ public:
     /// @param diagnostics  gets a warning for each
     ImportLosses(const SourcePointer& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
     void add(std::size_t at, const std::string& what);
-    /// Of another file than the system's.
+    /// Adds a diagnostic for another file than the system's.
     void add(const SourcePointer& file, std::size_t at, const std::string& what);
     /// Line of a place of the file. Cost: the way from the place asked for before.
     int line(std::size_t at);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -16,6 +17,10 @@ struct CommandSettings {
     std::set<std::string> move;     ///< symbols that move without drawing
     Angle increment;                ///< angle of turns without a parameter
     bool plus_turns_left = false;
+    bool frames_polygons = false;  ///< `polygons: framework`
+    std::string edge_begin;        ///< symbols of `edges:`, or empty
+    std::string edge_end;
+    std::vector<std::string> surfaces;  ///< names, in the order of Grammar::surfaces()
 };
 
 /// Help for commands of the turtle.

@@ -50,6 +50,14 @@ Document Document::with(const std::vector<Setting>& settings) const {
     return Document(std::move(content));
 }
 
+void require_turtle(const Document& document, std::string_view consequence) {
+    if (!document.map()) return;
+    Diagnostics diagnostics;
+    diagnostics.error(document.pattern().find("map")->name_at,
+                      fmt::format("a map has no turtle, so {}", consequence));
+    diagnostics.throw_if_errors();
+}
+
 Document parse(std::string name, std::string text, const Overrides& overrides) {
     Diagnostics diagnostics;
     Document document = Document::compile(std::move(name), std::move(text), overrides, diagnostics);

@@ -36,6 +36,8 @@ public:
     const Pattern& pattern() const { return content_->pattern; }
     const Grammar& grammar() const { return *content_->grammar; }
     const std::shared_ptr<const Grammar>& shared_grammar() const { return content_->grammar; }
+    /// The map system, or null if the pattern derives words.
+    const MapSystem* map() const { return grammar().map(); }
     /// The overrides that the document was made with.
     const Overrides& overrides() const { return content_->overrides; }
     /// True if a setting replaced the value of that key. @param key  folded
@@ -59,6 +61,10 @@ private:
     explicit Document(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
     std::shared_ptr<const Content> content_;
 };
+
+/// Refuses maps where a turtle is needed. @param consequence  completes the message `a map has no turtle, so …`
+/// @throws PatternError at the key `map` if the pattern is a map
+void require_turtle(const Document& document, std::string_view consequence);
 
 /// Compiles the text of a pattern. @throws PatternError with every error and its place
 Document parse(std::string name, std::string text, const Overrides& overrides = {});

@@ -44,7 +44,7 @@ private:
     struct Waiting {
         Operation operation;
         std::size_t at;
-        Operation function = Operation::open;  ///< of an open parenthesis: the function it belongs to
+        Operation function = Operation::open;  ///< for an open parenthesis: its function
         int arguments = 1;                     ///< seen so far within the parenthesis
     };
     struct Function {
@@ -121,7 +121,7 @@ private:
         waiting_.pop_back();
     }
 
-    /// What is constant is computed here and now.
+    /// Constant parts are computed while compiling.
     void push_operation(const Expression::Step& step, std::size_t operands) {
         std::vector<Expression::Step>& steps = result_.steps_;
         depth_ -= operands - 1;
@@ -188,7 +188,7 @@ private:
             if (known.name == name) operation = known.operation;
         }
         if (operation == Operation::open) return wrong(begin, fmt::format("unknown function '{}'", name));
-        if (operation == Operation::random && !draws_) return wrong(begin, "chance has no place here: 'random'");
+        if (operation == Operation::random && !draws_) return wrong(begin, "'random' is not allowed here");
         waiting_.push_back({Operation::open, at_++, operation});
         return true;
     }

@@ -13,11 +13,11 @@
 
 namespace sikku {
 
-/// What a name in an expression stands for: a constant, or the value of a formal parameter.
+/// The meaning of a name in an expression: a constant, or the value of a formal parameter.
 struct NameMeaning {
     bool is_formal = false;
-    double value = 0.0;      ///< of a constant
-    std::uint32_t slot = 0;  ///< of a formal: index into the values given to evaluate()
+    double value = 0.0;      ///< value of a constant
+    std::uint32_t slot = 0;  ///< slot of a formal: index into the values given to evaluate()
 };
 /// Looks a name up; nullopt for one that means nothing here.
 using NameLookup = std::function<std::optional<NameMeaning>(std::string_view name)>;
@@ -28,7 +28,8 @@ class Expression {
 public:
     /// Compiles the whole of `text`. Nullopt after a mistake, which goes to `diagnostics`. No recursion: nesting is
     /// limited by memory only. Cost: linear.
-    /// @param draws  counts the calls of `random`, each of which draws by its number; null where chance has no place
+    /// @param draws  counts the calls of `random`, each of which draws by its number; null where `random` is not
+    /// allowed
     static std::optional<Expression> compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics,
                                              std::uint32_t* draws = nullptr);
 
@@ -101,7 +102,7 @@ private:
         std::uint32_t slot = 0;
         double value = 0.0;
     };
-    /// Of most expressions: what is evaluated at once. The others are `steps`.
+    /// The shape of most expressions, evaluated at once. The others are `steps`.
     enum class Shape : std::uint8_t { number, formal, product, sum, at_least, steps };
     friend class ExpressionCompiler;
 
@@ -113,7 +114,7 @@ private:
     bool uses_chance_ = false;
     std::uint32_t slot_ = 0;  // of all shapes but `steps`: a formal, or a number, or both
     double number_ = 0.0;
-    std::vector<Step> steps_;  // of the others; empty if the shape says it all
+    std::vector<Step> steps_;  // steps of the others; empty if the shape suffices
     std::size_t stack_ = 0;    // most values at a time
 };
 

@@ -108,6 +108,68 @@ Grammar Grammar::after(std::int64_t steps, std::shared_ptr<const ModuleWord> wor
     return std::move(*this);
 }
 
+std::optional<Grammar> Grammar::with_marks(std::int64_t order, const std::vector<char>& sounding) const {
+    if (!is_plain() || whole_word_steps() > 0 || begun_) return std::nullopt;
+    Grammar other = *this;
+    if (order > steps_) return other;
+    std::vector<char> draws(symbols_.size(), 0);
+    for (Symbol symbol = 0; symbol < draws.size(); ++symbol) {
+        const bool sounds = symbol < sounding.size() && sounding[symbol] != 0;
+        draws[symbol] = sounds || symbols_[symbol].command.action == Action::draw ? 1 : 0;
+    }
+    const auto spread = [&](const Table& table) {
+        bool is_new = false;
+        for (const Production& production : table.productions()) {
+            char& own = draws[production.predecessor.front()];
+            const bool leads = std::any_of(production.successor.begin(), production.successor.end(),
+                                           [&](Symbol symbol) { return draws[symbol] != 0; });
+            if (own != 0 || !leads) continue;
+            own = 1;
+            is_new = true;
+        }
+        return is_new;
+    };
+    for (bool goes_on = true; goes_on;) {
+        goes_on = interpretation_ && spread(*interpretation_);
+        for (const Table& table : tables_) goes_on = spread(table) || goes_on;
+    }
+    // The schedule is cut where `order` steps are left.
+    std::int64_t before = steps_ - order;
+    std::vector<ScheduleRun> schedule;
+    std::uint32_t next = 0;
+    bool is_placed = false;
+    const auto marking = static_cast<std::uint32_t>(tables_.size());
+    for (const ScheduleRun& run : schedule_) {
+        const std::int64_t first = is_placed ? run.steps : std::min(run.steps, before);
+        if (first > 0) schedule.push_back({run.table, first});
+        before -= is_placed ? 0 : first;
+        if (is_placed || (before == 0 && first == run.steps && &run != &schedule_.back())) continue;
+        if (before > 0) continue;
+        next = run.table;
+        schedule.push_back({marking, 1});
+        is_placed = true;
+        if (first < run.steps) schedule.push_back({run.table, run.steps - first});
+    }
+    const auto mark = static_cast<Symbol>(symbols_.size());
+    std::vector<Production> productions;
+    for (Symbol symbol = 0; symbol < mark; ++symbol) {
+        const Word* successor = tables_[next].successor(symbol);
+        const bool is_rewritten = successor && *successor != Word{symbol};
+        if (is_rewritten && draws[symbol] != 0) productions.push_back({{}, {symbol}, {}, {symbol, mark}});
+    }
+    SymbolInfo info;
+    info.letter_index = static_cast<std::uint32_t>(letters_.size());
+    other.letters_.emplace_back();
+    other.symbols_.push_back(info);
+    other.ignored_.push_back(1);
+    other.tables_.emplace_back(std::move(productions), other.symbols_.size(), true);
+    other.schedule_ = std::move(schedule);
+    other.schedule_items_ = nullptr;
+    other.steps_ = steps_ + 1;
+    other.mark_ = mark;
+    return other;
+}
+
 Grammar Grammar::with_map(const std::vector<Symbol>& map) const {
     Grammar other = *this;
     std::vector<Production> productions;

@@ -15,20 +15,22 @@
 
 namespace sikku {
 
+struct MapSystem;
+
 /// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)`
 /// and `F(2.5)` are three symbols; or, where a production names or computes the parameters, the type of a module:
 /// a letter with their number, the values standing beside the symbols of a word.
 using Symbol = std::uint32_t;
 using Word = std::vector<Symbol>;
 
-/// A word with what is a module's own.
+/// A word with the parameters of its modules.
 struct ModuleWord {
     Word symbols;
     std::vector<double> arguments;      ///< SymbolInfo::arity values for each symbol, in order
     std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol, or none: that of an axiom
 };
 
-/// What a turtle does on a symbol.
+/// The effect of a symbol on a turtle.
 enum class Action : std::uint8_t {
     pass,   ///< nothing
     draw,   ///< one step of length `value`, drawing
@@ -41,11 +43,15 @@ enum class Action : std::uint8_t {
     pop,
     polygon_begin,
     polygon_end,
+    polygon_vertex,
+    edge_begin,
+    edge_end,
     width_factor,  ///< multiply the line's width by `value`
     width_set,     ///< set it to `value`
     colour_step,   ///< next or previous colour: add `value`
     colour_set,
-    disc,  ///< radius `value`; 0 is a dot
+    disc,     ///< radius `value`; 0 is a dot
+    surface,  ///< the surface of that number, `value` times its size
 };
 struct Command {
     Action action = Action::pass;
@@ -53,6 +59,9 @@ struct Command {
     Angle angle;
     /// The module's first argument times `value` is the value; of a turn, pitch or roll, degrees.
     bool takes_argument = false;
+    /// Of a step, whether its end is a vertex of the open polygon; of polygon_begin, whether it begins with one.
+    bool is_vertex = true;
+    std::uint32_t surface = 0;  ///< index into Grammar::surfaces()
 };
 
 /// A symbol as the file writes it.
@@ -74,7 +83,7 @@ struct Production {
     Word successor;
     std::optional<Expression> condition{};  ///< none: always
     std::optional<Expression> weight{};     ///< none: not chosen by chance
-    std::vector<Expression> arguments{};    ///< of the successor's symbols with arity, in order
+    std::vector<Expression> arguments{};    ///< arguments of the successor's symbols with arity, in order
     std::uint32_t group = 0;                ///< the same in a table for equal predecessor and contexts
     bool has_context() const { return !left.empty() || !right.empty(); }
 };
@@ -88,7 +97,7 @@ public:
     /// @param is_plain  result of Grammar::is_plain()
     Table(std::vector<Production> productions, std::size_t symbols, bool is_plain);
 
-    /// True if every production replaces one symbol whatever its neighbours are.
+    /// True if every production replaces one symbol without contexts.
     bool context_free() const { return context_free_; }
     /// Context-free tables of plain grammars: the successor of a symbol, or null if it stays as it is.
     const Word* successor(Symbol symbol) const {
@@ -116,6 +125,7 @@ private:
 };
 
 struct ScheduleItem;
+struct Surface;
 
 /// A stretch of equal steps of the schedule.
 struct ScheduleRun {
@@ -143,7 +153,7 @@ public:
     const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
     /// Derivation length n, as the file, the variant or the caller set it.
     std::int64_t steps() const { return steps_; }
-    /// Which table applies in which step, from the first to the last; steps sum to steps(), unless after() has taken
+    /// The table of each step, from the first to the last; steps sum to steps(), unless after() has taken
     /// the first of them away.
     const std::vector<ScheduleRun>& schedule() const { return schedule_; }
     /// Steps that after() has taken away.
@@ -161,8 +171,14 @@ public:
     /// The symbol `%`, if words hold it: a step begins by removing it and what follows in its branch.
     std::optional<Symbol> cut() const { return cut_; }
 
+    /// The map system, or null if the pattern derives words. With a map, the grammar states only the derivation
+    /// length, the schedule and the scale; it has no symbols, and its word is empty.
+    const MapSystem* map() const { return map_.get(); }
+
     const Angle& heading() const { return heading_; }
     const std::optional<Tropism>& tropism() const { return tropism_; }
+    /// The predefined surfaces; see surface.h.
+    const std::vector<std::shared_ptr<const Surface>>& surfaces() const { return surfaces_; }
     /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
     bool is_spatial() const { return is_spatial_; }
     double scale_percent() const { return scale_percent_; }
@@ -179,12 +195,20 @@ public:
     /// The same system with another derivation length; nullopt if its schedule is too short for it.
     std::optional<Grammar> with_steps(std::int64_t steps) const;
 
-    /// What is left to do once `word` has been derived by the first `steps` steps. It keeps steps(), and has no
-    /// with_steps().
+    /// The rest of the derivation after `word` has been derived by the first `steps` steps. It keeps steps(), and has
+    /// no with_steps().
     Grammar after(std::int64_t steps, std::shared_ptr<const ModuleWord> word) &&;
     bool is_begun() const { return begun_; }
-    /// True if the file says which table applies when; else one table applies in every step.
+    /// True if the file has a schedule of tables; otherwise one table applies in every step.
     bool has_schedule() const { return schedule_items_ != nullptr; }
+
+    /// The same system with a mark, a symbol without meaning, after each part that draws and is derived in the last
+    /// `order` steps from one symbol that they rewrite: the sub-curves of that order. Without marks if the derivation
+    /// is no longer; nullopt for systems that are not plain or look at neighbours.
+    /// @param sounding  1 for symbols that count as drawing, by symbol; may be empty
+    std::optional<Grammar> with_marks(std::int64_t order, const std::vector<char>& sounding = {}) const;
+    /// The mark of with_marks().
+    std::optional<Symbol> mark() const { return mark_; }
 
     /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
     Grammar with_map(const std::vector<Symbol>& map) const;
@@ -207,16 +231,19 @@ private:
     std::shared_ptr<const ModuleWord> axiom_ = std::make_shared<const ModuleWord>();
     std::vector<Table> tables_;
     std::optional<Table> interpretation_;
+    std::shared_ptr<const MapSystem> map_;
     std::int64_t steps_ = 0;
     bool begun_ = false;
     bool is_parametric_ = false;
     bool is_stochastic_ = false;
     std::uint64_t seed_ = 0;
     std::optional<Symbol> cut_;
+    std::optional<Symbol> mark_;
     std::vector<ScheduleRun> schedule_;
     std::shared_ptr<const std::vector<ScheduleItem>> schedule_items_;  // null: one table in every step
     Angle heading_;
     std::optional<Tropism> tropism_;
+    std::vector<std::shared_ptr<const Surface>> surfaces_;
     bool is_spatial_ = false;
     double scale_percent_ = 100.0;
     std::vector<char> ignored_;

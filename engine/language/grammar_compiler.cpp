@@ -1,7 +1,9 @@
 // engine/language/grammar_compiler.cpp: compiles a pattern into a grammar.
 #include "engine/language/command_table.h"
+#include "engine/language/map_system.h"
 #include "engine/language/production_compiler.h"
 #include "engine/language/schedule.h"
+#include "engine/language/surface.h"
 #include "engine/language/word_reader.h"
 
 #include <fmt/format.h>
@@ -36,19 +38,14 @@ public:
         if (const Key* key = pattern_.find("seed")) {
             if (const auto seed = whole_number(key->value)) grammar_.seed_ = static_cast<std::uint64_t>(*seed);
         }
+        read_scale();
+        if (pattern_.find("map")) return map_grammar();
         const CommandSettings angles = read_angles();
         read_axiom();
         CompiledProductions productions = compile_productions(pattern_, reader_, diagnostics_);
         const ContextList context = read_contexts();
-        if (const Key* key = pattern_.find("scale factor")) {
-            double percent = 0;
-            if (!read_number(key->value.view(), percent) || percent <= 0 || percent > 100) {
-                diagnostics_.error(key->value, "'scale factor:' is a percentage, above 0 and at most 100");
-            } else {
-                grammar_.scale_percent_ = percent;
-            }
-        }
         read_tropism();
+        grammar_.surfaces_ = read_surfaces(pattern_, diagnostics_);
         read_commands(angles, context);
         grammar_.symbols_ = std::move(reader_.symbols());
         grammar_.letters_ = std::move(reader_.letters());
@@ -103,7 +100,7 @@ private:
         if (factor) {
             const auto k = whole_number(factor->value);
             if (k && (*k < 1 || *k > most_angle_parts)) {
-                diagnostics_.error(factor->value, "the angle factor is a whole number, 1 or more: 360/k degrees");
+                diagnostics_.error(factor->value, "expected a whole number k, 1 or more: the angle is 360/k degrees");
             } else if (k) {
                 settings.increment = angle_of_parts(*k);
             }
@@ -122,7 +119,33 @@ private:
                 diagnostics_.error(key->value, "expected 'left' or 'right'");
             }
         }
+        if (const Key* key = pattern_.find("polygons")) {
+            const std::string_view way = key->value.view();
+            if (way == "framework") {
+                settings.frames_polygons = true;
+            } else if (way != "outline") {
+                diagnostics_.error(key->value, "expected 'outline' or 'framework'");
+            }
+        }
         return settings;
+    }
+
+    void read_scale() {
+        const Key* key = pattern_.find("scale factor");
+        if (!key) return;
+        double percent = 0;
+        if (!read_number(key->value.view(), percent) || percent <= 0 || percent > 100) {
+            diagnostics_.error(key->value, "'scale factor:' is a percentage, above 0 and at most 100");
+        } else {
+            grammar_.scale_percent_ = percent;
+        }
+    }
+
+    Grammar map_grammar() {
+        grammar_.map_ = std::make_shared<const MapSystem>(compile_map_system(pattern_, names_, diagnostics_));
+        grammar_.tables_.resize(std::max<std::size_t>(pattern_.tables.size(), 1));
+        read_schedule();
+        return std::move(grammar_);
     }
 
     void read_tropism() {
@@ -131,8 +154,8 @@ private:
         if (!force && !elasticity) return;
         if (!force || !elasticity) {
             diagnostics_.error((force ? force : elasticity)->name_at,
-                               "'tropism:' says which way branches bend and 'elasticity:' how much: one needs the "
-                               "other");
+                               "'tropism:' and 'elasticity:' need each other: the direction in which branches "
+                               "bend, and how much");
             return;
         }
         Tropism tropism;
@@ -151,7 +174,7 @@ private:
             ++numbers;
         }
         if (!good || (numbers != 2 && numbers != 3)) {
-            diagnostics_.error(force->value, "expected numbers x, y and, if you like, z, such as 0, -1, 0");
+            diagnostics_.error(force->value, "expected two or three numbers x, y and z, such as 0, -1, 0");
         }
         if (!read_number(elasticity->value.view(), tropism.elasticity) || std::fabs(tropism.elasticity) > 1e100) {
             diagnostics_.error(elasticity->value, "expected a number such as 0.22");
@@ -163,7 +186,8 @@ private:
         const std::vector<char> reached = grammar_.reachable();
         for (std::size_t i = 0; i < reached.size(); ++i) {
             const Action action = grammar_.symbols_[i].command.action;
-            if (reached[i] && (action == Action::pitch || action == Action::roll || action == Action::level))
+            if (reached[i] && (action == Action::pitch || action == Action::roll || action == Action::level ||
+                               action == Action::surface))
                 return true;
         }
         return false;
@@ -172,7 +196,7 @@ private:
     void read_axiom() {
         const Key* key = pattern_.find("axiom");
         if (!key) {
-            diagnostics_.error({pattern_.source, 0, 0}, "there is no 'axiom:'");
+            diagnostics_.error({pattern_.source, 0, 0}, "'axiom:' is missing");
         } else if (key->value.empty()) {
             diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
         } else {
@@ -235,6 +259,8 @@ private:
             if (!forward.contains(letter)) continue;
             diagnostics_.error(key->value, fmt::format("'{}' is listed under both 'forward:' and 'move:'", letter));
         }
+        read_edges(settings);
+        for (const auto& surface : grammar_.surfaces_) settings.surfaces.push_back(surface->name);
         grammar_.ignored_.assign(reader_.symbols().size(), 0);
         for (std::size_t i = 0; i < reader_.symbols().size(); ++i) {
             SymbolInfo& symbol = reader_.symbols()[i];
@@ -244,6 +270,18 @@ private:
             grammar_.ignored_[i] =
                 context.is_stated && (context.is_considered ? !listed && !bracket : listed) ? 1 : 0;
         }
+    }
+
+    void read_edges(CommandSettings& settings) {
+        const Key* key = pattern_.find("edges");
+        const auto list = key ? reader_.symbol_list(*key) : std::nullopt;
+        if (!list) return;
+        if (list->size() != 2 || list->front() == list->back()) {
+            diagnostics_.error(key->value, "expected two symbols, such as ? #");
+            return;
+        }
+        settings.edge_begin = reader_.symbols()[list->front()].letter;
+        settings.edge_end = reader_.symbols()[list->back()].letter;
     }
 
     void read_schedule() {
@@ -301,7 +339,7 @@ private:
         for (const auto& [symbol, where] : looked_at) {
             const SymbolInfo& info = grammar_.symbols_[symbol];
             if (stated[symbol] || !other[info.letter_index]) continue;
-            diagnostics_.warning(where, fmt::format("no word has '{}' with {} parameters, but one with {}: this "
+            diagnostics_.warning(where, fmt::format("words contain '{0}' with {2} parameters, never with {1}: this "
                                                     "production can never apply",
                                                     info.letter, info.arity, *other[info.letter_index]));
         }

@@ -17,11 +17,12 @@ namespace {
 constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
 
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
-// Of a pattern file, counted while it is read, so that no small file takes much memory.
+// Limits of a pattern file, checked while it is read, so that a small file cannot take much memory.
 constexpr std::size_t most_keys = 1024;  // together with those that settings add
 constexpr std::size_t most_defines = std::size_t{1} << 18;
 constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables together
 constexpr std::size_t most_tables = std::size_t{1} << 16;
+constexpr std::size_t most_patches = 4096;
 constexpr std::size_t most_variants = std::size_t{1} << 16;
 constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
 
@@ -36,6 +37,15 @@ std::string folded(std::string_view name) {
     }
     while (result.ends_with(' ')) result.pop_back();
     return result;
+}
+
+/// The name of a key: folded, but for the symbol of a key such as `note SYMBOL`.
+std::string folded_key(std::string_view name) {
+    std::string result = folded(name);
+    const KeyInfo* row = find_language_key(result);
+    if (!row || !row->is_for_symbols()) return result;
+    const std::string_view whole = trimmed(name);
+    return std::string(row->before_symbol()) + std::string(trimmed(whole.substr(row->before_symbol().size() - 1)));
 }
 
 /// The first byte that is NUL or no valid UTF-8, or npos.
@@ -91,7 +101,7 @@ private:
         if (whole.empty()) return;
         const std::string_view text = whole.view();
         const std::size_t colon = text.find(':');
-        const std::string key = colon == std::string_view::npos ? "" : folded(text.substr(0, colon));
+        const std::string key = colon == std::string_view::npos ? "" : folded_key(text.substr(0, colon));
         if (key == "title" || key == "source" || key == "description") return add_key(whole, key, colon);
         if (!nesting_is_sane(whole)) return;
         warn_of_late_comment(whole);
@@ -99,6 +109,8 @@ private:
             return production(whole, arrow);
         }
         if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
+        if (colon == std::string_view::npos && is_row(text)) return patch_row(whole);
+        is_in_patch_ = false;
         if (text.starts_with('#')) return diagnostics_.error(whole, "a comment begins with '//'");
         if (colon == std::string_view::npos) {
             for (const std::string_view arrow : {"\xE2\x86\x92", "->", "=>", "::="}) {
@@ -113,6 +125,7 @@ private:
         }
         if (key == "interpret") return interpret(whole, colon);
         if (starts_with_word(key, "table")) return table(whole, colon);
+        if (starts_with_word(key, "patch")) return patch(whole, colon);
         if (starts_with_word(key, "variant")) return variant(whole, colon);
         if (key.empty()) return diagnostics_.error(whole, "expected the name of a key before ':'");
         add_key(whole, key, colon);
@@ -152,7 +165,7 @@ private:
             const char letter = text[next];
             if ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z')) {
                 diagnostics_.warning(whole.part(i + 1),
-                                     "'//' is a comment only at the beginning of a line; here it is two rolls");
+                                     "'//' is a comment only at the beginning of a line; here it means two rolls");
                 return;
             }
         }
@@ -200,7 +213,7 @@ private:
             diagnostics_.error(rest, "a table's productions stand on the lines after its name");
         }
         if (!table_names_.insert(std::string(name.view())).second) {
-            diagnostics_.error(name, fmt::format("there are two tables '{}'", name.view()));
+            diagnostics_.error(name, fmt::format("the table '{}' is defined twice", name.view()));
         }
         section_ = Section::table;
         pattern_.tables.push_back({name, {}});
@@ -214,12 +227,36 @@ private:
         if (!rest.empty()) diagnostics_.error(rest, "the productions of 'interpret:' stand on the lines after it");
     }
 
+    /// The rows of a patch follow its name at once.
+    bool is_row(std::string_view text) const {
+        if (!is_in_patch_) return false;
+        const std::string begin = lower_case(text.substr(0, 3));
+        return std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos || begin == "nan" ||
+               begin == "inf";
+    }
+
+    void patch(const Span& whole, std::size_t colon) {
+        const Span name = whole.part(5, colon - 5).trimmed();
+        if (name.empty()) return diagnostics_.error(whole, "expected the surface's name: 'patch NAME:'");
+        if (!has_room(name, pattern_.patches.size(), most_patches, "patches")) return;
+        const Span rest = whole.part(colon + 1).trimmed();
+        if (!rest.empty()) diagnostics_.error(rest, "the points of a patch stand on the lines after its name");
+        pattern_.patches.push_back({name, {}});
+        is_in_patch_ = true;
+    }
+
+    void patch_row(const Span& whole) {
+        std::vector<Span>& rows = pattern_.patches.back().rows;
+        if (rows.size() == 16) return diagnostics_.error(whole, "a patch has at most 16 lines of points");
+        rows.push_back(whole);
+    }
+
     void variant(const Span& whole, std::size_t colon) {
         const Span name = whole.part(7, colon - 7).trimmed();
         if (name.empty()) return diagnostics_.error(whole, "expected the variant's name: 'variant NAME:'");
         if (!has_room(name, pattern_.variants.size(), most_variants, "variants")) return;
         if (!variant_names_.insert(std::string(name.view())).second) {
-            return diagnostics_.error(name, fmt::format("there are two variants '{}'", name.view()));
+            return diagnostics_.error(name, fmt::format("the variant '{}' is defined twice", name.view()));
         }
         Variant result{name, {}};
         const Span list = whole.part(colon + 1).trimmed();
@@ -261,7 +298,8 @@ private:
         ProductionText result;
         result.whole = whole;
         if (const std::size_t second = find_outside(right_side.view(), "-->"); second != std::string_view::npos) {
-            return diagnostics_.error(right_side.part(second), "a second '-->' in one line: one production each");
+            return diagnostics_.error(right_side.part(second),
+                                      "a second '-->' in this line; expected one production per line");
         }
         std::size_t end = left.size();
         if (const std::size_t colon = find_outside(left, ":"); colon != std::string_view::npos) {
@@ -306,6 +344,7 @@ private:
     Diagnostics& diagnostics_;
     Section section_ = Section::common;
     bool interpret_seen_ = false;
+    bool is_in_patch_ = false;
     std::size_t productions_ = 0;
     std::size_t settings_ = 0;
     std::set<std::string, std::less<>> key_names_;
@@ -326,8 +365,8 @@ public:
             pattern_.defines[define->second].value = value;
             return;
         }
-        const std::string key = folded(name);
-        // Of two keys that exclude each other the one set later wins.
+        const std::string key = folded_key(name);
+        // If two keys exclude each other, the one set later wins.
         constexpr std::array<std::pair<std::string_view, std::string_view>, 2> exclusive = {
             std::pair{"angle factor", "angle increment"}, std::pair{"ignore", "consider"}};
         for (const auto& [one, other] : exclusive) {
@@ -416,9 +455,9 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
             const auto source =
                 std::make_shared<const Source>("variant " + std::string(variant), std::string(variant), true);
             pattern.overrides.push_back(source);
-            diagnostics.error({source, 0, variant.size()}, known.empty()
-                                                               ? "this pattern has no variants"
-                                                               : fmt::format("no such variant; there are {}", list));
+            diagnostics.error({source, 0, variant.size()},
+                              known.empty() ? "this pattern has no variants"
+                                            : fmt::format("unknown variant; the pattern has {}", list));
         } else {
             for (const Key& setting : chosen->settings) {
                 overrides.set(setting.name, setting.name_at, setting.value);
@@ -434,7 +473,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         const Span whole{source, 0, source->text().size()};
         if (first_bad_byte(source->text()) != std::string_view::npos ||
             source->text().find('\n') != std::string::npos) {
-            diagnostics.error(whole, "a setting is one line of UTF-8");
+            diagnostics.error(whole, "expected one line of valid UTF-8");
             continue;
         }
         if (source->open_comment() != std::string::npos) {
@@ -450,11 +489,29 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
     }
 }
 
+namespace {
+
+void check_scope(const Key& key, const KeyInfo& known, bool is_map, Diagnostics& diagnostics) {
+    if (is_map && known.scope == KeyScope::words) {
+        diagnostics.error(key.name_at, fmt::format("'{}:' does not apply to a map, which has no turtle", key.name));
+    } else if (!is_map && known.scope == KeyScope::maps) {
+        diagnostics.error(
+            key.name_at,
+            fmt::format("'{}:' applies only to maps: expected the key 'map: clockwise' beside it", key.name));
+    }
+}
+
+}  // namespace
+
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
-    std::vector<std::string_view> known = {"interpret", "table", "variant", "define"};
+    const bool is_map = pattern.find("map") != nullptr;
+    std::vector<std::string_view> known = {"interpret", "table", "variant", "define", "patch"};
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Key& key : pattern.keys) {
-        if (find_language_key(key.name)) continue;
+        if (const KeyInfo* known_key = find_language_key(key.name)) {
+            check_scope(key, *known_key, is_map, diagnostics);
+            continue;
+        }
         // Names of these keys in other programs and in everyday English.
         static const std::map<std::string_view, std::string_view> others = {
             {"angle", "angle increment"}, {"n", "derivation length"}, {"steps", "derivation length"},

@@ -23,7 +23,7 @@ struct Define {
     Span value;
 };
 
-/// One production, cut at its separators; what is absent is nullopt.
+/// One production, cut at its separators; absent parts are nullopt.
 struct ProductionText {
     Span whole;
     std::optional<Span> left;
@@ -40,6 +40,12 @@ struct TableText {
     std::vector<ProductionText> productions;
 };
 
+/// `patch NAME:` and the lines after it, each of the coordinates of points.
+struct PatchText {
+    Span name;
+    std::vector<Span> rows;
+};
+
 /// `variant NAME: a = 1, derivation length = 3`: what differs from the file.
 struct Variant {
     Span name;
@@ -53,16 +59,17 @@ struct Setting {
     std::string value;
 };
 
-/// What a pattern file states; its Spans live as long as it does. Keys hold the final values, overrides applied, in
-/// the order of the file.
+/// The contents of a pattern file; its Spans live as long as it does. Keys hold the final values, overrides applied,
+/// in the order of the file.
 struct Pattern {
     SourcePointer source;
-    std::vector<SourcePointer> overrides;  ///< what overriding values were cut from
+    std::vector<SourcePointer> overrides;  ///< sources of overriding values
     std::vector<Key> keys;
     std::vector<Define> defines;
     std::vector<ProductionText> common;  ///< productions before the first table
     std::vector<TableText> tables;
     std::vector<ProductionText> interpret;  ///< the homomorphism
+    std::vector<PatchText> patches;
     std::vector<Variant> variants;
 
     /// The key of that folded name, or null.
@@ -87,11 +94,11 @@ Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnosti
 void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
                      Diagnostics& diagnostics);
 
-/// Reports every key that is not in language_keys(), with the nearest one. Values are checked by those that read
-/// them.
+/// Reports every key that is not in language_keys(), with the nearest one, and keys of words in maps and of maps in
+/// words. Values are checked by those that read them.
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// Whether a line states an axiom, as in every pattern, whatever else may be wrong with it. Cost: linear.
+/// True if a line states an axiom, as in every pattern, even one with errors. Cost: linear.
 bool states_axiom(std::string_view text);
 
 }  // namespace sikku

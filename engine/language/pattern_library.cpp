@@ -1,5 +1,7 @@
 #include "engine/language/pattern_library.h"
 
+#include "engine/language/arrangement_library.h"
+
 #include "engine/base/diagnostic.h"
 #include "engine/base/installation.h"
 
@@ -41,7 +43,28 @@ std::vector<LibraryPattern> listed(const std::filesystem::path& folder) {
     return found;
 }
 
+/// Names of the TOML files in a folder, sorted.
+std::vector<std::string> toml_names(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 }  // namespace
+
+std::vector<std::string> bundled_arrangements() {
+    return toml_names(bundled_folder() / "arrangements");
+}
+
+std::optional<std::filesystem::path> bundled_arrangement(std::string_view name) {
+    const std::vector<std::string> names = bundled_arrangements();
+    if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
+    return bundled_folder() / "arrangements" / (std::string(name) + ".toml");
+}
 
 PatternLibrary::PatternLibrary(const std::filesystem::path& folder)
     : folder_(folder), patterns_(std::make_shared<const std::vector<LibraryPattern>>(listed(folder))) {}
@@ -77,13 +100,7 @@ std::string_view PatternLibrary::nearest_kind(std::string_view name) const {
 }
 
 std::vector<std::string> PatternLibrary::gallery_files() const {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "posters", error)) {
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
+    return toml_names(folder_ / "posters");
 }
 
 std::string PatternLibrary::gallery_file(const std::string& name) const {

@@ -20,7 +20,7 @@ struct Group {
     bool is_mixed = false;
     std::optional<Span> weighted;    ///< the first weight
     std::optional<Span> unweighted;  ///< the first production without one
-    double sum = 0.0;                ///< of constant weights
+    double sum = 0.0;                ///< sum of constant weights
 };
 using Groups = std::map<std::tuple<Word, Word, Word>, Group>;
 
@@ -40,7 +40,7 @@ public:
         }
         if (pattern_.tables.size() > 1 && size > most_shared / pattern_.tables.size()) {
             diagnostics_.error(pattern_.tables.front().name,
-                               "there is too much before the first table for so many tables to share it");
+                               "the productions before the first table are too many to be added to every table");
             return {};
         }
         if (pattern_.tables.empty()) {
@@ -130,7 +130,7 @@ private:
             }
             if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
                 diagnostics_.error(text.predecessor,
-                                   "an interpretation replaces one symbol, whatever its neighbours are");
+                                   "a production of 'interpret:' replaces one symbol, without contexts");
                 continue;
             }
             if (reader_.is_parametric()) {
@@ -143,7 +143,7 @@ private:
             if (group.is_certain && !text.weight) {
                 diagnostics_.error(text.predecessor,
                                    "this production can never apply: one with the same predecessor and contexts "
-                                   "stands before it");
+                                   "precedes it");
                 continue;
             }
             if (!text.condition && !text.weight) group.is_certain = true;
@@ -171,26 +171,26 @@ private:
     void warn_of_weight(const Span& condition, double value) {
         double number = 0;
         if (!read_number(condition.trimmed().view(), number) || value == 0 || value == 1) return;
-        diagnostics_.warning(condition, fmt::format("this condition always holds; a weight stands behind the "
+        diagnostics_.warning(condition, fmt::format("this condition always holds; a weight follows the "
                                                     "successor: --> … : {}",
                                                     condition.trimmed().view()));
     }
 
-    /// Does its weight, or that it has none, go with those of the others?
+    /// True if its weight, or the lack of one, agrees with the other productions of the group.
     bool belongs(const ProductionText& text, const std::optional<Expression>& weight, Group& group) {
         if (!weight && !group.unweighted) group.unweighted = text.predecessor;
         if (weight && !group.weighted) group.weighted = *text.weight;
         if (group.weighted && group.unweighted && !group.is_mixed) {
             group.is_mixed = true;
             diagnostics_.error(*group.unweighted,
-                               "this production has no weight, and others of the same predecessor and contexts have");
+                               "this production has no weight, but others with the same predecessor and contexts do");
         }
         if (!weight) return true;
         const auto value = weight->constant();
         if (!value) {
             group.has_variables = true;
         } else if (!(*value >= 0) || !std::isfinite(*value)) {
-            diagnostics_.error(*text.weight, "a weight is a finite number, 0 or more");
+            diagnostics_.error(*text.weight, "expected a finite weight, 0 or more");
             group.has_variables = true;
             return false;
         } else {
@@ -199,7 +199,7 @@ private:
         return true;
     }
 
-    /// What is left to chance once constant weights are known: nothing where one production alone has any.
+    /// Removes productions of weight 0, and choices that constant weights decide.
     void weigh(std::vector<Production>& productions, const Groups& groups) {
         std::vector<const Group*> by_number(groups.size() + 1, nullptr);
         bool any = false;

@@ -22,7 +22,7 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
                                                        Diagnostics& diagnostics);
 
 /// Returns the last `steps` steps that the items state; nullopt if they state fewer or a count is not a number.
-/// @param problem  what is wrong, unless null
+/// @param problem  receives the error, unless null
 std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleItem> items, std::int64_t steps,
                                                       std::string* problem);
 

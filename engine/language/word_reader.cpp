@@ -77,7 +77,7 @@ bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
         read.arity = 0;
         if (scanner.at_parameters() && !read_parameters(scanner, span, letter, place, read)) return false;
         if (letter == "%" && place != WordPlace::list && place != WordPlace::axiom_or_successor) {
-            diagnostics_.error(span.part(begin), "the cut symbol '%' is gone before productions apply");
+            diagnostics_.error(span.part(begin), "the cut symbol '%' is removed before productions apply");
             return false;
         }
         if (symbols_.size() >= most_symbols) {
@@ -129,7 +129,7 @@ bool WordReader::read_formals(const std::vector<Span>& parts) {
     for (const Span& part : parts) {
         const std::string_view name = part.view();
         if (!is_expression_name(name)) {
-            diagnostics_.error(part, "a predecessor and its contexts hold names of parameters only");
+            diagnostics_.error(part, "parameters of a predecessor and its contexts must be names");
             return false;
         }
         if (!formals_.try_emplace(name, static_cast<std::uint32_t>(formals_.size())).second) {

@@ -1,5 +1,7 @@
 #include "engine/language/word_scanner.h"
 
+#include "engine/language/surface.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +22,8 @@ std::size_t code_point_length(char lead) {
 
 SymbolNames::SymbolNames(const Pattern& pattern, Diagnostics& diagnostics) {
     const Key* key = pattern.find("symbols");
-    if (!key) return;
-    if (!read(key->value, diagnostics)) names_.clear();
+    if (key && !read(key->value, diagnostics)) names_.clear();
+    for (const std::string& name : surface_names(pattern)) has_surfaces_ = names_.insert("~" + name).second;
     for (const std::string& name : names_) longest_ = std::max(longest_, name.size());
 }
 
@@ -43,7 +45,7 @@ bool SymbolNames::read(const Span& list, Diagnostics& diagnostics) {
             const std::size_t comma = name.find(',');
             diagnostics.error(list.part(begin + (comma == std::string_view::npos ? 0 : comma)),
                               comma == std::string_view::npos
-                                  ? "a name is letters and digits, beginning with a letter"
+                                  ? "expected a name of letters and digits that begins with a letter"
                                   : "names are separated by blanks, not by commas");
             return false;
         }
@@ -88,18 +90,21 @@ std::string_view WordScanner::letter(bool blank_before) {
     if (byte == '@') {
         const std::size_t next = at_ + 1;
         if (next >= text_.size() || text_[next] == ' ' || text_[next] == '\t' || text_[next] == '(') {
-            return wrong("a lone '@' is not a symbol: '@' goes with the character after it");
+            return wrong("'@' is not a symbol by itself; expected a character after it");
         }
         return taken(1 + code_point_length(text_[next]));
     }
+    if (byte == '~' && names_.has_surfaces()) {
+        return wrong("expected the name of a surface after '~': 'patch NAME:' and 'surface:' define them");
+    }
     if (byte == '(') {
-        return wrong(blank_before ? "parameters follow their symbol at once, without a blank"
+        return wrong(blank_before ? "unexpected blank between a symbol and its parameters"
                                   : "'(' without a symbol before it");
     }
     if (byte == ')') return wrong("')' without '('");
     if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is not a symbol", byte));
     if (byte == ':') return wrong("':' is not a symbol");
-    if (byte == '*') return wrong("'*' is the empty word and stands alone");
+    if (byte == '*') return wrong("'*' is the empty word and must stand alone");
     if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F) {
         return wrong(fmt::format("a control character (0x{:02x}) is not a symbol", static_cast<unsigned char>(byte)));
     }

@@ -26,12 +26,15 @@ public:
         }
         return 0;
     }
+    /// True if `~` begins the names of surfaces.
+    bool has_surfaces() const { return has_surfaces_; }
     std::vector<std::string> sorted() const { return {names_.begin(), names_.end()}; }
 
 private:
     bool read(const Span& list, Diagnostics& diagnostics);
     std::set<std::string, std::less<>> names_;
     std::size_t longest_ = 0;
+    bool has_surfaces_ = false;
 };
 
 /// Scans one word.

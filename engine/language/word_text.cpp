@@ -16,7 +16,7 @@ void append_symbol(const SymbolInfo& symbol, std::span<const double> arguments, 
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const double value = arguments[i];
         text += i == 0 ? '(' : ',';
-        // What no number can say is said by what gives it.
+        // Values that are not finite are written as expressions that give them.
         if (std::isfinite(value)) {
             std::array<char, 32> digits;
             const char* const end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), value);

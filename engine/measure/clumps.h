@@ -24,7 +24,7 @@ public:
     /// `parts` must outlive them. Cost: O(parts x length of their successors), in time and memory.
     explicit Clumps(const Grammar& grammar, const Parts<double>& parts);
 
-    /// Of what the part with that index becomes. Valid for parts that draw, above level 0.
+    /// The clumps that the part with that index becomes. Valid for parts that draw, above level 0.
     std::span<const Clump> below(std::size_t part) const {
         return std::span(clumps_).subspan(below_[part].first, below_[part].count);
     }

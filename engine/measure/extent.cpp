@@ -22,15 +22,21 @@ void tell_counts(const Grammar& grammar, const std::vector<Integer>& counts, Mea
     for (const auto& [letter, count] : letters) result.counts.emplace_back(letter, Quantity::of(count));
 }
 
-/// drawn, moves and length, from the numbers of symbols of the interpreted word.
+bool closes_polygon(const Command& command) {
+    return command.action == Action::polygon_end || command.action == Action::edge_end;
+}
+
+/// drawn, moves, length and polygons, from the numbers of symbols of the interpreted word.
 void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
     const Lattice lattice = make_lattice(grammar);
     Integer drawn = 0;
     Integer moves = 0;
+    Integer polygons = 0;
     Integer units = 0;
     double length = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Command& command = grammar.symbols()[i].command;
+        if (closes_polygon(command)) polygons += counts[i];
         if (command.action != Action::draw && command.action != Action::move) continue;
         if (counts[i] == 0) continue;
         moves += counts[i];
@@ -44,6 +50,7 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
     }
     result.drawn = Quantity::of(drawn);
     result.moves = Quantity::of(moves);
+    result.polygons = Quantity::of(polygons);
     if (lattice.rank > 0) {
         const auto denominator = static_cast<std::int64_t>(std::llround(1.0 / lattice.unit));
         result.length = Quantity::of(Integer((units + denominator / 2) / denominator));
@@ -108,6 +115,7 @@ void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, 
         result.drawn = Quantity::of(Integer(survey.drawn));
         result.moves = Quantity::of(Integer(survey.moves));
         result.length = Quantity::of(survey.length);
+        result.polygons = Quantity::of(Integer(survey.polygons));
     };
     result.derived = true;
     options.interpreted = true;
@@ -160,6 +168,8 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
         result.length = about(grammar, interpreted, [&](const Command& command) {
             return draws(command) ? std::fabs(command.value) : 0.0;
         });
+        result.polygons =
+            about(grammar, interpreted, [&](const Command& command) { return one_if(closes_polygon(command)); });
         return result;
     }
     tell_counts(grammar, *plain.counts, result);

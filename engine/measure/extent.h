@@ -22,6 +22,7 @@ struct Measurement {
     Quantity drawn;                                        ///< segments; from here on after `interpret:`
     Quantity moves;                                        ///< steps, drawn or not
     Quantity length;                                       ///< drawn, in steps
+    Quantity polygons;                                     ///< closed by `}` or an inserted edge
     /// Absent if the word is too long for even the fold (then only counts are told), and in three dimensions.
     std::optional<Fold> geometry;
     std::optional<SpaceSurvey> space;  ///< in three dimensions: see Grammar::is_spatial()

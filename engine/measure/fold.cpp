@@ -365,6 +365,18 @@ private:
         Placed state;
         Integer position;
     };
+    /// How many pairs a stretch of a word leaves open, and the lowest of these numbers on the way.
+    struct Nesting {
+        Integer net = 0;
+        Integer low = 0;
+        void append(const Nesting& part) {
+            if (part.net == 0 && part.low == 0) return;
+            const Integer lower = net + part.low;
+            low = std::min(low, lower);
+            net += part.net;
+        }
+        bool is_balanced() const { return net == 0 && low == 0; }
+    };
     /// The effect of a stretch of a word: frames[0] is seen from where it begins; each ']' without '[' begins a new
     /// frame, seen from the state that it restores. `open` and `end` lie in the last frame.
     struct Element {
@@ -376,8 +388,8 @@ private:
         bool draws = false;
         std::int64_t net = 0;  // of the nesting
         std::int64_t highest = 0;
-        Integer braces_net = 0;
-        Integer braces_low = 0;
+        Nesting braces, edges;  // of polygons, and of inserted edges
+        bool has_cylinder = false;
     };
     using Level = std::vector<std::shared_ptr<const Element>>;
 
@@ -414,10 +426,17 @@ private:
                 element.net = -1;
                 break;
             case Action::polygon_begin:
-                element.braces_net = 1;
+                element.braces.net = 1;
+                element.has_cylinder = grammar_.symbols()[symbol].command.value != 0;
                 break;
             case Action::polygon_end:
-                element.braces_net = element.braces_low = -1;
+                element.braces = {-1, -1};
+                break;
+            case Action::edge_begin:
+                element.edges.net = 1;
+                break;
+            case Action::edge_end:
+                element.edges = {-1, -1};
                 break;
             default:
                 break;
@@ -468,11 +487,9 @@ private:
         element.highest = std::max(element.highest, element.net + part.highest);
         element.net += part.net;
         element.draws = element.draws || part.draws;
-        if (part.braces_net != 0 || part.braces_low != 0) {
-            const Integer low = element.braces_net + part.braces_low;
-            element.braces_low = std::min(element.braces_low, low);
-            element.braces_net += part.braces_net;
-        }
+        element.braces.append(part.braces);
+        element.edges.append(part.edges);
+        element.has_cylinder = element.has_cylinder || part.has_cylinder;
         element.symbols += part.symbols;
     }
 
@@ -539,8 +556,8 @@ private:
             throw WordError(fmt::format("symbol {} of the word: this '[' is not closed",
                                         Integer(whole.open.back().position + 1).str()));
         }
-        // Where the brace stands, a walk tells.
-        if (whole.braces_low < 0 || whole.braces_net != 0) throw TooMuch();
+        // Where the fault lies, a walk tells.
+        if (!whole.braces.is_balanced() || !whole.edges.is_balanced() || whole.has_cylinder) throw TooMuch();
         const typename Space::Embedding embedding(space_);
         const Frame& frame = whole.frames.front();
         Fold fold;

@@ -86,10 +86,11 @@ std::string measurement_json(const std::string& title, const Measurement& m) {
     const std::optional<Geometry> g = geometry_of(m);
     return fmt::format(
         "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
-        "\"length\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, \"depth\": {}, "
+        "\"length\": {}, \"polygons\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, "
+        "\"depth\": {}, "
         "\"derived\": {}}}\n",
         json_string(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
-        json(m.symbols), counts, json(m.drawn), json(m.moves), length, g ? json(g->box) : "null",
+        json(m.symbols), counts, json(m.drawn), json(m.moves), length, json(m.polygons), g ? json(g->box) : "null",
         g && !g->ink.empty() ? json(g->ink) : "null", g ? json(g->end) : "null",
         g && g->heading ? number(*g->heading) : "null",
         !g          ? "null"
@@ -112,6 +113,7 @@ std::string measurement_text(const std::string& title, const Measurement& m) {
     line("drawn", plain(m.drawn));
     line("moves", plain(m.moves));
     line("length", plain(m.length));
+    if (m.polygons.value > 0) line("polygons", plain(m.polygons));
     if (const std::optional<Geometry> g = geometry_of(m)) {
         line("box", plain(g->box));
         line("ink", g->ink.empty() ? "none" : plain(g->ink));

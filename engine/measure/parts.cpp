@@ -176,6 +176,7 @@ void Parts<Number>::place_symbols(const Grammar& grammar, const Lattice& lattice
 
 template <class Number>
 std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool moves_draw) {
+    if (grammar.map()) return std::nullopt;
     const Lattice lattice = make_lattice(grammar);
     if (!grammar.is_plain() || grammar.whole_word_steps() > 0 || lattice.headings == 0) return std::nullopt;
     Parts parts;

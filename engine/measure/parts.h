@@ -40,15 +40,15 @@ template <class Number>
 class Parts {
 public:
     /// `grammar` must outlive them. With `moves_draw`, steps that do not draw are drawn all the same, as of a spline.
-    /// Nullopt for other drawings (contexts, colours, widths, polygons, discs, brackets that stay open, angles that
-    /// are no parts of a turn), for more than a million parts, and for lengths that doubles do not hold.
-    /// Cost: O(size of the tables x steps x headings).
+    /// Nullopt for other drawings (maps, contexts, colours, widths, polygons, discs, brackets that stay open, angles
+    /// that are no parts of a turn), for more than a million parts, and for lengths that doubles do not hold. Cost:
+    /// O(size of the tables x steps x headings).
     static std::optional<Parts> make(const Grammar& grammar, bool moves_draw = false);
 
     /// Tables that are applied to the axiom, `interpret:` included.
     int levels() const { return static_cast<int>(tables_.size()); }
     std::uint32_t headings() const { return headings_; }
-    /// Of a symbol with `level` tables still to come, in a heading in which it occurs there.
+    /// The part of a symbol with `level` tables still to come, in a heading in which it occurs there.
     const DrawnPart<Number>& part(Symbol symbol, int level, std::uint32_t heading) const {
         return parts_[index(symbol, level, heading)];
     }
@@ -58,7 +58,7 @@ public:
     bool occurs(int level, std::uint32_t heading) const {
         return rows_[static_cast<std::size_t>(level) * headings_ + heading] != UINT32_MAX;
     }
-    /// Of part() in all().
+    /// Index of part() in all().
     std::size_t index(Symbol symbol, int level, std::uint32_t heading) const {
         const auto row = static_cast<std::size_t>(level) * headings_ + heading;
         return static_cast<std::size_t>(rows_[row]) * symbols_ + symbol;
@@ -67,7 +67,7 @@ public:
     const Word* successor(Symbol symbol, int level) const {
         return tables_[static_cast<std::size_t>(level) - 1]->successor(symbol);
     }
-    /// Of the whole drawing, which starts at 0 0.
+    /// The whole drawing, which starts at 0 0.
     const DrawnPart<Number>& whole() const { return whole_; }
 
 private:

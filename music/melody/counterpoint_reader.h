@@ -16,8 +16,10 @@ public:
           emitter_(emitter),
           options_(options),
           walk_(grammar, lattice, first),
+          clock_(melody),
           lower_(static_cast<std::int64_t>(melody.scale.size())),
-          is_piece_(melody.anchor == Anchor::piece) {
+          is_piece_(melody.anchor == Anchor::piece),
+          moves_sound_(draws_nothing(grammar)) {
         at_ = walk_.start;
         voices_[0].origin = origin.y == unknown ? 0 : origin.y;
         emitter_.take(voices_[0].line, 0);
@@ -26,9 +28,13 @@ public:
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
+            if (grammar_.mark() == symbol) {
+                ++due_;
+                continue;
+            }
             ++position_;
             const Command& command = grammar_.symbols()[symbol].command;
-            switch (const Kind kind = kind_of(command)) {
+            switch (const Kind kind = kind_of(command, moves_sound_)) {
                 case Kind::draw:
                 case Kind::move:
                     advance(walk_.step(at_, symbol), kind == Kind::draw);
@@ -45,6 +51,7 @@ public:
                     break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
+                case Kind::mark:
                 case Kind::nothing:
                     break;
             }
@@ -63,9 +70,11 @@ public:
     bool skip(const GridStretch& stretch) override {
         if constexpr (std::is_same_v<Walk, GridWalk>) {
             const Integer length = stretch.length[0] + stretch.length[1];
-            const std::int64_t room = options_.from / melody_.unit - margin_units - time_;
+            const std::int64_t room = clock_.steps_before(options_.from, stretch.marks + due_) - margin_units - time_;
             if (room < 0 || length > room) return false;
             for (Voice& voice : voices_) end_note(voice);
+            end_phrases();
+            clock_.breathe(stretch.marks);
             is_counted_ = false;
             walk_.skip(at_, stretch);
             here_ = point();
@@ -93,11 +102,23 @@ private:
         Emitter::Line line;
     };
 
-    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
+    std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
+
+    /// Both voices breathe at once.
+    void end_phrases() {
+        if (due_ == 0) return;
+        for (Voice& voice : voices_) end_note(voice);
+        emitter_.end_phrase(0, clock_.is_odd());
+        emitter_.end_phrase(1, clock_.is_odd());
+        clock_.breathe(due_);
+        emitter_.begin_phrase(ticks(time_));
+        due_ = 0;
+    }
     glm::dvec2 point() const { return {static_cast<double>(at_.x), static_cast<double>(at_.y)}; }
 
     /// The note that the turtle comes to sounds while it makes this step.
     void advance(const typename Walk::Step& step, bool is_drawn) {
+        end_phrases();
         at_.x += step.x;
         at_.y += step.y;
         lowest_ = std::min(lowest_, at_.y);
@@ -125,9 +146,18 @@ private:
         }
         time_ += length;
         here_ = point();
-        if (ticks(time_) < options_.to) return;
+        if (ticks(time_) < options_.to || !is_past_piece()) return;
         for (Voice& voice : voices_) end_note(voice);
         throw Enough();
+    }
+
+    /// Whether no note of the piece is held back.
+    bool is_past_piece() const {
+        if (!emitter_.is_shaped()) return true;
+        const bool is_held = std::any_of(voices_.begin(), voices_.end(), [&](const Voice& voice) {
+            return voice.sounding != unknown && ticks(voice.onset) < options_.to;
+        });
+        return !is_held && emitter_.may_stop(ticks(time_));
     }
 
     void end_note(Voice& voice) {
@@ -136,7 +166,9 @@ private:
         const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
                                   ticks(voice.onset));
         emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
-                      ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_, voice.symbol);
+                      clock_.end_ticks(time_),
+                      loud + (is_upper ? 8 : -8) + (clock_.is_accented(voice.onset) ? 16 : 0), voice.from, here_,
+                      voice.symbol);
         voice.sounding = unknown;
     }
 
@@ -145,13 +177,16 @@ private:
     Emitter& emitter_;
     const PlayOptions& options_;
     Walk walk_;
+    Clock<Walk> clock_;
     std::int64_t lower_;
-    bool is_piece_;  ///< its tonic is still to come
+    bool is_piece_;     ///< its tonic is still to come
+    bool moves_sound_;  // nothing is drawn: moves are notes
     typename Walk::Position at_;
     glm::dvec2 here_{0.0};
     Brackets<typename Walk::Position> stack_;
     std::array<Voice, 2> voices_;
     Number time_ = 0;
+    int due_ = 0;  // phrases that end before the next step
     int turned_ = 0;
     std::uint64_t position_ = 0;
     bool is_counted_ = true;  // nothing was skipped

@@ -7,16 +7,75 @@
 namespace sikku::mapping {
 
 void Emitter::finish(std::int64_t end) {
+    if (shaper_) {
+        shaper_->finish(end < options_.to);
+        hand_on();
+    }
+    if (accompaniment_ && melody_.harmony != Harmony::triads) {
+        const std::int64_t bar = melody_.meter.bar();
+        for (std::int64_t at = options_.from / bar * bar; at < std::min(end, options_.to); at += bar) {
+            accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr);
+        }
+    }
     flush();
     const bool past = end <= options_.from;
     end = std::max<std::int64_t>(0, std::min(end, options_.to) - options_.from);
     for (const std::int64_t busy : busy_until_) {
         end = std::max(end, std::min(busy, options_.to) - options_.from);
     }
+    end = std::max(end, accompanied_);
     report.end = end;
     report.past = past;
     report.voices = static_cast<int>(busy_until_.size());
     sink_.finish(end);
+}
+
+void Emitter::accompany(std::int64_t begin, const Chord* chord) {
+    for (Note note : accompaniment_->bar(begin, chord)) {
+        const std::int64_t from = std::max(note.onset, options_.from);
+        const std::int64_t to = std::min(note.onset + note.duration, options_.to);
+        if (from >= to) continue;
+        note.onset = from - options_.from;
+        note.duration = to - from;
+        note.voice = static_cast<std::int16_t>(note.voice + melody_.own_voices());
+        accompanied_ = std::max(accompanied_, to - options_.from);
+        ++report.notes;
+        block_.push_back(note);
+        if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
+        if (block_.size() == notes_in_block) flush();
+    }
+}
+
+void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
+    if (!note.is_fixed()) {
+        return place(line, note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
+    }
+    if (note.end <= note.onset) {
+        ++report.lost;
+        return;
+    }
+    reserve(line, note.onset, note.end);
+    if (note.end <= options_.from || note.onset >= options_.to) return;
+    const Placed placed = note.is_drum ? Placed{note.key, false, false} : within_range(note.key, note.degree, false);
+    report.moved += placed.is_moved ? 1 : 0;
+    ++report.notes;
+    if (!note.is_drum) {
+        report.lowest = std::min(report.lowest, placed.key);
+        report.highest = std::max(report.highest, placed.key);
+    }
+    const std::int64_t onset = std::max(note.onset, options_.from);
+    const int voice = line.voice + (note.is_drum ? options_.drums_from : 0);
+    block_.push_back({onset - options_.from, std::min(note.end, options_.to) - onset, placed.key,
+                      static_cast<std::int16_t>(voice), static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
+                      note.from, note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255))});
+    if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
+    if (block_.size() == notes_in_block) flush();
+}
+
+void Emitter::reserve(Line& line, std::int64_t onset, std::int64_t end) {
+    if (line.voice < 0) line.voice = free_voice(onset);
+    if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
+    busy_until_[static_cast<std::size_t>(line.voice)] = end;
 }
 
 int Emitter::free_voice(std::int64_t onset) {
@@ -39,13 +98,17 @@ Emitter::Placed Emitter::look_up(std::int64_t degree, bool falling) {
         if (melody_.range == Range::refuse) refuse(degree, "no key at all");
         return {0, false, true};
     }
-    if (is_within(*raw)) return {*raw, false, false};
+    return within_range(*raw, degree, falling);
+}
+
+Emitter::Placed Emitter::within_range(double raw, std::int64_t degree, bool falling) {
+    if (is_within(raw)) return {raw, false, false};
     switch (melody_.range) {
         case Range::refuse:
-            refuse(degree, fmt::format("key {:.0f}", *raw));
+            refuse(degree, fmt::format("key {:.0f}", raw));
         case Range::fold: {
             const double period = std::fabs(melody_.scale.period) / 100;
-            double key = *raw;
+            double key = raw;
             if (std::isfinite(key) && period > 0 && period <= melody_.highest - melody_.lowest) {
                 key += key > melody_.highest ? -period * std::ceil((key - melody_.highest) / period)
                                              : period * std::ceil((melody_.lowest - key) / period);

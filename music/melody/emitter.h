@@ -1,7 +1,9 @@
 // music/melody/emitter.h: passes notes from the readers of words to a sink.
 #pragma once
 
+#include "music/melody/accompaniment.h"
 #include "music/melody/mapping.h"
+#include "music/melody/shaper.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +11,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,8 @@ class Emitter {
 public:
     Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
         : melody_(melody), sink_(sink), options_(options) {
+        if (melody.is_shaped()) shaper_.emplace(melody);
+        if (melody.accompanying_voices() > 0) accompaniment_.emplace(melody);
         block_.reserve(notes_in_block);
         for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
     }
@@ -36,6 +41,74 @@ public:
     /// @param symbol  as in Note
     void note(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
               glm::dvec2 to, std::uint64_t symbol) {
+        if (melody_.is_inverted) degree = -degree;
+        degree += melody_.shift;
+        if (shaper_) {
+            if (line.voice < 0) line.voice = free_voice(onset);
+            shaper_->add(line.voice, {degree, onset, end, velocity, depth, from, to, symbol});
+            return hand_on();
+        }
+        place(line, degree, onset, end, velocity, from, to, symbol);
+    }
+
+    /// A note of a table of symbols: its key, if it is fixed, is what sounds.
+    void note(Line& line, Shaper::Draft draft) {
+        if (line.voice < 0) line.voice = free_voice(draft.onset);
+        draft.voice = line.voice;
+        draft.depth = depth;
+        if (!shaper_) return place_fixed(line, draft);
+        shaper_->add(line.voice, draft);
+        hand_on();
+    }
+
+    /// The phrase of a voice ends with its last note.
+    void end_phrase(int voice, bool is_odd) {
+        if (!shaper_) return;
+        shaper_->end_phrase(voice, is_odd);
+        hand_on();
+    }
+
+    /// A phrase has ended, and the next one begins at `tick`.
+    void begin_phrase(std::int64_t tick) const {
+        if (options_.phrase_ends) options_.phrase_ends->push_back(tick - options_.from);
+    }
+
+    /// Whether nothing that is read at `tick`, the end of the piece or later, matters to the piece.
+    bool may_stop(std::int64_t tick) const {
+        return !shaper_ || shaper_->first_pending() >= options_.to || tick >= options_.to + 64 * melody_.meter.bar();
+    }
+
+    bool is_shaped() const { return shaper_.has_value(); }
+
+    int depth = 0;  ///< brackets around the next note
+
+private:
+    /// Places what is shaped.
+    void hand_on() {
+        const int here = depth;
+        for (const Shaper::Draft& note : shaper_->take()) {
+            const auto at = static_cast<std::size_t>(note.voice);
+            if (at >= shaped_.size()) shaped_.resize(at + 1);
+            shaped_[at].voice = note.voice;
+            depth = note.depth;
+            if (note.is_fixed()) {
+                place_fixed(shaped_[at], note);
+                continue;
+            }
+            place(shaped_[at], note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
+        }
+        depth = here;
+        for (const auto& [begin, chord] : shaper_->take_chords()) accompany(begin, chord);
+    }
+
+    /// Plays what accompanies a bar.
+    void accompany(std::int64_t begin, const Chord* chord);
+    /// Places a note with a key of its own, or else by degree.
+    void place_fixed(Line& line, const Shaper::Draft& note);
+    void reserve(Line& line, std::int64_t onset, std::int64_t end);
+
+    void place(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
+               glm::dvec2 to, std::uint64_t symbol) {
         if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
         line.last_degree = degree;
         if (end <= onset) {
@@ -59,10 +132,13 @@ public:
         onset = std::max(onset, options_.from);
         block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
                           static_cast<std::int16_t>(line.voice),
-                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol});
+                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol,
+                          static_cast<std::uint8_t>(std::min(depth, 255))});
+        if (options_.degrees) options_.degrees->push_back(degree);
         if (block_.size() == notes_in_block) flush();
     }
 
+public:
     /// Lines that are there from the beginning have their voices from the beginning.
     void take(Line& line, int voice) {
         line.voice = voice;
@@ -103,6 +179,8 @@ private:
     bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
 
     Placed look_up(std::int64_t degree, bool falling);
+    /// @param raw  the key of the degree, perhaps beyond the range
+    Placed within_range(double raw, std::int64_t degree, bool falling);
     [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
     void find_bounds();
 
@@ -115,6 +193,10 @@ private:
     std::array<std::vector<Placed>, 2> keys_;
     std::int64_t low_ = 1;
     std::int64_t high_ = 0;
+    std::optional<Shaper> shaper_;
+    std::optional<Accompaniment> accompaniment_;
+    std::int64_t accompanied_ = 0;          // until that tick of the score
+    std::vector<Line> shaped_;              // of each voice
     std::vector<std::int64_t> busy_until_;  // of each voice
     std::vector<char> held_;                // by a branch that has not ended
 };

@@ -22,8 +22,10 @@ using namespace mapping;
 /// Passes over what lies before the piece.
 class Seeker final : public Pruner {
 public:
-    Seeker(const MelodyFold& fold, Reader& reader) : fold_(fold), reader_(reader) {}
+    Seeker(const Grammar& grammar, const MelodyFold& fold, Reader& reader)
+        : grammar_(grammar), fold_(fold), reader_(reader) {}
     bool passes_over(Symbol symbol, std::int64_t level) override {
+        if (grammar_.is_push(symbol) || grammar_.is_pop(symbol)) return false;
         const GridStretch* stretch = fold_.stretch(symbol, level);
         if (stretch && reader_.skip(*stretch)) return true;
         // What is that short is walked: the piece is near.
@@ -32,9 +34,33 @@ public:
     }
 
 private:
+    const Grammar& grammar_;
     const MelodyFold& fold_;
     Reader& reader_;
 };
+
+/// The fold that lets a reader of this melody pass over parts; nullopt if it has to walk.
+std::optional<MelodyFold> fold_of(const Grammar& grammar, const Melody& melody) {
+    if (melody.mapping == Mapping::symbols && !melody.table.empty()) return std::nullopt;
+    const bool is_sequence = melody.branches == Branches::sequence || melody.mapping == Mapping::counterpoint;
+    return MelodyFold::make(grammar, melody.mapping == Mapping::symbols ? FoldOf::symbols : FoldOf::curve,
+                            is_sequence);
+}
+
+/// The grammar with the phrases of the melody marked. @throws ScoreError
+Grammar marked(Grammar grammar, const Melody& melody) {
+    std::int64_t order = melody.phrase_order;
+    // The sections of a form are by default the largest sub-curves.
+    if (order == 0 && !melody.layout.form.empty()) order = std::max<std::int64_t>(1, grammar.steps() - 1);
+    if (order == 0) return grammar;
+    std::vector<char> sounding;
+    for (const SymbolEntry& entry : entries_of(grammar, melody)) {
+        sounding.push_back(entry.has_row && entry.row.is_sounding() ? 1 : 0);
+    }
+    auto result = grammar.with_marks(order, sounding);
+    if (!result) throw ScoreError("phrases need a system without contexts, parameters and chance");
+    return *std::move(result);
+}
 
 /// Everything a reader needs, made ready once.
 class Player {
@@ -46,23 +72,42 @@ public:
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
             if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
         }
+        has_voices_ = has_brackets_ && melody.branches == Branches::voices;
+        if (has_voices_ && (!melody.rhythm.empty() || melody.phrase_order > 0 || !melody.layout.form.empty() ||
+                            melody.is_shaped() || melody.accompanying_voices() > 0)) {
+            throw ScoreError(
+                "rhythm, phrases, cadence, articulation, swing and harmony need a melody whose branches are no "
+                "voices: "
+                "`brackets: sequence` plays them one after another");
+        }
+        shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
         const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;
         const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
-        if (options.from > 0 || is_anchored) fold_ = MelodyFold::make(grammar);
+        if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody);
+        if (options.ahead > 0 && (!fold_ || has_voices_ || melody.mapping != Mapping::runs ||
+                                  melody.vertical == Vertical::voice || melody.phrase_order > 0)) {
+            throw ScoreError(
+                "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without phrases and "
+                "voices");
+        }
     }
 
     PlayReport play(NoteSink& sink) {
         const Origin origin = find_origin();
         Emitter emitter(melody_, sink, options_);
         const auto reader = make_reader(melody_, emitter, origin, options_);
+        if (shares_) {
+            measure_spans();
+            reader->spans = &spans_;
+        }
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
         if (fold_ && options_.from > 0) {
-            seeker.emplace(*fold_, *reader);
+            seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
         }
         // A piece may be short where the whole is beyond all measure.
-        const bool is_piece = !has_brackets_ && options_.to < INT64_MAX;
+        const bool is_piece = !has_voices_ && !shares_ && options_.to < INT64_MAX;
         const bool is_long =
             static_cast<double>(options_.to - options_.from) > options_.budget * static_cast<double>(melody_.unit);
         if (!is_piece || is_long) require_affordable(grammar_, true, options_.budget);
@@ -71,6 +116,7 @@ public:
         } catch (const Enough&) {
             emitter.finish(options_.to);
         }
+        reader->report_skipped(emitter.report);
         return emitter.report;
     }
 
@@ -94,7 +140,7 @@ private:
     std::unique_ptr<Reader> make_reader(const Melody& melody, Emitter& emitter, Origin origin,
                                         const PlayOptions& options) const {
         if (melody.mapping == Mapping::symbols) {
-            return std::make_unique<SymbolReader>(grammar_, melody, emitter, options, has_brackets_);
+            return std::make_unique<SymbolReader>(grammar_, melody, emitter, options, has_voices_);
         }
         const auto make = [&]<class Walk>() -> std::unique_ptr<Reader> {
             if (melody.mapping == Mapping::counterpoint) {
@@ -102,9 +148,9 @@ private:
                                                                   options);
             }
             return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody, emitter, origin, options,
-                                                     has_brackets_);
+                                                     has_voices_);
         };
-        return is_grid_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
+        return is_grid_ && !shares_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
     }
 
     /// The y that sounds the tonic. The first note is met on the way; but a piece from the middle has to know it.
@@ -131,6 +177,24 @@ private:
         return survey();
     }
 
+    /// Reads the word once to learn what its branches would last by themselves.
+    void measure_spans() {
+        require_affordable(grammar_, true, options_.budget);
+        PlayOptions all = options_;
+        all.ahead = 0;
+        all.degrees = all.phrase_ends = nullptr;
+        all.from = 0;
+        all.to = INT64_MAX;
+        Melody silent = melody_;
+        silent.range = Range::clamp;
+        Nobody nobody;
+        Emitter unheard(silent, nobody, all);
+        const auto reader = make_reader(silent, unheard, {0}, all);
+        reader->spans = &spans_;
+        reader->measures_spans = true;
+        derive(grammar_, *reader, derivation_options());
+    }
+
     /// The sink of a pass that only looks.
     class Nobody : public NoteSink {
     public:
@@ -141,6 +205,8 @@ private:
     Origin survey() const {
         require_affordable(grammar_, true, options_.budget);
         PlayOptions all = options_;
+        all.ahead = 0;
+        all.degrees = all.phrase_ends = nullptr;
         all.from = 0;
         all.to = INT64_MAX;
         all.most_voices = std::numeric_limits<int>::max();
@@ -164,6 +230,8 @@ private:
 
     std::int64_t first_note() const {
         PlayOptions beginning = options_;
+        beginning.ahead = 0;
+        beginning.degrees = beginning.phrase_ends = nullptr;
         beginning.from = 0;
         beginning.to = INT64_MAX;
         Melody silent = melody_;
@@ -186,6 +254,9 @@ private:
     bool is_grid_ = false;
     int first_ = 0;
     bool has_brackets_ = false;
+    bool has_voices_ = false;  // brackets are voices
+    bool shares_ = false;      // branches share durations
+    std::vector<double> spans_;
     std::optional<MelodyFold> fold_;
 };
 
@@ -195,15 +266,23 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    Grammar grammar = resolve_contexts(marked(shorten(given), melody), whole_words);
     if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
     return Player(grammar, melody, options).play(sink);
 }
 
+Integer period(const Melody& melody) {
+    using boost::multiprecision::lcm;
+    Integer result = 4 * melody.meter.bar();
+    result = lcm(result, Integer(melody.unit) * std::max<std::int64_t>(1, melody.rhythm.slots));
+    result = lcm(result, Integer(2 * melody.swing_unit));
+    return lcm(result, Integer(melody.meter.bar()) * std::max<std::size_t>(1, melody.progression.size()));
+}
+
 std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     if (melody.mapping != Mapping::runs || !given.is_plain() || given.whole_word_steps() > 0) return std::nullopt;
-    const Grammar grammar = shorten(given);
-    const auto fold = MelodyFold::make(grammar);
+    const Grammar grammar = marked(shorten(given), melody);
+    const auto fold = fold_of(grammar, melody);
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
     MelodyCensus result;
@@ -212,14 +291,25 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     };
     result.notes = notes_along(0);
     Integer steps = whole.length[0];
-    if (melody.vertical == Vertical::glissando) result.notes += whole.drawn[1];
+    if (melody.vertical == Vertical::glissando) {
+        // The goal of a glissando is one note with the run that goes on there.
+        result.notes += whole.drawn[1] - whole.corners[1];
+    }
     if (melody.vertical == Vertical::voice) {
         result.notes += notes_along(1);
         steps = std::max(steps, whole.length[1]);
     } else if (melody.vertical != Vertical::ignore) {
         steps += whole.length[1];
     }
-    result.ticks = steps * melody.unit;
+    if (melody.rhythm.empty()) {
+        result.ticks = steps * melody.unit;
+    } else {
+        const Integer hits = melody.rhythm.hits.size();
+        const Integer slots = steps / hits * melody.rhythm.slots +
+                              melody.rhythm.onset(Integer(steps % hits).convert_to<std::int64_t>());
+        result.ticks = slots * melody.unit;
+    }
+    if (whole.marks > 0) result.ticks += (whole.marks - 1) * melody.breath;
     if (whole.crossings[0]) {
         result.height = whole.crossings[0]->high - whole.crossings[0]->low;
     }

@@ -8,15 +8,23 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace sikku {
 
 struct PlayOptions {
+    Integer ahead = 0;            ///< ticks of the melody before tick 0, a multiple of period(); `from` is above 2^49
     std::int64_t from = 0;        ///< ticks: the score begins here, without earlier notes
     std::int64_t to = INT64_MAX;  ///< ticks: the score ends here; notes at either end are cut
     int most_voices = 15;         ///< maximum number of voices at the same time; more are a ScoreError
     double budget = 200e6;        ///< maximum number of derivation nodes visited
+    int drums_from = 0;           ///< added to the voices of drums, so that they belong to a part of their own
+    static constexpr std::int64_t no_degree = INT64_MIN;
+    std::vector<std::int64_t>* degrees = nullptr;      ///< receives the degree of each note, or no_degree
+    std::vector<std::int64_t>* phrase_ends = nullptr;  ///< receives the ticks after `from` at which phrases end
     std::function<void(std::uint64_t symbols)> watch;  ///< as in DerivationOptions
 };
 
@@ -28,8 +36,10 @@ struct PlayReport {
     int voices = 0;
     std::int64_t end = 0;   ///< ticks
     bool past = false;      ///< the score ended before the piece began
-    double lowest = 127.0;  ///< keys
+    double lowest = 127.0;  ///< keys, without drums; above `highest` if there are drums alone
     double highest = 0.0;
+    std::map<std::string, std::uint64_t> skipped;  ///< symbols that neither the table nor the mapping reads
+    std::vector<std::string> unused;               ///< symbols of the table that the grammar does not contain
 };
 
 /// Reads the word of `grammar` as a melody and passes its notes to `sink`, in one pass, or in two if the anchor must
@@ -40,6 +50,9 @@ struct PlayReport {
 /// @throws BudgetError, WordError, ScoreError; what `sink` throws
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.
 PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options);
+
+/// Ticks after which a melody counts bars, beats, chords and slots of its rhythm as at its beginning.
+Integer period(const Melody& melody);
 
 /// Properties of a melody computed without playing it.
 struct MelodyCensus {

@@ -16,6 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr double most_tempo = 1000;
+constexpr std::int64_t most_unit = 64 * 4 * ticks_per_quarter;
 
 /// Of the nearest key, with at most one sign.
 Spelling usual_spelling(double key) {
@@ -40,6 +41,9 @@ public:
         choose<Mapping>(
             "mapping", melody_.mapping,
             {{"runs", Mapping::runs}, {"counterpoint", Mapping::counterpoint}, {"symbols", Mapping::symbols}});
+        choose<Branches>(
+            "brackets", melody_.branches,
+            {{"voices", Branches::voices}, {"sequence", Branches::sequence}, {"shares", Branches::shares}});
         choose<Anchor>("anchor", melody_.anchor,
                        {{"first note", Anchor::first_note},
                         {"piece", Anchor::piece},
@@ -57,15 +61,23 @@ public:
         choose<Sloped>("sloped", melody_.sloped,
                        {{"project", Sloped::project}, {"skip", Sloped::skip}, {"refuse", Sloped::refuse}});
         read_range();
-        choose<Loudness>("velocity", melody_.loudness,
-                         {{"fixed", Loudness::fixed},
-                          {"by turn", Loudness::by_turn},
-                          {"by depth", Loudness::by_depth},
-                          {"by length", Loudness::by_length}});
+        const Key* velocity = pattern_.find("velocity");
+        if (!velocity || !states_curve(velocity->value.view()))
+            choose<Loudness>("velocity", melody_.loudness,
+                             {{"fixed", Loudness::fixed},
+                              {"by turn", Loudness::by_turn},
+                              {"by depth", Loudness::by_depth},
+                              {"by length", Loudness::by_length}});
         read_unit();
+        read_symbol_table(pattern_, melody_, diagnostics_);
+        read_rhythm();
+        read_form();
+        read_harmony();
         read_tempo();
+        read_expression(pattern_, melody_, diagnostics_);
         read_meter();
         read_instrument();
+        read_place();
         warn_of_what_has_no_meaning();
         return std::move(melody_);
     }
@@ -95,9 +107,13 @@ private:
     }
 
     void warn_of_what_has_no_meaning() {
+        if (melody_.mapping == Mapping::symbols && !melody_.table.empty() && melody_.anchor == Anchor::piece) {
+            diagnostics_.warning(pattern_.find("anchor")->name_at,
+                                 "'anchor: piece' has no meaning where symbols name notes, as degree 0 is the tonic");
+        }
         if (melody_.mapping == Mapping::runs) return;
-        for (const std::string_view name : {"vertical", "runs", "sloped"}) {
-            const bool is_read = name == "runs" && melody_.mapping == Mapping::symbols;
+        for (const std::string_view name : {"vertical", "runs", "sloped", "brackets"}) {
+            const bool is_read = melody_.mapping == Mapping::symbols && (name == "runs" || name == "brackets");
             if (const Key* key = pattern_.find(name); key && !is_read) {
                 diagnostics_.warning(key->name_at, fmt::format("'{}:' has no meaning with this 'mapping:'", name));
             }
@@ -150,12 +166,20 @@ private:
             melody_.tonic_spelling = note->spelling;
             melody_.tonic = note->key;
         } else {
-            if (lower_case(text).ends_with("hz")) text.resize(text.size() - 2);
+            const bool has_unit = lower_case(text).ends_with("hz");
+            if (has_unit) text.resize(text.size() - 2);
             while (text.ends_with(' ')) text.pop_back();
             double frequency = 0;
             if (!read_number(text, frequency) || !(frequency > 0)) {
                 diagnostics_.error(key->value.empty() ? key->name_at : key->value,
                                    "expected a note such as C4, F#3 or Bb, or a frequency such as 261.63 Hz");
+                return;
+            }
+            if (!has_unit && frequency <= 127 && frequency == std::floor(frequency)) {
+                diagnostics_.error(key->value,
+                                   fmt::format("a number alone may be a key or a frequency; expected {} "
+                                               "for key {} of MIDI, or {} Hz",
+                                               note_name(frequency, spell(melody_.scale, {})), text, text));
                 return;
             }
             melody_.tonic = 69 + 12 * std::log2(frequency / 440.0);
@@ -222,11 +246,193 @@ private:
         melody_.unit = above * whole_note / below;
     }
 
+    void read_rhythm() {
+        if (const Key* key = pattern_.find("rhythm"); key && lower_case(key->value.view()) != "curve") {
+            std::string problem;
+            melody_.rhythm = read_rhythm_template(key->value.view(), problem);
+            if (melody_.rhythm.empty()) diagnostics_.error(place_of(*key), problem);
+            if (melody_.branches == Branches::shares) {
+                diagnostics_.error(place_of(*key), "'rhythm:' cannot be combined with `brackets: shares`");
+            }
+        }
+        if (const Key* key = pattern_.find("swing")) {
+            const std::string_view text = key->value.view();
+            const std::size_t blank = std::min(text.find(' '), text.size());
+            std::string_view percent = text.substr(0, blank);
+            if (percent.ends_with('%')) percent.remove_suffix(1);
+            double share = 0;
+            const auto unit = blank < text.size() ? note_value(text.substr(blank + 1)) : melody_.swing_unit;
+            if (!read_number(percent, share) || !(share >= 50 && share <= 80) || !unit || *unit == 0) {
+                diagnostics_.error(
+                    place_of(*key),
+                    "expected the share of the first of two eighths in percent, from 50 to 80, such as "
+                    "`67`; of two sixteenths `60 1/16`");
+                return;
+            }
+            melody_.swing = share / 100;
+            melody_.swing_unit = *unit;
+        }
+    }
+
+    void read_form() {
+        if (const Key* key = pattern_.find("phrases"); key && lower_case(key->value.view()) != "none") {
+            std::string_view text = key->value.view();
+            if (text.starts_with("order ")) text.remove_prefix(6);
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), melody_.phrase_order);
+            if (error != std::errc() || end != text.data() + text.size() || melody_.phrase_order < 1) {
+                melody_.phrase_order = 0;
+                diagnostics_.error(place_of(*key),
+                                   "expected the order of the sub-curves that are phrases, 1 or more, or none");
+            } else {
+                melody_.breath = ticks_per_quarter / 2;
+            }
+        }
+        if (const Key* key = pattern_.find("breath")) {
+            const auto ticks =
+                key->value.view() == "none" ? std::optional<std::int64_t>(0) : note_value(key->value.view());
+            if (!ticks) {
+                diagnostics_.error(place_of(*key),
+                                   "expected a note value such as 1/8, up to 16 whole notes, or none");
+            } else if (melody_.phrase_order == 0) {
+                diagnostics_.warning(key->name_at, "'breath:' has no meaning without 'phrases:'");
+            } else {
+                melody_.breath = *ticks;
+            }
+        }
+        choose<Cadence>("cadence", melody_.cadence,
+                        {{"none", Cadence::none}, {"tonic", Cadence::tonic}, {"alternate", Cadence::alternate}});
+        read_articulation();
+        choose<bool>("ending", melody_.has_ritardando, {{"none", false}, {"ritardando", true}});
+    }
+
+    /// The sub-curves of a form are marked as phrases are.
+    void read_sections() {
+        Layout& layout = melody_.layout;
+        const Key* key = pattern_.find("form");
+        if (layout.form.empty() || !key) return;
+        if (melody_.phrase_order > 0 && layout.form_order > 0 && layout.form_order != melody_.phrase_order) {
+            diagnostics_.error(place_of(*key),
+                               "the sub-curves of the form are of another order than those of 'phrases:'");
+        }
+        if (melody_.harmony == Harmony::bass) {
+            diagnostics_.error(place_of(*key), "'form:' cannot be combined with `harmony: bass`");
+        }
+        if (layout.form_order > 0) melody_.phrase_order = layout.form_order;
+        if (layout.form_order == 0) layout.form_order = melody_.phrase_order;
+    }
+
+    /// `drone`, `triads`, `bass`, `bass 3` or `progression I-IV-V-I`.
+    void read_harmony() {
+        const Key* key = pattern_.find("harmony");
+        if (!key) return;
+        const std::string_view text = key->value.view();
+        const std::size_t blank = std::min(text.find(' '), text.size());
+        const std::string kind = lower_case(text.substr(0, blank));
+        const std::string_view rest = text.substr(std::min(text.find_first_not_of(' ', blank), text.size()));
+        if (kind == "progression") {
+            std::string problem;
+            melody_.harmony = Harmony::progression;
+            melody_.progression = read_progression(rest, melody_.scale, problem);
+            if (melody_.progression.empty()) diagnostics_.error(place_of(*key), problem);
+        } else if (kind == "bass" && !rest.empty()) {
+            melody_.harmony = Harmony::bass;
+            const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), melody_.bass_order);
+            if (error != std::errc() || end != rest.data() + rest.size() || melody_.bass_order < 1 ||
+                melody_.bass_order > 30) {
+                diagnostics_.error(place_of(*key), "expected the orders by which the bass is coarser, from 1 to 30");
+            }
+        } else {
+            choose<Harmony>("harmony", text, melody_.harmony,
+                            {{"none", Harmony::none},
+                             {"drone", Harmony::drone},
+                             {"triads", Harmony::triads},
+                             {"bass", Harmony::bass},
+                             {"progression I-IV-V-I", Harmony::progression}});
+        }
+        if (melody_.keys && melody_.harmony != Harmony::none) {
+            diagnostics_.error(place_of(*key), "'harmony:' cannot be combined with 'keyboard:'");
+        }
+    }
+
+    /// What sets a part apart from others that play the same curve.
+    void read_place() {
+        choose<bool>("inversion", melody_.is_inverted, {{"no", false}, {"yes", true}});
+        if (const Key* key = pattern_.find("transposition")) {
+            double semitones = 0;
+            if (!read_number(key->value.view(), semitones) || !(std::fabs(semitones) <= 127)) {
+                diagnostics_.error(place_of(*key), "expected semitones from -127 to 127");
+            } else {
+                transpose(melody_, semitones);
+            }
+        }
+        melody_.layout = read_layout(pattern_, diagnostics_);
+        augment();
+        read_sections();
+    }
+
+    /// Longer or shorter notes: the unit and the breath change.
+    void augment() {
+        const Ratio by = melody_.layout.augmentation;
+        if (by.is_one()) return;
+        const Key& key = *pattern_.find("augmentation");
+        for (std::int64_t* ticks : {&melody_.unit, &melody_.breath}) {
+            if (*ticks * by.above % by.below != 0) {
+                diagnostics_.error(place_of(key),
+                                   "the notes would be no whole numbers of ticks; a larger `unit` helps");
+                return;
+            }
+            *ticks = *ticks * by.above / by.below;
+        }
+        if (melody_.unit > most_unit) diagnostics_.error(place_of(key), "a step would last more than 64 whole notes");
+    }
+
+    void read_articulation() {
+        const Key* key = pattern_.find("articulation");
+        if (!key) return;
+        std::string_view text = key->value.view();
+        double percent = 0;
+        if (text.ends_with('%')) text.remove_suffix(1);
+        if (read_number(text, percent)) {
+            if (!(percent >= 5 && percent <= 100)) {
+                diagnostics_.error(key->value, "expected a share of the note from 5 to 100 percent");
+                return;
+            }
+            melody_.articulation = percent < 100 ? Articulation::detached : Articulation::legato;
+            melody_.sounding = percent / 100;
+            return;
+        }
+        choose<Articulation>("articulation", melody_.articulation,
+                             {{"legato", Articulation::legato},
+                              {"detached", Articulation::detached},
+                              {"by depth", Articulation::by_depth}});
+    }
+
+    static const Span& place_of(const Key& key) { return key.value.empty() ? key.name_at : key.value; }
+
+    /// Ticks of `1/8` or `2`, up to 16 whole notes; nullopt for anything else.
+    static std::optional<std::int64_t> note_value(std::string_view text) {
+        const std::size_t slash = std::min(text.find('/'), text.size());
+        const auto whole = [](std::string_view digits) {
+            std::int64_t number = 0;
+            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+            const bool is_good = error == std::errc() && end == digits.data() + digits.size() && number > 0;
+            return is_good && number <= 100'000 ? number : 0;
+        };
+        const std::int64_t above = whole(text.substr(0, slash));
+        const std::int64_t below = slash < text.size() ? whole(text.substr(slash + 1)) : 1;
+        const std::int64_t whole_note = 4 * ticks_per_quarter;
+        if (above == 0 || below == 0 || above * whole_note % below != 0 || above > 16 * below) return std::nullopt;
+        return above * whole_note / below;
+    }
+
     void read_tempo() {
         const Key* key = pattern_.find("tempo");
         if (!key) return;
         double tempo = 0;
-        if (!read_number(key->value.view(), tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
+        const std::string_view text = key->value.view();
+        // What comes after a blank is a curve.
+        const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
+        if (!read_number(number, tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
             diagnostics_.error(key->value.empty() ? key->name_at : key->value,
                                "expected quarter notes a minute, from 4 to 1000");
             return;
@@ -234,18 +440,43 @@ private:
         melody_.tempo = tempo;
     }
 
+    /// `4/4`, `7/8`, or with groups `3+2+2/8`.
     void read_meter() {
         const Key* key = pattern_.find("meter");
         if (!key) return;
-        std::int64_t beats = 0;
-        std::int64_t unit = 0;
-        const bool power = fraction(*key, beats, unit) && unit > 0 && (unit & (unit - 1)) == 0 && unit <= 64;
-        if (!power || beats < 1 || beats > 64 || key->value.view().find('/') == std::string_view::npos) {
-            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                               "expected a meter such as 4/4, 3/4 or 7/8: 1 to 64 over a power of two up to 64");
+        if (const auto meter = parse_meter(key->value.view())) {
+            melody_.meter = *meter;
             return;
         }
-        melody_.meter = {static_cast<int>(beats), static_cast<int>(unit)};
+        diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                           "expected a meter such as 4/4, 7/8 or 3+2+2/8: 1 to 64, in up to 16 groups, over a power "
+                           "of two up to 64");
+    }
+
+    static std::optional<Meter> parse_meter(std::string_view text) {
+        const std::size_t slash = text.find('/');
+        if (slash == std::string_view::npos) return std::nullopt;
+        const auto whole = [](std::string_view digits, int& number) {
+            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+            return error == std::errc() && end == digits.data() + digits.size() && number >= 1 && number <= 64;
+        };
+        Meter meter;
+        std::string_view beats = trimmed(text.substr(0, slash));
+        const bool is_grouped = beats.find('+') != std::string_view::npos;
+        if (!whole(trimmed(text.substr(slash + 1)), meter.unit) || (meter.unit & (meter.unit - 1)) != 0) {
+            return std::nullopt;
+        }
+        meter.beats = 0;
+        for (std::size_t i = 0;; ++i) {
+            const std::size_t plus = beats.find('+');
+            int group = 0;
+            if (i == meter.groups.size() || !whole(trimmed(beats.substr(0, plus)), group)) return std::nullopt;
+            meter.beats += group;
+            if (is_grouped) meter.groups[i] = static_cast<std::uint8_t>(group);
+            if (plus == std::string_view::npos) break;
+            beats.remove_prefix(plus + 1);
+        }
+        return meter.beats <= 64 ? std::optional(meter) : std::nullopt;
     }
 
     void read_instrument() {
@@ -273,10 +504,18 @@ private:
             }
             names.push_back(folded[i]);
         }
-        // A word that only one instrument, or the first of a family, holds will do: `flute`, `violin`.
+        if (wanted == "piano") return;  // the first of all, and the default
+        // A part of a name will do: `guitar`, `strings`.
         for (std::size_t i = 0; i < folded.size() && wanted.size() >= 4; ++i) {
             if (folded[i].find(wanted) == std::string::npos) continue;
             melody_.program = static_cast<int>(i);
+            const auto others = std::count_if(folded.begin(), folded.end(), [&](const std::string& name) {
+                return name.find(wanted) != std::string::npos;
+            });
+            diagnostics_.warning(
+                key->value,
+                fmt::format("instrument '{}' is taken to be {} ({}){}", text, instrument_names()[i], i + 1,
+                            others > 1 ? fmt::format(", the first of {} with this word", others) : ""));
             return;
         }
         // The nearest name, or the one with the nearest word.

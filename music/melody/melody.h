@@ -3,6 +3,11 @@
 #pragma once
 
 #include "engine/language/pattern.h"
+#include "music/melody/expression.h"
+#include "music/melody/harmony.h"
+#include "music/melody/layout.h"
+#include "music/melody/rhythm_template.h"
+#include "music/melody/symbol_table.h"
 #include "music/scale/scale.h"
 #include "music/score/score.h"
 
@@ -21,6 +26,10 @@ enum class Mapping {
     counterpoint,  ///< y and x are two voices; a note lasts while its coordinate stays the same
     symbols,       ///< the word itself: F a note, + and - a degree up and down, f a rest
 };
+/// What a bracket does to time: a branch is a voice that begins where the turtle is; its notes come one after another
+/// with all others, as `]` restores pitch and depth but not time; or they share the duration of one step of the stem.
+/// Source: Worth & Stepney 2005, whose sequential and hierarchical renderings the latter two are.
+enum class Branches { voices, sequence, shares };
 /// The y that sounds the tonic; `piece`: that of the first note played.
 enum class Anchor { first_note, piece, lowest_note, lowest_vertex, centre };
 /// What a vertical run is: nothing, a rest of its length, more of the note before it (or, at the beginning, after
@@ -38,9 +47,16 @@ enum class Range { fold, reflect, clamp, refuse };
 /// The property that determines how loud a note is.
 enum class Loudness { fixed, by_turn, by_depth, by_length };
 
+/// The share of a note that sounds: all; a part; less in each branch.
+enum class Articulation { legato, detached, by_depth };
+/// What the last notes of a phrase lead to by step: nothing; the tonic; the fifth and the tonic in turn.
+enum class Cadence { none, tonic, alternate };
+
 /// Settings of a melody.
 struct Melody {
     Mapping mapping = Mapping::runs;
+    Branches branches = Branches::voices;
+    SymbolTable table;           ///< what symbols sound, for Mapping::symbols
     Scale scale;                 ///< C major if the file names none
     std::optional<KeyMap> keys;  ///< of a Scala key map, which then gives all pitches
     double tonic = 60.0;         ///< MIDI key, perhaps with a fraction, of degree 0
@@ -54,11 +70,40 @@ struct Melody {
     double lowest = 0.0;     ///< MIDI keys between which `range` keeps the melody
     double highest = 127.0;  ///< not below `lowest`
     Loudness loudness = Loudness::fixed;
-    double tempo = 120.0;  ///< quarters a minute
+    RhythmTemplate rhythm;  ///< of the steps; empty: each lasts `unit`, otherwise that is a slot
+    double swing = 0.5;     ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
+    std::int64_t swing_unit = ticks_per_quarter / 2;
+    std::int64_t phrase_order = 0;  ///< phrases are sub-curves of that order; 0: none
+    std::int64_t breath = 0;        ///< ticks of rest after a phrase
+    Articulation articulation = Articulation::legato;
+    double sounding = 0.6;  ///< share of a note that sounds, if detached
+    Cadence cadence = Cadence::none;
+    Harmony harmony = Harmony::none;
+    std::vector<Chord> progression;  ///< one a bar, again and again
+    std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
+    bool has_ritardando = false;     ///< whether the last two bars slow down
+    double tempo = 120.0;            ///< quarters a minute
     Meter meter;
-    int program = 0;       ///< General MIDI, 0 to 127
-    double transpose = 0;  ///< semitones, added to every key
+    int program = 0;               ///< General MIDI, 0 to 127
+    double transpose = 0;          ///< semitones, added to every key
+    bool is_inverted = false;      ///< up and down change places around the tonic
+    std::int64_t shift = 0;        ///< degrees of the scale, added to every degree
+    Layout layout;                 ///< its place in the score
+    MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
+    /// True if notes are changed between the curve and the scale.
+    bool is_shaped() const {
+        return swing != 0.5 || cadence != Cadence::none || articulation != Articulation::legato || has_chords();
+    }
+    /// True if strong beats fall on tones of chords.
+    bool has_chords() const { return harmony == Harmony::triads || harmony == Harmony::progression; }
+    /// Voices of drone or chords.
+    int accompanying_voices() const { return has_chords() ? 3 : harmony == Harmony::drone ? 2 : 0; }
+    /// Voices of the melody itself, if branches are none.
+    int own_voices() const {
+        if (mapping == Mapping::symbols) return table.most_notes();
+        return mapping == Mapping::counterpoint || (mapping == Mapping::runs && vertical == Vertical::voice) ? 2 : 1;
+    }
     /// The MIDI key of a degree; may lie beyond 0 to 127. With a key map nullopt for a degree that it leaves out.
     std::optional<double> key(std::int64_t degree, bool falling) const;
     /// True if a degree of the scale is no whole number of semitones away from a key.

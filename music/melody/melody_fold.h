@@ -24,6 +24,8 @@ struct GridStretch {
     std::array<Integer, 2> drawn{};                ///< of the steps drawn
     std::array<Integer, 2> steps{};                ///< how many are drawn
     std::array<Integer, 2> runs{};                 ///< straight runs drawn along each axis
+    std::array<Integer, 2> corners{};              ///< runs drawn along each axis that lead into one across
+    Integer marks = 0;                             ///< phrases that end
     Integer rise = 0;                              ///< symbols `+` less symbols `-`
     std::array<std::optional<Span>, 2> crossings;  ///< where these lie on the other axis
     std::array<Span, 2> box;                       ///< of all positions on each axis, the start included
@@ -32,13 +34,22 @@ struct GridStretch {
     bool is_still = true;  ///< no step at all
 };
 
-/// The stretches of every symbol at every level of a grammar whose melody is on the square grid: all steps are whole
-/// numbers, all turns quarters, there are neither contexts nor brackets.
+/// True if the word moves and draws nothing, as that of a kolam whose steps guide a spline. Its moves are then read
+/// as steps drawn.
+bool draws_nothing(const Grammar& grammar);
+
+/// What a fold is for: the curve, or the word symbol by symbol, where turns only change `rise`.
+enum class FoldOf { curve, symbols };
+
+/// The stretches of every symbol at every level of a grammar whose steps are whole numbers, without contexts. Of a
+/// curve all turns are quarters. Brackets, if they are folded, restore position and rise, and nothing else.
 class MelodyFold {
 public:
     /// Nullopt for other grammars, and if levels times symbols are above 10^6 or the numbers above 256 MB.
     /// Cost: O(symbols x steps) compositions of exact numbers.
-    static std::optional<MelodyFold> make(const Grammar& grammar);
+    /// @param folds_brackets  false: nullopt for grammars with brackets
+    static std::optional<MelodyFold> make(const Grammar& grammar, FoldOf of = FoldOf::curve,
+                                          bool folds_brackets = false);
 
     /// Of a symbol with `level` tables still to come; null if no symbol leads there.
     const GridStretch* stretch(Symbol symbol, std::int64_t level) const {

@@ -1,6 +1,7 @@
 // music/melody/reader.h: the common base of the readers of words.
 #pragma once
 
+#include "music/melody/clock.h"
 #include "music/melody/emitter.h"
 #include "music/melody/walks.h"
 
@@ -92,19 +93,48 @@ public:
     /// Of the first note and of the lowest, before the origin is taken off; unknown without notes.
     virtual std::int64_t first_degree() const { return 0; }
     virtual std::int64_t lowest_degree() const { return 0; }
+    /// Adds to a report what was left out.
+    virtual void report_skipped(PlayReport&) const {}
     bool seeks_first_note = false;  ///< Enough is thrown there
+    /// With `brackets: shares`, for each '[' in the order of the word: what its branch would last by itself, in
+    /// steps. A reader that measures appends to it; others divide by it.
+    std::vector<double>* spans = nullptr;
+    bool measures_spans = false;
+
+protected:
+    /// The part of a step that a step within the next bracket lasts; `opened` is then the number of its '['.
+    double share_of(double pace, std::size_t& opened) {
+        opened = opened_++;
+        if (measures_spans) {
+            if (opened >= most_branches) throw ScoreError("more than 16,777,216 branches cannot share durations");
+            spans->push_back(0);
+            return 1;
+        }
+        const double span = opened < spans->size() ? (*spans)[opened] : 0;
+        return span > 0 ? pace / span : 0;
+    }
+    /// What a branch lasts that began `before` and would go on until `now`: a step of its stem, if anything.
+    double shared_span(double pace, double before, double now, std::size_t opened) {
+        if (measures_spans) (*spans)[opened] = now - before;
+        return (*spans)[opened] > 0 ? pace : 0;
+    }
+
+private:
+    static constexpr std::size_t most_branches = std::size_t{1} << 24;
+    std::size_t opened_ = 0;
 };
 
 /// What a symbol is to the reader of runs.
-enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, not_finite };
+enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, not_finite };
 
-inline Kind kind_of(const Command& command) {
+/// @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
+inline Kind kind_of(const Command& command, bool moves_sound) {
     const bool is_finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
     switch (command.action) {
         case Action::draw:
             return is_finite ? Kind::draw : Kind::not_finite;
         case Action::move:
-            return is_finite ? Kind::move : Kind::not_finite;
+            return !is_finite ? Kind::not_finite : moves_sound ? Kind::draw : Kind::move;
         case Action::turn:
             return is_finite ? Kind::turn : Kind::not_finite;
         case Action::push:

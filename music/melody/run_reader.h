@@ -9,15 +9,19 @@ template <class Walk>
 class RunReader final : public Reader {
 public:
     RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, Emitter& emitter,
-              Origin origin, const PlayOptions& options, bool has_brackets)
+              Origin origin, const PlayOptions& options, bool has_voices)
         : grammar_(grammar),
           melody_(melody),
           emitter_(emitter),
           origin_(origin),
           options_(options),
           walk_(grammar, lattice, first),
-          may_stop_(!has_brackets) {
-        for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command));
+          clock_(melody),
+          may_stop_(!has_voices),
+          ahead_(clock_.steps(options.ahead)) {
+        const bool moves_sound = draws_nothing(grammar);
+        for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command, moves_sound));
+        if (grammar.mark()) kinds_[*grammar.mark()] = Kind::mark;
         state_.at = walk_.start;
         state_.run.from = state_.at;
         emitter_.take(state_.line, 0);
@@ -46,6 +50,10 @@ public:
                 case Kind::close:
                     close();
                     break;
+                case Kind::mark:
+                    --position_;
+                    mark();
+                    break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
                 case Kind::nothing:
@@ -71,14 +79,21 @@ public:
                               melody_.vertical == Vertical::glissando;
             Integer longest = both ? Integer(across + up) : across;
             if (melody_.vertical == Vertical::voice) longest = std::max(across, up);
+            const Integer phrases = stretch.marks + due_ + state_.run.marks;
             const std::int64_t room =
-                options_.from / melody_.unit - margin_units - std::max(state_.time, state_.other_time);
-            if (room < 0 || longest > room) return false;
+                clock_.steps_before(options_.from, phrases) - margin_units - std::max(state_.time, state_.other_time);
+            if (room < 0 || longest > ahead_ + room) return false;
             end_run();
             release_held();
+            end_phrases();
+            clock_.breathe(stretch.marks);
             is_counted_ = false;
             walk_.skip(state_.at, stretch);
-            state_.time += (both ? Integer(across + up) : across).convert_to<std::int64_t>();
+            Integer lasts = both ? Integer(across + up) : across;
+            const Integer beyond = std::min(lasts, ahead_);
+            ahead_ -= beyond;
+            lasts -= beyond;
+            state_.time += lasts.convert_to<std::int64_t>();
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
             state_.has_sounded = true;
             return true;
@@ -104,6 +119,7 @@ private:
         Position from;
         Number steps = 0;  // drawn so far: their number times their length
         int turned = 0;    // sign of the turn that led into it
+        int marks = 0;     // phrases that end with it
         std::uint64_t symbol = 0;
     };
     struct Sounding {
@@ -121,11 +137,21 @@ private:
         Emitter::Line other;  // of vertical runs as a voice
         Number time = 0;      // steps
         Number other_time = 0;
-        Sounding held;    // a note that the next vertical run may make longer
+        Sounding held;    // a note that the next run may make longer: a vertical one, or after a glissando its goal
         Number lead = 0;  // vertical steps before the first note
         bool has_sounded = false;
+        double pace = 1;         // what a step lasts, with `brackets: shares`
+        std::size_t opened = 0;  // number of the bracket around it, likewise
     };
-    std::int64_t ticks(Number steps) const { return Walk::ticks(steps, melody_.unit); }
+    /// What so many steps last, in steps of the stem.
+    Number lasting(Number steps) const {
+        if constexpr (std::is_floating_point_v<Number>) {
+            return steps * state_.pace;
+        } else {
+            return steps;
+        }
+    }
+    std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
     static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
 
     /// A part of the word that recurs, as its straight runs.
@@ -134,9 +160,12 @@ private:
             std::uint32_t turn;  ///< quarters, before it
             std::int64_t length;
             std::uint64_t symbol;  ///< of the block, counted from 1, that begins it
+            int marks;             ///< phrases that end with it
         };
         std::vector<Straight> runs;
-        std::uint32_t turn = 0;  ///< after the last
+        std::uint32_t turn = 0;     ///< after the last
+        int marks = 0;              ///< phrases that end before the first
+        std::uint64_t symbols = 0;  ///< but for marks
         bool is_known = false;
         bool is_simple = false;  ///< nothing but steps drawn and turns
     };
@@ -148,11 +177,13 @@ private:
         Block& block = blocks_[number];
         if (!block.is_known) learn(block, run.symbols);
         if (!block.is_simple) return false;
-        for (const auto& [turn, length, symbol] : block.runs) {
+        for (int i = 0; i < block.marks; ++i) mark();
+        for (const auto& [turn, length, symbol, marks] : block.runs) {
             state_.at.heading = (state_.at.heading + turn) & 3;
             draw(walk_.ahead(state_.at, length), position_ + symbol);
+            for (int i = 0; i < marks; ++i) mark();
         }
-        position_ += run.symbols.size();
+        position_ += block.symbols;
         state_.at.heading = (state_.at.heading + block.turn) & 3;
         require_in_range();
         return true;
@@ -168,6 +199,10 @@ private:
         block.is_known = true;
         std::uint64_t position = 0;
         for (const Symbol symbol : symbols) {
+            if (kinds_[symbol] == Kind::mark) {
+                ++(block.runs.empty() ? block.marks : block.runs.back().marks);
+                continue;
+            }
             ++position;
             if (kinds_[symbol] == Kind::turn) {
                 block.turn = (block.turn + walk_.quarters(symbol)) & 3;
@@ -178,13 +213,14 @@ private:
                 if (goes_on) {
                     block.runs.back().length += length;
                 } else {
-                    block.runs.push_back({block.turn, length, position});
+                    block.runs.push_back({block.turn, length, position, 0});
                 }
                 block.turn = 0;
             } else if (kinds_[symbol] != Kind::nothing) {
                 return;
             }
         }
+        block.symbols = position;
         block.is_simple = true;
     }
 
@@ -204,6 +240,7 @@ private:
             run.direction = step;
             run.from = state_.at;
             run.turned = turned;
+            run.marks = 0;
             run.symbol = is_counted_ ? symbol : 0;
         }
         state_.at.x += step.x;
@@ -216,14 +253,33 @@ private:
         state_.at.x += step.x;
         state_.at.y += step.y;
         note_vertex();
-        const Number wide = step.x < 0 ? -step.x : step.x;
-        const Number high = step.y < 0 ? -step.y : step.y;
+        const Number wide = lasting(step.x < 0 ? -step.x : step.x);
+        const Number high = lasting(step.y < 0 ? -step.y : step.y);
         release_held();
         state_.time += wide;
         if (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice && Walk::is_level(step.x)) {
             state_.time += high;
         }
         if (melody_.vertical == Vertical::voice) state_.other_time += high;
+    }
+
+    /// A sub-curve ends: the phrase ends with the run that is under way, or with the last note.
+    void mark() { ++(state_.run.is_open ? state_.run.marks : due_); }
+
+    void end_phrases() {
+        if (due_ == 0) return;
+        emitter_.end_phrase(0, clock_.is_odd());
+        if (melody_.vertical == Vertical::voice) emitter_.end_phrase(1, clock_.is_odd());
+        clock_.breathe(due_);
+        emitter_.begin_phrase(ticks(std::max(state_.time, state_.other_time)));
+        due_ = 0;
+    }
+
+    /// Whether no note of the piece is held back.
+    bool is_past_piece() const {
+        if (!emitter_.is_shaped()) return true;
+        const bool is_held = state_.held.is_open && ticks(state_.held.onset) < options_.to;
+        return !is_held && emitter_.may_stop(ticks(state_.time));
     }
 
     void note_vertex() {
@@ -250,7 +306,9 @@ private:
             throw ScoreError(fmt::format(
                 "before symbol {} of the word the curve slopes, and `sloped: refuse` is asked for", position_));
         }
-        if (may_stop_ && ticks(state_.time) >= options_.to &&
+        due_ += run.marks;
+        run.marks = 0;
+        if (may_stop_ && ticks(state_.time) >= options_.to && is_past_piece() &&
             (melody_.vertical != Vertical::voice || ticks(state_.other_time) >= options_.to)) {
             release_held();
             throw Enough();
@@ -259,7 +317,7 @@ private:
 
     /// A note at the height `twice` / 2 was met: the first one sounds the tonic, if the melody says so.
     void meet(Number twice, Number end) {
-        if (melody_.anchor == Anchor::piece && ticks(end) <= options_.from) return;
+        if (melody_.anchor == Anchor::piece && clock_.end_ticks(end) <= options_.from) return;
         if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
         if (origin_.y == unknown) origin_.y = 2 * Walk::degree(twice);
         if (seeks_first_note) throw Enough();
@@ -268,11 +326,29 @@ private:
     void emit(const Sounding& note) {
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
+        if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
         emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
-                      ticks(note.end), note.velocity, note.from, note.to, note.symbol);
+                      clock_.end_ticks(note.end), accented(note.velocity, note.onset), note.from, note.to,
+                      note.symbol);
     }
 
+    int accented(int velocity, Number onset) const { return velocity + (clock_.is_accented(onset) ? 16 : 0); }
+
     void sound(Number twice, Number steps, int velocity, const Pending& run) {
+        if (due_ > 0) {
+            release_held();
+            end_phrases();
+        }
+        steps = lasting(steps);
+        const bool is_goal = melody_.vertical == Vertical::glissando && state_.held.is_open &&
+                             state_.held.twice == twice && state_.held.end == state_.time;
+        const Number onset = is_goal ? state_.held.onset : state_.time;
+        const std::uint64_t symbol = is_goal ? state_.held.symbol : run.symbol;
+        if (is_goal) {
+            state_.held.is_open = false;
+        } else if (melody_.vertical == Vertical::glissando) {
+            release_held();
+        }
         meet(twice, state_.time + steps);
         lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, Walk::degree(twice));
         const bool is_held = melody_.vertical == Vertical::extend;
@@ -282,8 +358,8 @@ private:
             state_.lead = 0;
             state_.has_sounded = true;
         }
-        const Sounding note = {true,     twice,           state_.time,      state_.time + steps,
-                               velocity, point(run.from), point(state_.at), run.symbol};
+        const Sounding note = {true,  twice, onset, state_.time + steps, velocity, point(run.from), point(state_.at),
+                               symbol};
         state_.time += steps;
         if (is_held) {
             state_.held = note;
@@ -303,9 +379,10 @@ private:
             case Vertical::ignore:
                 break;
             case Vertical::rest:
-                state_.time += steps;
+                state_.time += lasting(steps);
                 break;
             case Vertical::extend:
+                steps = lasting(steps);
                 if (state_.held.is_open) {
                     state_.held.end += steps;
                     state_.time += steps;
@@ -319,25 +396,33 @@ private:
                 glissando(run, velocity);
                 break;
             case Vertical::voice: {
+                steps = lasting(steps);
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
-                emitter_.note(state_.other, degree, ticks(state_.other_time), ticks(state_.other_time + steps),
-                              velocity, point(run.from), point(state_.at), run.symbol);
+                end_phrases();
+                emitter_.note(state_.other, degree, ticks(state_.other_time),
+                              clock_.end_ticks(state_.other_time + steps), accented(velocity, state_.other_time),
+                              point(run.from), point(state_.at), run.symbol);
                 state_.other_time += steps;
                 break;
             }
         }
     }
 
-    /// A note for each height on the way, the last included.
+    /// A note for each height on the way. The last is held back, because it is one note with a run that goes on at
+    /// its height.
     void glissando(const Pending& run, int velocity) {
+        release_held();
+        end_phrases();
         const Number sign = state_.at.y > run.from.y ? 1 : -1;
         Position from = run.from;
         while (from.y * sign < state_.at.y * sign) {
             Position to = from;
             to.y += sign;
             if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
-            const Number steps = (to.y - from.y) * sign;
-            emit({true, 2 * to.y, state_.time, state_.time + steps, velocity, point(from), point(to), run.symbol});
+            const Number steps = lasting((to.y - from.y) * sign);
+            release_held();
+            state_.held = {true,     2 * to.y,    state_.time, state_.time + steps,
+                           velocity, point(from), point(to),   run.symbol};
             state_.time += steps;
             from = to;
         }
@@ -345,6 +430,7 @@ private:
 
     /// The branch begins where and when the stem is, which may be within a run.
     void open() {
+        if (melody_.branches != Branches::voices) return open_in_line();
         if (state_.run.is_open) {
             const Pending& run = state_.run;
             const Number wide = std::abs(state_.at.x - run.from.x);
@@ -374,7 +460,42 @@ private:
         state_.lead = 0;
     }
 
+    /// Branches follow one another: the note ends, and time goes on.
+    void open_in_line() {
+        end_run();
+        release_held();
+        stack_.open(state_, position_);
+        emitter_.depth = static_cast<int>(stack_.depth());
+        if constexpr (std::is_floating_point_v<Number>) {
+            if (spans) state_.pace = share_of(state_.pace, state_.opened);
+        }
+    }
+
+    void close_in_line() {
+        end_run();
+        release_held();
+        const State branch = state_;
+        state_ = stack_.close(position_);
+        emitter_.depth = static_cast<int>(stack_.depth());
+        state_.line = branch.line;
+        state_.other = branch.other;
+        state_.has_sounded = state_.has_sounded || branch.has_sounded;
+        state_.lead = branch.lead;
+        if constexpr (std::is_floating_point_v<Number>) {
+            if (spans) {
+                const double span = shared_span(state_.pace, std::max(state_.time, state_.other_time),
+                                                std::max(branch.time, branch.other_time), branch.opened);
+                state_.time += span;
+                state_.other_time += span;
+                return;
+            }
+        }
+        state_.time = branch.time;
+        state_.other_time = branch.other_time;
+    }
+
     void close() {
+        if (melody_.branches != Branches::voices) return close_in_line();
         end_run();
         release_held();
         emitter_.release(state_.line);
@@ -388,7 +509,10 @@ private:
     Origin origin_;
     const PlayOptions& options_;
     Walk walk_;
+    Clock<Walk> clock_;
+    int due_ = 0;  // phrases that end before the next note
     bool may_stop_;
+    Integer ahead_;  // steps before tick 0 that are still to be skipped
     std::vector<Kind> kinds_;
     State state_;
     Brackets<State> stack_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "music/melody/reader.h"
+#include "music/melody/symbol_table.h"
 
 namespace sikku::mapping {
 
@@ -9,28 +10,42 @@ namespace sikku::mapping {
 class SymbolReader final : public Reader {
 public:
     SymbolReader(const Grammar& grammar, const Melody& melody, Emitter& emitter, const PlayOptions& options,
-                 bool has_brackets)
+                 bool has_voices)
         : grammar_(grammar),
           melody_(melody),
           emitter_(emitter),
           options_(options),
-          may_stop_(!has_brackets),
-          origin_(melody.anchor == Anchor::piece ? unknown : 0) {
+          clock_(melody),
+          may_stop_(!has_voices),
+          entries_(entries_of(grammar, melody)),
+          moves_sound_(entries_.empty() && draws_nothing(grammar)),
+          origin_(melody.anchor == Anchor::piece && entries_.empty() ? unknown : 0) {
+        if (!entries_.empty()) skipped_.assign(grammar.symbols().size(), 0);
         emitter_.take(state_.line, 0);
     }
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
+            if (grammar_.mark() == symbol) {
+                ++due_;
+                if (state_.sounding == unknown) end_phrases();
+                continue;
+            }
             ++position_;
+            if (!entries_.empty() && entries_[symbol].has_row) {
+                read_entry(entries_[symbol]);
+                continue;
+            }
             const SymbolInfo& info = grammar_.symbols()[symbol];
             const Command& command = info.command;
-            switch (kind_of(command)) {
+            switch (kind_of(command, moves_sound_)) {
                 case Kind::draw:
                     sound(std::fabs(command.value));
                     break;
                 case Kind::move:
                     end_note();
-                    state_.time += std::fabs(command.value);
+                    state_.time += std::fabs(command.value) * state_.pace;
+                    end_ = 0;
                     stop_if_done();
                     break;
                 case Kind::turn:
@@ -39,6 +54,10 @@ public:
                     state_.turned = sign_of(command.angle);
                     break;
                 case Kind::open:
+                    if (melody_.branches != Branches::voices) {
+                        open_in_line();
+                        break;
+                    }
                     // The stem's note goes on through its branches.
                     stack_.open(state_, position_);
                     state_.sounding = unknown;
@@ -46,29 +65,45 @@ public:
                     break;
                 case Kind::close:
                     end_note();
+                    if (melody_.branches != Branches::voices) {
+                        close_in_line();
+                        break;
+                    }
                     emitter_.release(state_.line);
                     state_ = stack_.close(position_);
                     break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
+                case Kind::mark:
                 case Kind::nothing:
+                    if (!skipped_.empty()) ++skipped_[symbol];
                     break;
             }
         }
     }
 
+    void report_skipped(PlayReport& report) const override {
+        for (std::size_t symbol = 0; symbol < skipped_.size(); ++symbol) {
+            if (skipped_[symbol] > 0) report.skipped[grammar_.symbols()[symbol].letter] += skipped_[symbol];
+        }
+        if (!entries_.empty()) report.unused = unused_rows(grammar_, melody_.table);
+    }
+
     void finish() override {
         stack_.require_closed();
+        due_ = 0;  // the end closes the last phrase
         end_note();
-        emitter_.finish(ticks(state_.time));
+        emitter_.finish(end_ > 0 ? end_ : ticks(state_.time));
     }
 
     bool skip(const GridStretch& stretch) override {
         const Integer length = stretch.length[0] + stretch.length[1];
-        const std::int64_t units = options_.from / melody_.unit - margin_units;
+        const std::int64_t units = clock_.steps_before(options_.from, stretch.marks + due_) - margin_units;
         const double room = static_cast<double>(units) - state_.time;
         if (room < 0 || length > Integer(room) || abs(stretch.rise) >= farthest) return false;
         end_note();
+        end_phrases();
+        clock_.breathe(stretch.marks);
         is_counted_ = false;
         state_.time += length.convert_to<double>();
         state_.degree += stretch.rise.convert_to<std::int64_t>();
@@ -84,9 +119,123 @@ private:
         int turned = 0;
         std::uint64_t symbol = 0;
         Emitter::Line line;
+        int louder = 0;  // added to velocities
+        int level = 0;   // the velocity of notes that state none; 0: as the melody says
+        std::int64_t octave = 0;
+        double pace = 1;         // what a step lasts, with `brackets: shares`
+        std::size_t opened = 0;  // number of the bracket around it, likewise
     };
 
-    std::int64_t ticks(double steps) const { return PlaneWalk::ticks(steps, melody_.unit); }
+    /// A symbol of the table.
+    void read_entry(const SymbolEntry& entry) {
+        if (!entry.problem.empty()) fault(position_, fmt::format("{}, of '{}'", entry.problem, entry.row.symbol));
+        const SymbolRow& row = entry.row;
+        if (row.kind == SymbolRow::Kind::change) return change(row);
+        end_note();
+        const double onset = state_.time;
+        state_.time += row.steps * state_.pace;
+        end_ = 0;
+        if (row.is_sounding()) sound_row(row, onset);
+        if (due_ > 0) end_phrases();
+        stop_if_done();
+    }
+
+    void change(const SymbolRow& row) {
+        const auto amount = std::llround(row.amount);
+        switch (row.change) {
+            case SoundChange::velocity:
+                state_.louder = static_cast<int>(std::clamp<std::int64_t>(state_.louder + amount, -127, 127));
+                break;
+            case SoundChange::level:
+                state_.level = static_cast<int>(amount);
+                break;
+            case SoundChange::octave:
+                state_.octave += amount;
+                break;
+            case SoundChange::degree:
+                state_.degree += amount;
+                break;
+        }
+    }
+
+    /// The notes of a row, the first in the voice of the branch, others in voices that are free.
+    void sound_row(const SymbolRow& row, double onset) {
+        const double steps = state_.time - onset;
+        int velocity = row.velocity > 0   ? row.velocity
+                       : state_.level > 0 ? state_.level
+                                          : loudness(melody_, state_.turned, steps, stack_.depth(), ticks(onset));
+        velocity += state_.louder + (clock_.is_accented(onset) ? 16 : 0);
+        emitter_.depth = static_cast<int>(stack_.depth());
+        std::vector<Emitter::Line> others(row.pitches.size() - 1);
+        for (std::size_t i = 0; i < row.pitches.size(); ++i) {
+            Shaper::Draft draft = row.is_drum() ? drum(row.pitches[i]) : pitched(row.pitches[i]);
+            const double height = row.is_drum() ? (*row.pitches[i].key - 60) / 2 : static_cast<double>(draft.degree);
+            draft.onset = ticks(onset);
+            draft.end = clock_.end_ticks(state_.time);
+            draft.velocity = std::clamp(velocity, 1, 127);
+            draft.from = {onset, height};
+            draft.to = {state_.time, height};
+            draft.symbol = is_counted_ ? position_ : 0;
+            emitter_.note(i == 0 ? state_.line : others[i - 1], draft);
+        }
+        for (const Emitter::Line& line : others) emitter_.release(line);
+    }
+
+    static Shaper::Draft drum(const TablePitch& pitch) {
+        Shaper::Draft draft;
+        draft.key = *pitch.key;
+        draft.is_drum = true;
+        return draft;
+    }
+
+    /// A degree, moved as notes are; a key by as many semitones as the degree nearest to it.
+    Shaper::Draft pitched(const TablePitch& pitch) const {
+        const auto period = static_cast<std::int64_t>(melody_.scale.size());
+        const auto rise = [&](std::int64_t from, std::int64_t to) {
+            const auto low = melody_.key(from, false);
+            const auto high = melody_.key(to, false);
+            return low && high ? *high - *low : 0.0;
+        };
+        const std::int64_t sounding = pitch.degree + state_.degree;
+        const std::int64_t upright = sounding + state_.octave * period;
+        const std::int64_t turned = melody_.is_inverted ? -upright : upright;
+        Shaper::Draft draft;
+        draft.degree = turned + melody_.shift;
+        if (!pitch.key) return draft;
+        double key = *pitch.key + melody_.transpose + rise(pitch.degree, sounding) +
+                     static_cast<double>(state_.octave) * melody_.scale.period / 100;
+        if (melody_.is_inverted) key = 2 * (melody_.tonic + melody_.transpose) - key;
+        draft.key = key + rise(turned, draft.degree);
+        return draft;
+    }
+
+    /// Branches follow one another: the note ends, and time goes on.
+    void open_in_line() {
+        end_note();
+        stack_.open(state_, position_);
+        emitter_.depth = static_cast<int>(stack_.depth());
+        if (spans) state_.pace = share_of(state_.pace, state_.opened);
+    }
+
+    void close_in_line() {
+        const State branch = state_;
+        state_ = stack_.close(position_);
+        emitter_.depth = static_cast<int>(stack_.depth());
+        state_.line = branch.line;
+        state_.time =
+            spans ? state_.time + shared_span(state_.pace, state_.time, branch.time, branch.opened) : branch.time;
+    }
+
+    std::int64_t ticks(double steps) const { return clock_.ticks(steps); }
+
+    void end_phrases() {
+        if (due_ == 0) return;
+        end_ = ticks(state_.time);
+        emitter_.end_phrase(0, clock_.is_odd());
+        clock_.breathe(due_);
+        emitter_.begin_phrase(ticks(state_.time));
+        due_ = 0;
+    }
 
     /// Equal symbols side by side are one long note, unless each step is to be heard.
     void sound(double length) {
@@ -96,8 +245,9 @@ private:
             state_.onset = state_.time;
             state_.symbol = is_counted_ ? position_ : 0;
         }
-        state_.time += length;
-        if (may_stop_ && ticks(state_.time) >= options_.to) end_note();
+        state_.time += length * state_.pace;
+        end_ = 0;
+        if (may_stop_ && !emitter_.is_shaped() && ticks(state_.time) >= options_.to) end_note();
         stop_if_done();
     }
 
@@ -108,21 +258,33 @@ private:
             const auto height = static_cast<double>(state_.sounding);
             const int velocity =
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
-            emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), ticks(state_.time), velocity,
-                          {state_.onset, height}, {state_.time, height}, state_.symbol);
+            if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
+            emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), clock_.end_ticks(state_.time),
+                          velocity + (clock_.is_accented(state_.onset) ? 16 : 0), {state_.onset, height},
+                          {state_.time, height}, state_.symbol);
         }
         state_.sounding = unknown;
+        end_phrases();
     }
 
     void stop_if_done() const {
-        if (may_stop_ && ticks(state_.time) >= options_.to) throw Enough();
+        if (!may_stop_ || ticks(state_.time) < options_.to) return;
+        const bool is_held = state_.sounding != unknown && ticks(state_.onset) < options_.to;
+        if (emitter_.is_shaped() && (is_held || !emitter_.may_stop(ticks(state_.time)))) return;
+        throw Enough();
     }
 
     const Grammar& grammar_;
     const Melody& melody_;
     Emitter& emitter_;
     const PlayOptions& options_;
+    Clock<PlaneWalk> clock_;
+    std::int64_t end_ = 0;  // of the phrase that has just ended
+    int due_ = 0;           // phrases that end with the note
     bool may_stop_;
+    std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
+    std::vector<std::uint64_t> skipped_;  // by symbol; empty without a table
+    bool moves_sound_;                    // the word has no F: its f are notes
     std::int64_t origin_;
     State state_;
     Brackets<State> stack_;

@@ -11,6 +11,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
@@ -419,6 +421,39 @@ int mela_number(std::string_view key) {
     return 0;
 }
 
+/// `31edo`, `31equal`, `31tet`: the number of equal steps to the octave; 0 if the key is none of these.
+int equal_steps(std::string_view key) {
+    constexpr int most_steps = 1200;
+    for (const std::string_view suffix : {"edo", "equal", "tet"}) {
+        if (!key.ends_with(suffix)) continue;
+        const std::string_view digits = key.substr(0, key.size() - suffix.size());
+        int n = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+        const bool is_whole = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
+        return is_whole && n >= 1 && n <= most_steps ? n : 0;
+    }
+    return 0;
+}
+
+/// Equal division of the octave, made when it is first asked for. Thread-safe; the result stays valid.
+const Scale* equal_scale(int steps) {
+    static std::mutex mutex;
+    static std::map<int, Scale> made;
+    const std::lock_guard lock(mutex);
+    const auto [at, is_new] = made.try_emplace(steps);
+    Scale& scale = at->second;
+    if (is_new) {
+        scale.id = fmt::format("{}-equal", steps);
+        scale.title = fmt::format("{} equal", steps);
+        scale.group = "equal";
+        scale.names = {fmt::format("{}-edo", steps), fmt::format("{}-tet", steps)};
+        scale.sources = fmt::format("{} equal steps to the octave", steps);
+        for (int step = 0; step < steps; ++step) scale.ascent.push_back(1200.0 * step / steps);
+        scale.descent = scale.ascent;
+    }
+    return &scale;
+}
+
 /// Longer words than any scale has; they are not looked for.
 constexpr std::size_t longest_name = 100;
 
@@ -482,6 +517,7 @@ const Scale* find_scale(std::string_view name) {
         const auto found = all.loose_keys.find(loosely_folded(one));
         if (found != all.loose_keys.end()) return found->second == several ? nullptr : &all.scales[found->second];
     }
+    if (const int steps = equal_steps(key)) return equal_scale(steps);
     return nullptr;
 }
 

@@ -35,7 +35,9 @@ struct Scale {
 const std::vector<Scale>& known_scales();
 
 /// By id, title or other name: case, blanks, `-`, `_` and accents do not matter, `mela 29` and `melakarta 29` are
-/// the formula's. Null if there is none.
+/// the formula's, and `31-edo`,
+/// `31-equal` or `31-tet` divides the octave into up to 1200 equal steps. Null if there is none. Thread-safe; the
+/// result stays valid.
 const Scale* find_scale(std::string_view name);
 
 /// Ids and names nearest to `name`, at most three, for messages.

@@ -1,9 +1,10 @@
 #include "music/score/audio.h"
 
+#include "music/score/child_process.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,10 +25,10 @@
 #include <utility>
 #include <vector>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): not every C library declares it
-
 namespace sikku {
 namespace {
+
+using namespace child;
 
 namespace fs = std::filesystem;
 
@@ -39,78 +40,6 @@ constexpr std::string_view advice = "apt install fluidsynth timgm6mb-soundfont";
 static_assert(std::endian::native == std::endian::little, "samples are handed over as little-endian floats");
 
 // ---- files
-
-class Descriptor {
-public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~Descriptor() { reset(); }
-    int get() const { return number_; }
-    void reset() {
-        if (number_ >= 0) ::close(number_);
-        number_ = -1;
-    }
-
-private:
-    int number_;
-};
-
-[[noreturn]] void fail(const fs::path& file, std::string_view doing, int error) {
-    throw std::runtime_error(
-        fmt::format("cannot {} {}: {}", doing, file.string(), std::generic_category().message(error)));
-}
-
-void write_all(int descriptor, const char* bytes, std::size_t count, const fs::path& name) {
-    while (count > 0) {
-        const ssize_t written = ::write(descriptor, bytes, count);
-        if (written < 0) {
-            if (errno == EINTR) continue;
-            fail(name, "write", errno);
-        }
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
-    }
-}
-
-/// As many bytes as there are, at most `count`.
-std::size_t read_at(int descriptor, char* bytes, std::size_t count, std::uint64_t position, const fs::path& name) {
-    std::size_t done = 0;
-    while (done < count) {
-        const ssize_t got = ::pread(descriptor, bytes + done, count - done, static_cast<off_t>(position + done));
-        if (got < 0) {
-            if (errno == EINTR) continue;
-            fail(name, "read", errno);
-        }
-        if (got == 0) break;
-        done += static_cast<std::size_t>(got);
-    }
-    return done;
-}
-
-/// A file without a name in the folder of `output`, or where temporary files go if that folder takes none (as that
-/// of a device). It is gone with its last descriptor.
-Descriptor nameless_file(const fs::path& output) {
-    fs::path folder = output.parent_path();
-    if (folder.empty()) folder = ".";
-    int error = 0;
-    for (const fs::path& place : {folder, fs::temp_directory_path()}) {
-#ifdef O_TMPFILE
-        const int nameless = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-        if (nameless >= 0) return Descriptor(nameless);
-#endif
-        std::string name = (place / ".sikku-sound.XXXXXX").string();
-        Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
-        error = errno;
-        if (file.get() < 0) continue;
-        ::unlink(name.c_str());
-        return file;
-    }
-    fail(folder, "write a temporary file in", error);
-}
 
 /// Buffered, from front to back.
 class Output {
@@ -139,105 +68,7 @@ private:
     std::string buffer_;
 };
 
-bool is_readable_file(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored) && ::access(path.c_str(), R_OK) == 0;
-}
-
 // ---- fluidsynth
-
-fs::path find_fluidsynth() {
-    const char* list = std::getenv("PATH");
-    std::string_view rest = list ? list : "/usr/local/bin:/usr/bin:/bin";
-    while (true) {
-        const std::size_t colon = rest.find(':');
-        const std::string_view folder = rest.substr(0, colon);
-        fs::path program = fs::path(folder.empty() ? std::string_view(".") : folder) / "fluidsynth";
-        if (is_readable_file(program) && ::access(program.c_str(), X_OK) == 0) return program;
-        if (colon == std::string_view::npos) break;
-        rest.remove_prefix(colon + 1);
-    }
-    throw std::runtime_error(fmt::format(
-        "sound needs the program fluidsynth, which is not in PATH; install it and a soundfont: {}", advice));
-}
-
-/// A process that is ended and buried with this object.
-class Process {
-public:
-    /// Standard input is empty, output and errors go to `messages`, and `sound` is descriptor 3.
-    Process(const fs::path& program, std::vector<std::string> arguments, int messages, int sound) {
-        posix_spawn_file_actions_t actions;
-        posix_spawnattr_t attributes;
-        if (posix_spawn_file_actions_init(&actions) != 0 || posix_spawnattr_init(&attributes) != 0) {
-            throw std::bad_alloc();
-        }
-        // The child blocks nothing, ends when nothing reads its sound, and ignores what this program ignores (nohup).
-        sigset_t none;
-        sigset_t defaults;
-        sigemptyset(&none);
-        sigemptyset(&defaults);
-        sigaddset(&defaults, SIGPIPE);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &defaults);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-        posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, messages, 1);
-        posix_spawn_file_actions_adddup2(&actions, messages, 2);
-        posix_spawn_file_actions_adddup2(&actions, sound, 3);
-        arguments.insert(arguments.begin(), program.string());
-        std::vector<char*> pointers;
-        pointers.reserve(arguments.size() + 1);
-        for (std::string& argument : arguments) pointers.push_back(argument.data());
-        pointers.push_back(nullptr);
-        const int error = posix_spawn(&process_, program.c_str(), &actions, &attributes, pointers.data(), environ);
-        posix_spawn_file_actions_destroy(&actions);
-        posix_spawnattr_destroy(&attributes);
-        if (error != 0) {
-            process_ = -1;
-            fail(program, "run", error);
-        }
-    }
-    Process(const Process&) = delete;
-    Process& operator=(const Process&) = delete;
-    ~Process() {
-        if (process_ <= 0) return;
-        ::kill(process_, SIGKILL);
-        wait();
-    }
-    /// As waitpid() tells it.
-    int wait() {
-        int status = 0;
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-        }
-        process_ = -1;
-        return status;
-    }
-
-private:
-    pid_t process_ = -1;
-};
-
-/// A descriptor of the same file above those that a child's are put on.
-Descriptor lifted(Descriptor low) {
-    if (low.get() < 0 || low.get() > 9) return low;
-    Descriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
-    if (high.get() < 0) throw std::system_error(errno, std::generic_category(), "fcntl");
-    return high;
-}
-
-/// The end of what a program printed, a line each.
-std::string last_words(int messages) {
-    constexpr std::size_t most = 2000;
-    const off_t size = ::lseek(messages, 0, SEEK_END);
-    const std::uint64_t length = size > 0 ? static_cast<std::uint64_t>(size) : 0;
-    std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(length, most)), '\0');
-    text.resize(read_at(messages, text.data(), text.size(), length - text.size(), "the messages of fluidsynth"));
-    for (char& byte : text) {
-        if (static_cast<unsigned char>(byte) < 0x20 && byte != '\n') byte = ' ';
-    }
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    return text;
-}
 
 /// Sound as 32-bit floats, left and right in turn, in a nameless file.
 struct Rendering {
@@ -248,7 +79,11 @@ struct Rendering {
 };
 
 Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch& watch) {
-    const fs::path program = find_fluidsynth();
+    const std::optional<fs::path> program = find_program("fluidsynth");
+    if (!program) {
+        throw std::runtime_error(fmt::format(
+            "sound needs the program fluidsynth, which is not in PATH; install it and a soundfont: {}", advice));
+    }
     const fs::path soundfont = find_soundfont();
     // fluidsynth says nothing about files that it cannot read, and takes names with a dash for options.
     if (!is_readable_file(midi)) fail(midi, "read", errno != 0 ? errno : ENOENT);
@@ -263,7 +98,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
 
     // No settings of the user's: the same everywhere. A chorus would blur microtones. Floats have no loudest value,
     // so that nothing is clipped whatever the gain.
-    Process process(program,
+    Process process(*program,
                     {"-n",
                      "-i",
                      "-q",
@@ -291,7 +126,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
     drain.reset();
 
     const auto failed = [&](std::string_view why) {
-        const std::string words = last_words(messages.get());
+        const std::string words = last_words(messages.get(), "fluidsynth");
         return std::runtime_error(fmt::format("fluidsynth {}{}{}", why, words.empty() ? "" : ":\n", words));
     };
     constexpr std::uint64_t frame_bytes = channels * sizeof(float);
@@ -340,7 +175,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
     if (WIFSIGNALED(status)) throw failed(fmt::format("was ended by signal {}", WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0) throw failed(fmt::format("failed with status {}", WEXITSTATUS(status)));
     // It calls it a success to render with a soundfont or a MIDI file that it could not read.
-    const std::string words = last_words(messages.get());
+    const std::string words = last_words(messages.get(), "fluidsynth");
     if (rendering.frames == 0) throw failed("rendered nothing");
     for (const std::string_view mark : {"error:", "panic:", "not a SoundFont or MIDI file"}) {
         if (words.find(mark) != std::string::npos) throw failed("failed");

@@ -1,6 +1,8 @@
 #include "music/score/lilypond.h"
 
-#include "engine/base/diagnostic.h"
+#include "music/score/comments.h"
+#include "music/score/drums.h"
+#include "music/score/dynamics.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -149,30 +152,11 @@ constexpr std::array<std::string_view, 128> instruments = {
     "gunshot",
 };
 
-/// Converts text to a single line for LilyPond. Line and paragraph separators (U+2028, U+2029), which make it abort,
-/// and direction marks, which may make it hang, become blanks.
-std::string one_line(std::string_view text) {
-    constexpr std::array<std::string_view, 6> marks = {"\n", "\u2028", "\u2029", "\u200E", "\u200F", "\u061C"};
-    const std::string whole = printable(text, std::string::npos);
-    std::string result;
-    for (std::string_view rest = whole; !rest.empty();) {
-        const std::size_t plain = std::min(rest.find_first_of("\n\xD8\xE2"), rest.size());  // where no mark begins
-        result += rest.substr(0, plain);
-        rest.remove_prefix(plain);
-        if (rest.empty()) break;
-        const auto mark = std::find_if(marks.begin(), marks.end(),
-                                       [rest](std::string_view candidate) { return rest.starts_with(candidate); });
-        result += mark == marks.end() ? rest.front() : ' ';
-        rest.remove_prefix(mark == marks.end() ? 1 : mark->size());
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string lilypond_string(std::string_view text) {
     std::string result = "\"";
-    for (const char byte : one_line(text)) {
+    for (const char byte : single_line(text)) {
         if (byte == '"' || byte == '\\') result += '\\';
         result += byte;
     }
@@ -192,26 +176,39 @@ std::string pitch_name(const Pitch& pitch) {
     return name.append(static_cast<std::size_t>(std::abs(marks)), marks > 0 ? '\'' : ',');
 }
 
-std::string length_name(std::int64_t length) {
-    const NoteValue value = note_value(length);
+std::string length_name(NoteValue value) {
     return fmt::format("{}{}", value.divisor, value.dotted ? "." : "");
 }
 
-/// How the beats of 5/8, 7/8, … are beamed, which LilyPond does not know by itself: twos and a three.
-std::string beams(const Meter& meter) {
-    if (meter.unit < 8 || meter.beats < 5 || meter.beats % 2 == 0 || meter.beats % 3 == 0) return {};
-    std::string groups;
-    for (int left = meter.beats; left > 3; left -= 2) groups += "2,";
-    return groups + "3 ";
+std::string_view clef_name(Clef clef) {
+    static constexpr std::array<std::string_view, 7> names = {"treble",       "bass",       "alto",      "tenor",
+                                                              "\"treble_8\"", "\"bass_8\"", "percussion"};
+    return names[static_cast<std::size_t>(clef)];
+}
+
+/// The meter, with its groups where the file says them or LilyPond does not know them.
+std::string meter_name(const Meter& meter) {
+    const std::string fraction = fmt::format("{}/{}", meter.beats, meter.unit);
+    if (!has_groups(meter)) return "\\time " + fraction;
+    std::vector<std::int64_t> groups = groups_of(meter);
+    for (std::int64_t& group : groups) group = group * meter.unit / (4 * ticks_per_quarter);
+    if (meter.groups[0] == 0) return fmt::format("\\time {} {}", fmt::join(groups, ","), fraction);
+    return fmt::format("\\compoundMeter #'(({} {}))", fmt::join(groups, " "), meter.unit);
 }
 
 std::string key_name(const KeySignature& key) {
-    // From seven flats to seven sharps; minor keys lie three fifths further on.
-    static constexpr std::array<std::string_view, 18> tonics = {"ces", "ges", "des", "aes", "ees", "bes",
-                                                                "f",   "c",   "g",   "d",   "a",   "e",
-                                                                "b",   "fis", "cis", "gis", "dis", "ais"};
-    const int at = std::clamp(key.fifths, -7, 7) + 7 + (key.minor ? 3 : 0);
-    return fmt::format("\\key {} {}", tonics[static_cast<std::size_t>(at)], key.minor ? "\\minor" : "\\major");
+    static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
+                                                              "minor",  "phrygian", "locrian"};
+    // Along the fifths, from the tonic of seven flats in lydian on.
+    constexpr std::string_view letters = "fcgdaeb";
+    const int from_f = std::clamp(key.fifths, -7, 7) + static_cast<int>(key.mode);
+    const int letter = (from_f + 7) % 7;
+    const int sharps = (from_f - letter) / 7;
+    return fmt::format("\\key {}{} \\{}", letters[static_cast<std::size_t>(letter)],
+                       sharps < 0   ? "es"
+                       : sharps > 0 ? "is"
+                                    : "",
+                       modes[static_cast<std::size_t>(key.mode)]);
 }
 
 class Writer {
@@ -221,23 +218,56 @@ public:
 
     void write() {
         put("\\version \"2.24.0\"\n\n");
-        comment(head_.made);
-        comment(head_.pattern);
+        put("{}", head_comments(head_, "%"));
         put("\n\\header {{\n");
         if (!head_.title.empty()) put("  title = {}\n", lilypond_string(head_.title));
         if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
         // The name of a single part stands above it, as in printed music; those of several stand before their staves.
         const bool is_solo = head_.parts.size() == 1;
         if (is_solo) put("  instrument = {}\n", lilypond_string(head_.parts.front().name));
+        if (!head_.source.empty()) put("  copyright = {}\n", lilypond_string(head_.source));
         put("  tagline = ##f\n}}\n\n");
+        write_drum_table();
         // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
         put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
-        put("  >>\n  \\layout {{ indent = {}\\mm }}\n  \\midi {{ }}\n}}\n", is_solo ? 0 : indent());
+        put("  >>\n  \\layout {{\n    indent = {}\\mm\n    \\context {{ \\Score \\autoBeamOff }}\n  }}\n  \\midi {{ "
+            "}}\n}}\n",
+            is_solo ? 0 : indent());
         flush();
     }
 
 private:
+    /// How the drums that are used are written, as LilyPond's own tables lack some.
+    void write_drum_table() {
+        std::set<int> used;
+        for (const NotatedPart& part : notation_.parts) {
+            for (const Staff& staff : part.staves) {
+                for (const NotatedVoice& voice : staff.voices) {
+                    for (const NotatedSymbol& symbol : voice.symbols) {
+                        if (symbol.drum > 0) used.insert(symbol.drum);
+                        for (const ChordNote& note : symbol.chord) {
+                            if (note.drum > 0) used.insert(note.drum);
+                        }
+                    }
+                }
+            }
+        }
+        const bool has_drums =
+            std::any_of(head_.parts.begin(), head_.parts.end(), [](const Part& part) { return part.is_drums; });
+        if (!has_drums) return;
+        put("#(define sikkuDrums (alist->hash-table '(\n");
+        for (const int key : used) {
+            static constexpr std::array<std::string_view, 4> heads = {"default", "cross", "diamond", "triangle"};
+            const Drum& drum = drum_of(key);
+            // Counted from the middle line.
+            const int place = Pitch{drum.letter, drum.octave, 0}.height() - Pitch{6, 4, 0}.height();
+            put("  ({} {} #f {})  ; {}\n", drum.lilypond, heads[static_cast<std::size_t>(drum.head)], place,
+                drum.name);
+        }
+        put(")))\n\n");
+    }
+
     template <typename... Arguments>
     void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
@@ -248,93 +278,201 @@ private:
         text_.clear();
     }
 
-    void comment(std::string_view text) {
-        while (!text.empty()) {
-            const std::size_t end = std::min(text.find('\n'), text.size());
-            std::string line(text.substr(0, end));
-            if (line.ends_with('\r')) line.pop_back();
-            std::replace(line.begin(), line.end(), '\t', ' ');
-            put("%{}{}\n", line.empty() ? "" : " ", one_line(line));
-            text.remove_prefix(std::min(end + 1, text.size()));
+    /// Lines of at most 16 characters, where the words are not longer.
+    static std::vector<std::string> lines_of(std::string_view name) {
+        constexpr std::size_t most = 16;
+        std::vector<std::string> lines;
+        while (!name.empty()) {
+            const std::size_t end = std::min(name.find(' '), name.size());
+            const std::string_view word = name.substr(0, end);
+            name.remove_prefix(std::min(end + 1, name.size()));
+            if (word.empty()) continue;
+            if (lines.empty() || lines.back().size() + 1 + word.size() > most) {
+                lines.emplace_back(word);
+            } else {
+                lines.back().append(" ").append(word);
+            }
         }
+        return lines;
     }
 
-    /// Millimetres that the longest name takes in LilyPond's font, with a gap before the staff.
+    /// Millimetres that the longest line of a name takes in LilyPond's font, with a gap before the bracket.
     std::size_t indent() const {
         std::size_t longest = 0;
-        for (const Part& part : head_.parts) longest = std::max(longest, part.name.size());
-        return std::min<std::size_t>(6 + 2 * longest, 60);
+        for (const Part& part : head_.parts) {
+            for (const std::string& line : lines_of(part.name)) longest = std::max(longest, line.size());
+        }
+        return std::min<std::size_t>(10 + 2 * longest, 80);
+    }
+
+    static std::string name_of(std::string_view name) {
+        const std::vector<std::string> lines = lines_of(name);
+        if (lines.size() < 2) return lilypond_string(name);
+        std::string text = "\\markup \\right-column {";
+        for (const std::string& line : lines) text += " " + lilypond_string(line);
+        return text + " }";
     }
 
     void write_part(std::size_t index) {
         const NotatedPart& part = notation_.parts[index];
         const Part& told = head_.parts[index];
         const bool is_named = head_.parts.size() > 1;
+        const std::string name = is_named ? fmt::format("instrumentName = {} ", name_of(told.name)) : "";
         const std::string with =
-            fmt::format("\\with {{ {}midiInstrument = {} }}",
-                        is_named ? fmt::format("instrumentName = {} ", lilypond_string(told.name)) : "",
-                        lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
+            told.is_drums
+                ? fmt::format("\\with {{ {}drumStyleTable = #sikkuDrums }}", name)
+                : fmt::format(
+                      "\\with {{ {}midiInstrument = {} }}", name,
+                      lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
+        const std::string_view staff = told.is_drums ? "DrumStaff" : "Staff";
         if (part.staves.size() == 1) {
-            write_staff(part.staves.front(), told, fmt::format("\\new Staff {}", with), index == 0);
+            write_staff(part.staves.front(), told, fmt::format("\\new {} {}", staff, with), index == 0);
             return;
         }
         // MIDI programs belong to staves, the name to the group.
-        put("    \\new {} {} <<\n", part.staves.size() == 2 ? "PianoStaff" : "StaffGroup", with);
+        const bool is_piano = part.bracket == Bracket::brace;
+        put("    \\new {} {} <<\n", is_piano ? "PianoStaff" : "StaffGroup",
+            told.is_drums ? fmt::format("\\with {{ {}}}", name) : with);
         for (std::size_t i = 0; i < part.staves.size(); ++i) {
-            write_staff(part.staves[i], told, "\\new Staff", index == 0 && i == 0);
+            const std::string opening =
+                told.is_drums ? "\\new DrumStaff \\with { drumStyleTable = #sikkuDrums }" : "\\new Staff";
+            write_staff(part.staves[i], told, opening, index == 0 && i == 0, !is_piano);
+            if (is_piano && i == 0) write_dynamics(part.staves[i].dynamics);
+            if (!is_piano && part.staves[i].voices.size() > 1) write_dynamics(part.staves[i].dynamics);
         }
         put("    >>\n");
     }
 
-    void write_staff(const Staff& staff, const Part& told, std::string_view opening, bool has_tempo) {
+    void write_staff(const Staff& staff, const Part& told, std::string_view opening, bool has_tempo,
+                     bool has_dynamics = true) {
         put("    {} <<\n", opening);
         for (std::size_t i = 0; i < staff.voices.size(); ++i) {
             static constexpr std::array<std::string_view, 4> numbers = {"One", "Two", "Three", "Four"};
-            put("      \\new Voice {{\n");
+            put("      \\new {} {{\n", told.is_drums ? "DrumVoice" : "Voice");
+            if (told.is_drums) put("        \\drummode {{\n");
             if (i == 0) {
-                put("        \\clef {} {}{}\\time {}{}/{}\n", staff.clef == Clef::treble ? "treble" : "bass",
-                    told.key ? key_name(*told.key) : "", told.key ? " " : "", beams(head_.meter), head_.meter.beats,
-                    head_.meter.unit);
+                const std::optional<KeySignature> key = printed_key(told);
+                put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
+                    key ? " " : "", meter_name(head_.meter));
                 if (has_tempo) {
                     // A whole number: LilyPond takes no other, and its MIDI files cut fractions off.
                     put("        \\tempo 4 = {}\n", std::max<long long>(1, std::llround(head_.tempo)));
                 }
             }
             if (staff.voices.size() > 1) put("        \\voice{}\n", numbers[i % 4]);
-            write_voice(staff.voices[i]);
-            put("      }}\n");
+            write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
+                        has_dynamics && staff.voices.size() == 1 ? staff.dynamics : std::vector<DynamicMark>{});
+            put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
         put("    >>\n");
     }
 
-    void write_voice(const NotatedVoice& voice) {
+    /// Writes the dynamics of two hands between their staves, and those of several voices below them.
+    void write_dynamics(const std::vector<DynamicMark>& marks) {
+        if (marks.empty()) return;
+        put("    \\new Dynamics {{\n     ");
+        const auto skip = [&](std::int64_t from, std::int64_t to) {
+            if (to > from) put(" s1*{}/{}", to - from, 4 * ticks_per_quarter);
+        };
+        skip(0, marks.front().onset);
+        for (std::size_t i = 0; i < marks.size();) {
+            const std::int64_t onset = marks[i].onset;
+            std::string together;
+            for (; i < marks.size() && marks[i].onset == onset; ++i) together += mark_text(marks[i]);
+            skip(onset, i < marks.size() ? marks[i].onset : notation_.bars * notation_.bar_length);
+            put("{}", together);
+        }
+        put("\n    }}\n");
+    }
+
+    static std::string mark_text(const DynamicMark& mark) {
+        switch (mark.kind) {
+            case DynamicMark::Kind::crescendo:
+                return "\\<";
+            case DynamicMark::Kind::diminuendo:
+                return "\\>";
+            case DynamicMark::Kind::level:
+                break;
+        }
+        return fmt::format("\\{}", dynamic_name(mark.level));
+    }
+
+    /// Clefs and lines of 8va that begin with a symbol; the first clef is written already.
+    void write_change(const StaffChange& change, Clef& clef, int& octaves) {
+        if (change.clef != clef) put("\\clef {} ", clef_name(change.clef));
+        if (change.octaves != octaves) put("\\ottava #{} ", change.octaves);
+        clef = change.clef;
+        octaves = change.octaves;
+    }
+
+    void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
+                     const std::vector<DynamicMark>& marks) {
         const std::int64_t bar = notation_.bar_length;
+        auto change = changes.begin();
+        auto mark = marks.begin();
+        Clef clef = changes.empty() ? Clef::treble : changes.front().clef;
+        int octaves = 0;
+        int tuplet = -1;
         put("        ");
         for (const NotatedSymbol& symbol : voice.symbols) {
-            switch (symbol.kind) {
-                case SymbolKind::note:
-                    put("{}{}{} ", pitch_name(symbol.pitch), length_name(symbol.length),
-                        symbol.tied_forward ? "~" : "");
-                    break;
-                case SymbolKind::rest:
-                    put("r{} ", length_name(symbol.length));
-                    break;
-                case SymbolKind::bar_rest:
-                    put("R1*{}/{} ", head_.meter.beats, head_.meter.unit);
-                    break;
-                case SymbolKind::gap:
-                    if (symbol.length == bar) {
-                        put("s1*{}/{} ", head_.meter.beats, head_.meter.unit);
-                    } else {
-                        put("s{} ", length_name(symbol.length));
-                    }
-                    break;
+            for (; change != changes.end() && change->onset <= symbol.onset; ++change) {
+                write_change(*change, clef, octaves);
             }
+            if (symbol.tuplet >= 0 && symbol.tuplet != tuplet) {
+                const TupletSpan& span = voice.tuplets[static_cast<std::size_t>(symbol.tuplet)];
+                put("\\tuplet {}/{} {{ ", span.actual, span.normal);
+            }
+            tuplet = symbol.tuplet;
+            write_symbol(symbol);
+            std::string end_marks;
+            for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
+            put("{} ", end_marks);
             const std::int64_t end = symbol.onset + symbol.length;
+            if (tuplet >= 0 && end == voice.tuplets[static_cast<std::size_t>(tuplet)].to) put("}} ");
             if (end % bar != 0) continue;
-            put("| % {}\n", end / bar);
-            if (end / bar < notation_.bars) put("        ");
+            const bool is_last = end / bar == notation_.bars;
+            if (is_last && octaves != 0) put("\\ottava #0 ");
+            put("{}| % {}\n", is_last ? "\\bar \"|.\" " : "", end / bar);
+            if (!is_last) put("        ");
             if (text_.size() > flush_bytes) flush();
+        }
+    }
+
+    /// `c'`, or a chord `<c' e' g'>`.
+    void write_heads(const NotatedSymbol& symbol) {
+        const auto name = [](const Pitch& pitch, int drum) {
+            return drum > 0 ? std::string(drum_of(drum).lilypond) : pitch_name(pitch);
+        };
+        std::string text = name(symbol.pitch, symbol.drum);
+        for (const ChordNote& note : symbol.chord) text += " " + name(note.pitch, note.drum);
+        put("{}", symbol.chord.empty() ? text : "<" + text + ">");
+    }
+
+    void write_symbol(const NotatedSymbol& symbol) {
+        switch (symbol.kind) {
+            case SymbolKind::note:
+                write_heads(symbol);
+                put("{}", length_name(symbol.value));
+                if (symbol.tied_forward) put("~");
+                if (symbol.begins_slide) put("\\glissando");
+                if (symbol.beams[0] == Beam::begin) put("[");
+                if (symbol.beams[0] == Beam::end) put("]");
+                if (symbol.is_accented) put("->");
+                if (symbol.cents != 0) put("^\\markup\\teeny\"{:+}\"", symbol.cents);
+                break;
+            case SymbolKind::rest:
+                put("r{}", length_name(symbol.value));
+                break;
+            case SymbolKind::bar_rest:
+                put("R1*{}/{}", head_.meter.beats, head_.meter.unit);
+                break;
+            case SymbolKind::gap:
+                if (symbol.length == notation_.bar_length) {
+                    put("s1*{}/{}", head_.meter.beats, head_.meter.unit);
+                } else {
+                    put("s{}", length_name(symbol.value));
+                }
+                break;
         }
     }
 

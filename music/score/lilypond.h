@@ -15,7 +15,7 @@ namespace sikku {
 std::string lilypond_string(std::string_view text);
 
 /// Writes a file for LilyPond 2.24 that makes a print and a MIDI file: the pattern and what made it as comments,
-/// title and composer, for each part a staff or a piano staff with its instrument, a line for each bar. Pitches are
+/// title, composer and source, for each part its staves with the instrument, a line for each bar. Pitches are
 /// exact to the quarter tone, the tempo is to a whole number.
 /// Texts are written with lilypond_string().
 /// Throws what `sink` throws.

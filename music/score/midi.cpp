@@ -1,5 +1,9 @@
 #include "music/score/midi.h"
 
+#include "engine/base/memory.h"
+#include "music/score/curves.h"
+#include "music/score/mpe.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +14,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -20,16 +26,18 @@ constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
 constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 constexpr int channels = 16;
-constexpr int drums = 9;  // General MIDI, counted from 0
+constexpr int drum_channel = 9;  // General MIDI, counted from 0
 constexpr std::size_t most_voices = channels - 1;
 /// Half a cent, which no ear tells; and a little, as halves of cents are no binary numbers.
 constexpr double least_fraction = 0.005 + 1e-9;
 constexpr int centre = 8192;  // of a pitch bend
 constexpr int release = 64;   // the velocity of a note-off that does not matter
 constexpr std::uint32_t unset = ~std::uint32_t{0};
+constexpr int none = -1;
 
 constexpr std::uint64_t plain_note_bytes = 14;
 // What comes before a note that needs it, with the delta of one byte that the note-on then has.
+constexpr std::uint64_t program_bytes = 3;
 constexpr std::uint64_t bend_bytes = 4;
 constexpr std::uint64_t tuning_bytes = 14;
 constexpr std::size_t note_room = plain_note_bytes + tuning_bytes;
@@ -114,18 +122,32 @@ std::string no_parameter_now(int channel) {
 constexpr int bend_range_parameter = 0;
 constexpr int tuning_program_parameter = 3;
 constexpr int tuning_bank_parameter = 4;
+constexpr int mpe_parameter = 6;
+
+/// Makes channels 2 to 16 those of single notes. The range of the bend is repeated for synthesizers without MPE.
+std::string mpe_configuration() {
+    std::string bytes = parameter_now(mpe_master, mpe_parameter, mpe_members) + no_parameter_now(mpe_master);
+    for (int channel = 0; channel < channels; ++channel) {
+        if (!is_mpe_member(channel)) continue;
+        bytes += parameter_now(channel, bend_range_parameter, mpe_bend_range) + no_parameter_now(channel);
+    }
+    return bytes;
+}
 
 /// The melody of one channel as the bytes of a track.
 struct Voice {
     int number = 0;
     int channel = 0;
+    bool is_drums = false;
     std::string name;
     int program = 0;
     std::int64_t now = 0;  ///< the tick of the last event
     int bend = centre;
-    std::vector<std::uint32_t> tuned;  ///< what each key sounds as, with MTS; in 1/2^14 semitones
-    std::vector<std::string> full;     ///< blocks that were filled, unless they are in the sink
-    std::uint64_t full_bytes = 0;      ///< of all of them
+    bool has_new_program = false;            ///< with MPE, before the next note
+    std::span<const ControlPoint> controls;  ///< that are still to come
+    std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
+    std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
+    std::uint64_t full_bytes = 0;            ///< of all of them
     std::unique_ptr<char[]> block = std::make_unique<char[]>(block_bytes);
     char* out = block.get();
 
@@ -209,7 +231,11 @@ private:
 class MidiWriter final : public NoteSink {
 public:
     MidiWriter(const ScoreHead& head, Output& sink, const MidiOptions& options)
-        : head_(head), sink_(sink), options_(options) {
+        : head_(head),
+          sink_(sink),
+          options_(options),
+          is_mpe_(options.tuning == Tuning::mpe),
+          bend_range_(is_mpe_ ? mpe_bend_range : options.bend_range) {
         check_options();
         std::size_t voices = 0;
         for (const Part& part : head_.parts) voices += static_cast<std::size_t>(std::max(part.voices, 0));
@@ -217,18 +243,22 @@ public:
         conductor_ = conductor();
     }
 
+    void curves(const Curves& curves) override { curves_ = &curves; }
+
     void notes(std::span<const Note> notes) override {
+        if (is_mpe_) return collect(notes);
         while (!notes.empty()) {
-            const std::int16_t number = notes.front().voice;
-            const bool known = number >= 0 && static_cast<std::size_t>(number) < voices_.size();
-            if (!known) throw ScoreError(fmt::format("there is a note of voice {}, which no part has", number + 1));
-            auto& voice = voices_[static_cast<std::size_t>(number)];
-            if (!voice) voice = begin_voice(number);
-            notes = notes.subspan(options_.microtonal ? write<true>(*voice, notes) : write<false>(*voice, notes));
+            Voice& voice = voice_of(notes.front());
+            if (!voice.controls.empty()) {
+                notes = notes.subspan(write_curved(voice, notes));
+                continue;
+            }
+            notes = notes.subspan(options_.microtonal ? write<true>(voice, notes) : write<false>(voice, notes));
         }
     }
 
     void finish(std::int64_t end) override {
+        if (is_mpe_) write_collected();
         check_end(end);
         if (options_.format == 0) {
             write_merged(end);
@@ -237,9 +267,9 @@ public:
         const auto conductor_end = std::min(static_cast<std::uint64_t>(end), most_delta);
         if (streamed_) {
             sink_.overwrite(10, big_endian(1 + sounding_, 2));
-            sink_.overwrite(conductor_end_at_, wide_delta(conductor_end));
+            sink_.overwrite(conductor_end_at_, closing(end, wide_delta(conductor_end)));
         } else {
-            write_head(1 + sounding_, delta(conductor_end));
+            write_head(1 + sounding_, closing(end, delta(conductor_end)));
         }
         for (const auto& voice : voices_) {
             if (!voice) continue;
@@ -259,12 +289,64 @@ public:
     }
 
 private:
+    Voice& voice_of(const Note& note) {
+        const bool known = note.voice >= 0 && static_cast<std::size_t>(note.voice) < voices_.size();
+        if (!known) throw ScoreError(fmt::format("there is a note of voice {}, which no part has", note.voice + 1));
+        auto& voice = voices_[static_cast<std::size_t>(note.voice)];
+        if (!voice) voice = begin_voice(note.voice);
+        return *voice;
+    }
+
+    void collect(std::span<const Note> notes) {
+        if (notes.size() > most_collected_ - std::min(most_collected_, collected_.size())) {
+            throw ScoreError(
+                fmt::format("more than {} notes do not fit into memory, where MPE needs them; limit the bars or "
+                            "seconds",
+                            most_collected_));
+        }
+        collected_.insert(collected_.end(), notes.begin(), notes.end());
+    }
+
+    /// Channels are distributed in the order of onsets.
+    void write_collected() {
+        std::stable_sort(collected_.begin(), collected_.end(), [](const Note& a, const Note& b) {
+            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
+        });
+        MpeChannels distribution;
+        std::array<int, channels> programs{};
+        programs.fill(-1);
+        for (const Note& note : collected_) {
+            Voice& voice = voice_of(note);
+            if (note.duration <= 0 || !(note.key >= 0.0 && note.key <= 127.0)) refuse(voice, voice.now, note);
+            const auto end = static_cast<std::int64_t>(static_cast<std::uint64_t>(note.onset) +
+                                                       static_cast<std::uint64_t>(note.duration));
+            if (voice.is_drums) {
+                write<false>(voice, std::span(&note, 1));
+                continue;
+            }
+            voice.channel = distribution.take(note.onset, end, static_cast<int>(note.key + 0.5), voice.number);
+            if (voice.channel < 0) {
+                throw ScoreError(fmt::format("more than {} notes at the same time; MPE has channels for {}",
+                                             most_mpe_notes, most_mpe_notes));
+            }
+            int& program = programs[static_cast<std::size_t>(voice.channel)];
+            voice.has_new_program = program != voice.program;
+            program = voice.program;
+            voice.bend = none;
+            write<true>(voice, std::span(&note, 1));
+        }
+        collected_.clear();
+    }
+
     void check_options() const {
         if (options_.format != 0 && options_.format != 1) {
             throw ScoreError(fmt::format("MIDI files are written in format 0 or 1, not {}", options_.format));
         }
         if (options_.bend_range < 1 || options_.bend_range > 24) {
             throw ScoreError(fmt::format("a bend range of {} semitones: expected 1 to 24", options_.bend_range));
+        }
+        if (options_.share_channels && (options_.microtonal || is_mpe_ || head_.parts.size() > most_voices)) {
+            throw ScoreError("voices can share channels only without microtones, and in at most 15 parts");
         }
         const Meter& meter = head_.meter;
         const bool is_power =
@@ -329,6 +411,7 @@ private:
             const KeySignature key = *head_.parts.front().key;
             bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
         }
+        if (is_mpe_) bytes += mpe_configuration();
         return bytes;
     }
 
@@ -341,8 +424,41 @@ private:
                big_endian(tracks, 2) + big_endian(ticks_per_quarter, 2);
     }
 
-    void write_head(std::uint64_t tracks, const std::string& conductor_end) {
-        const std::string last = conductor_end + meta(end_type, "");
+    struct Change {
+        std::int64_t tick;
+        std::string event;  ///< without its delta
+    };
+    std::vector<Change> changes(std::int64_t end) const {
+        std::vector<Change> result;
+        std::int64_t last = 0;
+        for (const TempoPoint& point : tempo_map(head_, curves_ ? *curves_ : Curves(), end)) {
+            // No delta tells what is later.
+            const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
+            const double tempo = is_late ? head_.tempo : head_.tempo * point.factor;
+            const auto micro = static_cast<std::uint64_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1));
+            if (!is_late) last = point.tick;
+            result.push_back({last, meta(tempo_type, big_endian(micro, 3))});
+        }
+        return result;
+    }
+
+    /// What ends the first track; of the same length for every `end`, if `last` is.
+    std::string closing(std::int64_t end, const std::string& last) const {
+        const std::vector<Change> tempos = changes(end);
+        if (tempos.empty()) return last + meta(end_type, "");
+        std::string bytes;
+        std::int64_t now = 0;
+        for (const Change& change : tempos) {
+            bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) + change.event;
+            now = change.tick;
+        }
+        const auto conductor_end = std::min<std::int64_t>(end, static_cast<std::int64_t>(most_delta));
+        return bytes + wide_delta(static_cast<std::uint64_t>(std::max<std::int64_t>(0, conductor_end - now))) +
+               meta(end_type, "");
+    }
+
+    /// @param last  what ends the first track
+    void write_head(std::uint64_t tracks, const std::string& last) {
         const std::uint64_t size = conductor_.size() + last.size();
         check_track(size);
         const std::string front = header(tracks) + "MTrk" + big_endian(size, 4);
@@ -353,15 +469,29 @@ private:
         head_bytes_ = front.size() + size;
     }
 
+    int part_of(int voice) const {
+        for (std::size_t i = 0; i < head_.parts.size(); ++i) {
+            voice -= std::max(head_.parts[i].voices, 0);
+            if (voice < 0) return static_cast<int>(i);
+        }
+        return 0;  // refused before
+    }
+
     std::unique_ptr<Voice> begin_voice(std::int16_t number) {
-        if (sounding_ == most_voices) {
+        const bool is_drums = head_.parts[static_cast<std::size_t>(part_of(number))].is_drums;
+        if (!is_drums && !options_.share_channels && !is_mpe_ && pitched_ == most_voices) {
             throw ScoreError(fmt::format("too many voices: a MIDI file has channels for {}", most_voices));
         }
         auto voice = std::make_unique<Voice>();
         voice->number = number;
-        const int slot = voices_.size() <= most_voices ? number : static_cast<int>(sounding_);
-        voice->channel = slot < drums ? slot : slot + 1;
+        const int slot = options_.share_channels         ? part_of(number)
+                         : voices_.size() <= most_voices ? number
+                                                         : static_cast<int>(pitched_);
+        voice->is_drums = is_drums;
+        if (curves_) voice->controls = curves_->of_voice(number);
+        voice->channel = is_drums ? drum_channel : slot < drum_channel ? slot : slot + 1;
         ++sounding_;
+        pitched_ += is_drums ? 0 : 1;
         int within = number;
         for (const Part& part : head_.parts) {
             const int count = std::max(part.voices, 0);
@@ -373,7 +503,7 @@ private:
             }
             within -= count;
         }
-        if (options_.microtonal && options_.tuning == Tuning::mts) voice->tuned.assign(128, unset);
+        if (options_.microtonal && options_.tuning == Tuning::mts && !is_drums) voice->tuned.assign(128, unset);
         return voice;
     }
 
@@ -382,10 +512,11 @@ private:
         std::string bytes;
         if (!voice.name.empty()) bytes += meta_now(options_.format == 1 ? name_type : instrument_type, voice.name);
         const int channel = voice.channel;
-        if (options_.microtonal && options_.tuning == Tuning::bend) {
+        if (is_mpe_) return bytes;
+        if (options_.microtonal && options_.tuning == Tuning::bend && !voice.is_drums) {
             bytes += parameter_now(channel, bend_range_parameter, options_.bend_range) + no_parameter_now(channel);
         }
-        if (options_.microtonal && options_.tuning == Tuning::mts) {
+        if (options_.microtonal && options_.tuning == Tuning::mts && !voice.is_drums) {
             // A tuning program of its own, so that voices do not retune each other's keys.
             bytes += parameter_now(channel, tuning_bank_parameter, 0) +
                      parameter_now(channel, tuning_program_parameter, channel) + no_parameter_now(channel);
@@ -420,6 +551,12 @@ private:
                 out = voice.out;
             }
             if constexpr (microtonal) {
+                if (voice.has_new_program) {
+                    out = put_delta(out, std::exchange(rest, 0));
+                    out = put_byte(out, status(0xC0, voice.channel));
+                    out = put_byte(out, voice.program);
+                    voice.has_new_program = false;
+                }
                 char* const tuned = voice.tuned.empty() ? bend(voice, out, rest, is_fraction ? fraction : 0.0)
                                                         : retune(voice, out, rest, key, is_fraction ? fraction : 0.0);
                 if (tuned != out) rest = 0;
@@ -442,9 +579,83 @@ private:
         return i;
     }
 
+    /// The same, with what changes before and during the notes.
+    std::size_t write_curved(Voice& voice, std::span<const Note> notes) {
+        std::size_t i = 0;
+        for (; i < notes.size() && notes[i].voice == voice.number; ++i) {
+            const Note& note = notes[i];
+            const double fraction = note.key - std::round(note.key);
+            const bool is_key = note.key >= 0.0 && note.key <= 127.0;
+            const bool is_far = static_cast<std::uint64_t>(note.onset - voice.now) > most_delta;
+            const bool is_bent = std::fabs(fraction) > least_fraction && !options_.microtonal;
+            if (is_far || is_bent || note.duration <= 0 || note.velocity - 1U > 126U || !is_key) {
+                refuse(voice, voice.now, note);
+            }
+            const std::int64_t end = note.onset + note.duration;
+            write_controls(voice, note.onset, false, 0);
+            double bent = 0;
+            for (const ControlPoint& point : voice.controls) {
+                if (point.tick > note.onset) break;
+                if (point.number == ControlPoint::bend) bent = point.value;
+            }
+            write_controls(voice, note.onset + 1, false, 0);
+            if (!voice.tuned.empty()) {
+                if (voice.out > voice.last_start()) flush(voice);
+                const auto rest = static_cast<std::uint64_t>(note.onset - voice.now);
+                char* const tuned = retune(voice, voice.out, rest, static_cast<int>(std::lround(note.key)), fraction);
+                if (tuned != voice.out) voice.now = note.onset;
+                voice.out = tuned;
+            } else if (options_.microtonal && !voice.is_drums) {
+                put_bend(voice, note.onset, fraction + bent);
+            }
+            put_event(voice, note.onset, status(0x90, voice.channel), static_cast<int>(std::lround(note.key)),
+                      note.velocity);
+            write_controls(voice, end, true, fraction);
+            put_event(voice, end, status(0x80, voice.channel), static_cast<int>(std::lround(note.key)), release);
+        }
+        return i;
+    }
+
+    /// Writes the points before `until`. @param bends  whether a note of that fraction sounds, which may be bent
+    void write_controls(Voice& voice, std::int64_t until, bool bends, double fraction) {
+        std::size_t used = 0;
+        for (const ControlPoint& point : voice.controls) {
+            if (point.tick >= until) break;
+            ++used;
+            const std::int64_t tick = std::max(point.tick, voice.now);
+            if (point.number != ControlPoint::bend) {
+                put_event(voice, tick, status(0xB0, voice.channel), point.number,
+                          std::clamp(static_cast<int>(std::lround(point.value)), 0, 127));
+            } else if (bends && options_.microtonal && !voice.is_drums) {
+                put_bend(voice, tick, fraction + point.value);
+            }
+        }
+        voice.controls = voice.controls.subspan(used);
+    }
+
+    void put_bend(Voice& voice, std::int64_t tick, double semitones) {
+        const int wanted =
+            std::clamp(centre + static_cast<int>(std::lround(semitones * centre / bend_range_)), 0, 16383);
+        if (wanted == voice.bend) return;
+        voice.bend = wanted;
+        put_event(voice, tick, status(0xE0, voice.channel), wanted & 0x7F, wanted >> 7);
+    }
+
+    void put_event(Voice& voice, std::int64_t tick, int first, int second, int third) {
+        const auto rest = static_cast<std::uint64_t>(tick - voice.now);
+        if (rest > most_delta) {
+            throw ScoreError(
+                fmt::format("voice {}, tick {}: {} ticks without an event; a MIDI file can tell up to {}",
+                            voice.number + 1, tick, rest, most_delta));
+        }
+        if (voice.out > voice.last_start()) flush(voice);
+        voice.out = put_byte(put_byte(put_byte(put_delta(voice.out, rest), first), second), third);
+        voice.now = tick;
+    }
+
     /// @param fraction  of a semitone, -0.5 to 0.5
     char* bend(Voice& voice, char* out, std::uint64_t rest, double fraction) const {
-        const int wanted = centre + static_cast<int>(std::lround(fraction * centre / options_.bend_range));
+        const int wanted = centre + static_cast<int>(std::lround(fraction * centre / bend_range_));
         if (wanted == voice.bend) return out;
         voice.bend = wanted;
         out = put_delta(out, rest);
@@ -502,7 +713,7 @@ private:
     /// What is not known yet, finish() fills in.
     void begin_streaming(const Voice& voice) {
         streamed_ = true;
-        write_head(0, wide_delta(0));
+        write_head(0, closing(0, wide_delta(0)));
         streamed_length_at_ = head_bytes_ + 4;
         sink_.write("MTrk" + big_endian(0, 4) + open(voice));
     }
@@ -528,17 +739,27 @@ private:
             sink_.write(block);
             block.clear();
         };
+        const std::vector<Change> tempos = changes(end);
+        auto tempo = tempos.begin();
+        const auto change_until = [&](std::int64_t tick) {
+            for (; tempo != tempos.end() && tempo->tick <= tick; ++tempo) {
+                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) + tempo->event;
+                now = tempo->tick;
+            }
+        };
         for (;;) {
             const auto first = std::min_element(voices.begin(), voices.end(), [](const Events& a, const Events& b) {
                 return !a.done() && (b.done() || a.place() < b.place());
             });
             if (first == voices.end() || first->done()) break;
+            change_until(first->tick());
             block += delta(static_cast<std::uint64_t>(first->tick() - now));
             block += first->event();
             now = first->tick();
             first->next();
             if (block.size() >= block_bytes) write_block();
         }
+        change_until(end);
         block += end_of_track(end - now);
         write_block();
         sink_.overwrite(head.size() + 4, big_endian(bytes, 4));
@@ -546,9 +767,15 @@ private:
 
     const ScoreHead& head_;
     Output& sink_;
+    const Curves* curves_ = nullptr;
     const MidiOptions options_;
+    const bool is_mpe_;
+    const int bend_range_;
+    const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
+    std::vector<Note> collected_;                 // with MPE, until finish()
     std::vector<std::unique_ptr<Voice>> voices_;  // by number; null while they are silent
     std::size_t sounding_ = 0;
+    std::size_t pitched_ = 0;  // of those, all but drums
     std::string conductor_;
     bool streamed_ = false;  // head and the beginning of voice 0 are in the sink
     std::uint64_t head_bytes_ = 0;
@@ -565,13 +792,16 @@ std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const 
 std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head, const MidiOptions& options) {
     constexpr std::uint64_t text_bytes = 7;  // delta, FF, type, length
     constexpr std::uint64_t end_bytes = 7;
-    std::uint64_t fixed =
-        14 + 8 + 3 * text_bytes + head.title.size() + head.pattern.size() + head.made.size() + 7 + 8 + 6 + end_bytes;
+    std::uint64_t fixed = 14 + 8 + 8 * 11 + 3 * text_bytes + head.title.size() + head.pattern.size() +
+                          head.made.size() + 7 + 8 + 6 + end_bytes;
     std::uint64_t longest_name = 0;
     for (const Part& part : head.parts) longest_name = std::max(longest_name, std::uint64_t{part.name.size()});
     // Up to ten controllers, the program, and a number after the name.
     fixed += most_voices * (8 + text_bytes + longest_name + 12 + 10 * 4 + 3 + end_bytes);
-    const std::uint64_t each = plain_note_bytes + (!options.microtonal              ? 0
+    const bool is_mpe = options.tuning == Tuning::mpe;
+    if (is_mpe) fixed += mpe_configuration().size();
+    const std::uint64_t each = plain_note_bytes + (is_mpe                           ? program_bytes + bend_bytes
+                                                   : !options.microtonal            ? 0
                                                    : options.tuning == Tuning::bend ? bend_bytes
                                                                                     : tuning_bytes);
     if (notes > (std::numeric_limits<std::uint64_t>::max() - fixed) / each) {

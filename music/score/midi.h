@@ -8,15 +8,19 @@
 
 namespace sikku {
 
-/// How keys with a fraction sound: by pitch bend of the voice's channel, which every synthesizer knows, or by single
-/// note tuning changes of the MIDI Tuning Standard, which leave the bend wheel alone.
-enum class Tuning { bend, mts };
+/// How keys with a fraction sound: by pitch bend of the voice's channel, which every synthesizer knows; by single
+/// note tuning changes of the MIDI Tuning Standard, which leave the bend wheel alone; or by MPE (music/score/mpe.h),
+/// in which each note, with a fraction or not, has a channel and a pitch bend of its own.
+enum class Tuning { bend, mts, mpe };
 
 struct MidiOptions {
     int format = 1;           ///< 1: a track for each voice; 0: all in one track
     bool microtonal = false;  ///< whether keys with a fraction may come; each voice then prepares its channel
     Tuning tuning = Tuning::bend;
-    int bend_range = 2;  ///< semitones of a full bend, 1 to 24
+    int bend_range = 2;  ///< semitones of a full bend, 1 to 24; with MPE it is 48
+    /// Voices of a part share its channel, so that there may be more than 15. Only without microtones; notes on one
+    /// key of a part must not overlap: see UnisonMerger.
+    bool share_channels = false;
 };
 
 /// Writes a Standard MIDI File of 480 ticks a quarter, the same bytes for the same notes.
@@ -25,14 +29,18 @@ struct MidiOptions {
 /// for each voice that has notes, by number. Every track ends where the score does; only of a score longer than
 /// 2^28 - 1 ticks the first one ends there. At one tick the order is: meta, controllers, program, note-offs, tuning,
 /// note-ons. There is no running status; note-offs are real ones. In format 0 the names of voices are instrument
-/// names. Voices keep channels of their own, never the drums': by number if the head counts at most 15 voices, else
-/// as they come. A fraction of a key up to half a cent is none.
+/// names. Drums share channel 10. Other voices keep channels of their own: by number if the head counts at most 15
+/// voices, else as they come. A fraction of a key up to half a cent is none. With MPE the first track tells the
+/// configuration, and a program comes before a note where that of its channel differs.
+///
+/// Pan, controllers and bends of NoteSink::curves() are written without MPE.
 ///
 /// Cost: in format 1 voice 0 goes to the sink in blocks, the bytes of others wait in memory until finish(); in format
-/// 0 all do. @throws ScoreError, here for what the head tells (a tempo, meter, key, program or bend range that no
-/// file can hold) and then by notes() and finish(): more than 15 voices with notes, a voice of no part, notes that
-/// overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above 2^28 - 1 ticks,
-/// a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
+/// 0 all do; with MPE all notes do. @throws ScoreError, here for what the head tells (a tempo, meter, key, program or
+/// bend range that no file can hold) and then by notes() and finish(): more than 15 voices with notes that are no
+/// drums (or parts, if channels are shared), or with MPE more than 14 notes at the same time, a voice of no part,
+/// notes that overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above 2^28 -
+/// 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});
 
 /// No file of so many notes is larger, in bytes.

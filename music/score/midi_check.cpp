@@ -189,6 +189,7 @@ private:
             return false;
         }
         const auto format = static_cast<int>(big_endian(8, 2));
+        format_ = format;
         declared_ = static_cast<int>(big_endian(10, 2));
         division_ = static_cast<int>(big_endian(12, 2));
         if (division_ >= 0x8000) division_ -= 0x10000;
@@ -225,7 +226,10 @@ private:
             if (has(at_, "MTrk") && is_chunk(at_)) {
                 read_track();
             } else if (is_chunk(at_)) {
-                if (has(at_, "MThd")) fault(at_, "a second header: a file has one");
+                if (has(at_, "MThd")) {
+                    fault(at_, "a second header: a file has one");
+                    format_ = -1;  // its tracks are those of another file
+                }
                 at_ += chunk_head_bytes + big_endian(at_ + 4, 4);
             } else {
                 const std::size_t next = next_track(at_ + 1);
@@ -564,6 +568,9 @@ private:
                 tempo_tick_ = track.tick;
                 tempo_ = tempo;
             }
+            if (format_ == 1 && track.number > 1) {
+                fault(track, event.at, "a tempo outside the first track, which programs ignore in format 1");
+            }
         } else if (event.type == 0x20 && data(0) > 15) {
             fault(track, event.data, fmt::format("a channel prefix of {}, but 15 is the most", data(0)));
         } else if (event.type == 0x58) {
@@ -593,6 +600,7 @@ private:
     std::span<const std::uint8_t> bytes_;
     std::vector<MidiFault> faults_;
     std::size_t at_ = 0;  // the next chunk
+    int format_ = 0;
     int declared_ = 0;
     int found_ = 0;
     int division_ = 0;

@@ -164,8 +164,43 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
     std::string text = fmt::format("{} {}, {} quarters a minute, {}/{}", melody.notes.size(),
                                    melody.notes.size() == 1 ? "note" : "notes", number(head.tempo, 2),
                                    head.meter.beats, head.meter.unit);
-    for (const Part& part : head.parts) text += fmt::format(" · {}, {}", part.name, part.scale);
-    return head.composer.empty() ? text : fmt::format("{} · {}", shortened(head.composer, 90), text);
+    for (const Part& part : head.parts) {
+        text +=
+            part.scale.empty() ? fmt::format(" · {}", part.name) : fmt::format(" · {}, {}", part.name, part.scale);
+    }
+    return head.source.empty() ? text : fmt::format("{} · {}", shortened(head.source, 90), text);
+}
+
+/// Changes of tempo, and points of pan and pitch: [voice, tick, number, value].
+void write_curves(std::string& out, const Curves& curves, const std::vector<TempoPoint>& tempos) {
+    out += "\"tempos\":[";
+    for (std::size_t i = 0; i < tempos.size(); ++i) {
+        out += fmt::format("{}[{},", i > 0 ? "," : "", tempos[i].tick);
+        put(out, tempos[i].factor, 4);
+        out += ']';
+    }
+    out += "],\"controls\":[";
+    bool is_first = true;
+    for (const ControlPoint& point : curves.controls) {
+        if (point.number != ControlPoint::pan && point.number != ControlPoint::bend) continue;
+        out += fmt::format("{}[{},{},{},", is_first ? "" : ",", point.voice, point.tick, point.number);
+        put(out, point.value, 4);
+        out += ']';
+        is_first = false;
+    }
+    out += "],";
+}
+
+/// The voices of drums.
+std::vector<int> drum_voices(const ScoreHead& head) {
+    std::vector<int> voices;
+    int voice = 0;
+    for (const Part& part : head.parts) {
+        for (int i = 0; i < part.voices; ++i, ++voice) {
+            if (part.is_drums) voices.push_back(voice);
+        }
+    }
+    return voices;
 }
 
 std::string title_of(const ScoreHead& head) {
@@ -195,6 +230,7 @@ constexpr double panels_top = 34.0;
 constexpr double panels_bottom = page_height - 20.0;
 constexpr double key_names_width = 8.0;
 constexpr double between_panels = 10.0;
+constexpr double narrowest_note = 0.8;  // two pixels of a screen that shows the whole page
 
 void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
     const glm::dvec2 extent = melody.curve_high - melody.curve_low;
@@ -286,7 +322,7 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
         // A little is left out at the end, so that the same key twice is two notes.
         const double full = width_of_tick * static_cast<double>(note.duration);
         // Notes of a very long score hide each other rather than themselves.
-        const double width = full > 0.6 ? full - 0.2 : std::max(full * 0.7, 0.35);
+        const double width = std::max(full > 0.6 ? full - 0.2 : full * 0.7, narrowest_note);
         out.text() += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
                                   ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
                                   number(middle(note.key) - 0.5 * thick), number(width), number(thick),
@@ -360,7 +396,8 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
     out.flush();
 }
 
-void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink) {
+void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink,
+                      const Curves& curves) {
     const Melody melody = survey(notes, end);
     Pieces out(sink);
     const std::string title = xml_escaped(title_of(head));
@@ -382,7 +419,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<button type=\"button\" id=\"play\"><svg viewBox=\"0 0 10 10\" aria-hidden=\"true\"><path "
         "d=\"M1 0l8 5-8 5z\"/></svg><span>Play</span></button>\n"
         "<label class=\"long\">Position <input type=\"range\" id=\"place\" min=\"0\" max=\"1000\" step=\"any\" "
-        "value=\"0\"/> <output id=\"place-text\"></output></label>\n"
+        "value=\"0\"/> <span id=\"place-text\"></span></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
         "<output id=\"tempo-text\"></output></label>\n</div>\n",
         title, xml_escaped(subtitle(head, melody)), number(slowest, 4), number(fastest, 4), number(head.tempo, 4));
@@ -407,7 +444,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "</main>\n<script type=\"application/json\" "
         "id=\"score\">{{\"quarter\":{},\"bar\":{},\"end\":{},\"tempo\":{},",
         ticks_per_quarter, std::max<std::int64_t>(head.meter.bar(), 1), melody.end, number(head.tempo, 4));
-    out.text() += "\"paper\":";
+    write_curves(out.text(), curves, tempo_map(head, curves, end));
+    out.text() += fmt::format("\"drums\":[{}],\"paper\":", fmt::join(drum_voices(head), ","));
     write_ramp(out.text(), paper_ramp);
     out.text() += ",\"screen\":";
     write_ramp(out.text(), screen_ramp);

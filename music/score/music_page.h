@@ -2,6 +2,7 @@
 // that plays.
 #pragma once
 
+#include "music/score/curves.h"
 #include "music/score/score.h"
 
 #include <cstddef>
@@ -17,16 +18,19 @@ public:
     /// @param most  notes above which a ScoreError is thrown; its message names `--bars`
     explicit NoteCollector(std::size_t most = 100'000) : most_(most) {}
 
+    void curves(const Curves& curves) override { curves_ = curves; }
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override { end_ = end; }
 
     const std::vector<Note>& notes() const { return notes_; }
     std::int64_t end() const { return end_; }  ///< ticks; 0 before finish()
+    const Curves& curves() const { return curves_; }
 
 private:
     std::size_t most_;
     std::vector<Note> notes_;
     std::int64_t end_ = 0;
+    Curves curves_;
 };
 
 /// One picture on a landscape A4 page: the curve on the left, where each note is drawn over the piece of the curve it
@@ -45,6 +49,7 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
 /// then by voice) and `state()`: whether it is `playing`, `tick` and the sound's `time` in seconds, `tempo`, how many
 /// notes have `sounded`, and `recent`, the indices of the last of them. Arguments, memory and errors as of
 /// write_music_svg.
-void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out);
+void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
+                      const Curves& curves = {});
 
 }  // namespace sikku

@@ -1,12 +1,17 @@
 #include "music/score/musicxml.h"
 
 #include "engine/base/text.h"
+#include "music/score/drums.h"
+#include "music/score/dynamics.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <iterator>
+#include <numeric>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,12 +49,24 @@ std::string_view accidental_name(int quarters) {
     return names[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
 }
 
+/// How far the changes of a staff are written.
+struct StaffState {
+    const Staff* staff = nullptr;
+    std::size_t index = 0;
+    Clef clef = Clef::treble;
+    int octaves = 0;
+    bool is_hairpin = false;
+    std::size_t change = 0;
+    std::size_t mark = 0;
+};
+
 class Writer {
 public:
     Writer(const Notation& notation, const ScoreHead& head, Output& sink)
         : notation_(notation), head_(head), sink_(sink) {}
 
     void write() {
+        find_unit();
         write_head();
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
         put("</score-partwise>\n");
@@ -67,6 +84,18 @@ private:
         text_.clear();
     }
 
+    /// The ticks of a division: the largest that divides every duration.
+    void find_unit() {
+        unit_ = std::gcd(ticks_per_quarter, notation_.bar_length);
+        for (const NotatedPart& part : notation_.parts) {
+            for (const Staff& staff : part.staves) {
+                for (const NotatedVoice& voice : staff.voices) {
+                    for (const NotatedSymbol& symbol : voice.symbols) unit_ = std::gcd(unit_, symbol.length);
+                }
+            }
+        }
+    }
+
     void write_head() {
         put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<!DOCTYPE score-partwise PUBLIC \"-//Recordare//DTD MusicXML 4.0 Partwise//EN\" "
@@ -77,14 +106,19 @@ private:
         if (!head_.composer.empty()) put("<creator type=\"composer\">{}</creator>\n", xml_escaped(head_.composer));
         const std::string software = head_.made.substr(0, head_.made.find(','));
         put("<encoding><software>{}</software>"
-            "<supports element=\"accidental\" type=\"yes\"/><supports element=\"beam\" type=\"no\"/></encoding>\n",
+            "<supports element=\"accidental\" type=\"yes\"/><supports element=\"beam\" type=\"yes\"/></encoding>\n",
             xml_escaped(software.empty() ? "sikku" : software));
+        if (!head_.source.empty()) put("<source>{}</source>\n", xml_escaped(head_.source));
         put("<miscellaneous>\n");
         put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", xml_escaped(head_.made));
         put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", xml_escaped(head_.pattern));
         put("</miscellaneous>\n</identification>\n<part-list>\n");
         for (std::size_t i = 0; i < head_.parts.size(); ++i) {
             const Part& part = head_.parts[i];
+            if (part.is_drums) {
+                write_drum_part(i);
+                continue;
+            }
             // Sixteen channels, of which the tenth is for drums.
             const std::size_t channel = i % 15 < 9 ? i % 15 + 1 : i % 15 + 2;
             put("<score-part id=\"P{0}\"><part-name>{1}</part-name>"
@@ -96,11 +130,42 @@ private:
         put("</part-list>\n");
     }
 
+    /// A part with an instrument for each drum that it uses.
+    void write_drum_part(std::size_t index) {
+        std::set<int> used;
+        for (const Staff& staff : notation_.parts[index].staves) {
+            for (const NotatedVoice& voice : staff.voices) {
+                for (const NotatedSymbol& symbol : voice.symbols) {
+                    if (symbol.drum > 0) used.insert(symbol.drum);
+                    for (const ChordNote& note : symbol.chord) {
+                        if (note.drum > 0) used.insert(note.drum);
+                    }
+                }
+            }
+        }
+        put("<score-part id=\"P{}\"><part-name>{}</part-name>", index + 1, xml_escaped(head_.parts[index].name));
+        for (const int key : used) {
+            put("<score-instrument id=\"P{}-I{}\"><instrument-name>{}</instrument-name></score-instrument>",
+                index + 1, key, drum_of(key).name);
+        }
+        for (const int key : used) {
+            put("<midi-instrument id=\"P{}-I{}\"><midi-channel>10</midi-channel><midi-program>1</midi-program>"
+                "<midi-unpitched>{}</midi-unpitched></midi-instrument>",
+                index + 1, key, key + 1);
+        }
+        put("</score-part>\n");
+    }
+
     void write_part(std::size_t index) {
+        part_ = index + 1;
         const NotatedPart& part = notation_.parts[index];
         put("<part id=\"P{}\">\n", index + 1);
         std::vector<std::vector<std::size_t>> next;  // of each staff and voice
-        for (const Staff& staff : part.staves) next.emplace_back(staff.voices.size(), 0);
+        std::vector<StaffState> states;
+        for (const Staff& staff : part.staves) {
+            next.emplace_back(staff.voices.size(), 0);
+            states.push_back({&staff, states.size(), staff.changes.front().clef});
+        }
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
             put("<measure number=\"{}\">\n", bar + 1);
             if (bar == 0) write_attributes(part, head_.parts[index]);
@@ -110,11 +175,15 @@ private:
                 for (std::size_t voice = 0; voice < part.staves[staff].voices.size(); ++voice) {
                     staff_ = part.staves.size() > 1 ? staff + 1 : 0;
                     voice_ = static_cast<int>(staff) * voices_per_staff + static_cast<int>(voice) + 1;
-                    write_bar(part.staves[staff].voices[voice].symbols, next[staff][voice], bar);
+                    write_bar(part.staves[staff].voices[voice], next[staff][voice], bar,
+                              voice == 0 ? &states[staff] : nullptr, part);
                 }
             }
             // A bar ends where its last voice did.
             go_to((bar + 1) * notation_.bar_length);
+            if (bar + 1 == notation_.bars) {
+                put("<barline location=\"right\"><bar-style>light-heavy</bar-style></barline>\n");
+            }
             put("</measure>\n");
             if (text_.size() > flush_bytes) flush();
         }
@@ -122,20 +191,47 @@ private:
     }
 
     void write_attributes(const NotatedPart& part, const Part& told) {
-        put("<attributes>\n<divisions>{}</divisions>\n", sixty_fourths_per_quarter);
-        if (told.key) {
-            put("<key><fifths>{}</fifths>{}</key>\n", told.key->fifths, told.key->minor ? "<mode>minor</mode>" : "");
+        put("<attributes>\n<divisions>{}</divisions>\n", ticks_per_quarter / unit_);
+        if (const auto key = printed_key(told)) {
+            static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
+                                                                      "minor",  "phrygian", "locrian"};
+            put("<key><fifths>{}</fifths><mode>{}</mode></key>\n", key->fifths,
+                modes[static_cast<std::size_t>(key->mode)]);
         } else {
             put("<key><fifths>0</fifths></key>\n");
         }
-        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", head_.meter.beats, head_.meter.unit);
+        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats(), head_.meter.unit);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
-        for (std::size_t i = 0; i < part.staves.size(); ++i) {
-            const std::string number = part.staves.size() > 1 ? fmt::format(" number=\"{}\"", i + 1) : "";
-            const bool treble = part.staves[i].clef == Clef::treble;
-            put("<clef{}><sign>{}</sign><line>{}</line></clef>\n", number, treble ? 'G' : 'F', treble ? 2 : 4);
-        }
+        if (part.bracket == Bracket::bracket) put("<part-symbol>bracket</part-symbol>\n");
+        for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
         put("</attributes>\n");
+    }
+
+    std::string beats() const {
+        if (head_.meter.groups[0] == 0) return std::to_string(head_.meter.beats);
+        std::string text;
+        for (const std::uint8_t group : head_.meter.groups) {
+            if (group != 0) text += fmt::format("{}{}", text.empty() ? "" : "+", group);
+        }
+        return text;
+    }
+
+    void write_clef(Clef clef, const NotatedPart& part, std::size_t staff) {
+        const std::string staff_number = part.staves.size() > 1 ? fmt::format(" number=\"{}\"", staff + 1) : "";
+        if (clef == Clef::percussion) {
+            put("<clef{}><sign>percussion</sign></clef>\n", staff_number);
+            return;
+        }
+        struct Sign {
+            char sign;
+            int line;
+            bool is_lower;
+        };
+        static constexpr std::array<Sign, 6> signs = {
+            {{'G', 2, false}, {'F', 4, false}, {'C', 3, false}, {'C', 4, false}, {'G', 2, true}, {'F', 4, true}}};
+        const Sign& sign = signs[static_cast<std::size_t>(clef)];
+        put("<clef{}><sign>{}</sign><line>{}</line>{}</clef>\n", staff_number, sign.sign, sign.line,
+            sign.is_lower ? "<clef-octave-change>-1</clef-octave-change>" : "");
     }
 
     void write_tempo() {
@@ -146,49 +242,156 @@ private:
     }
 
     void go_to(std::int64_t time) {
-        if (time < here_) put("<backup><duration>{}</duration></backup>\n", here_ - time);
-        if (time > here_) put("<forward><duration>{}</duration></forward>\n", time - here_);
+        if (time < here_) put("<backup><duration>{}</duration></backup>\n", (here_ - time) / unit_);
+        if (time > here_) put("<forward><duration>{}</duration></forward>\n", (time - here_) / unit_);
         here_ = time;
     }
 
-    void write_bar(const std::vector<NotatedSymbol>& symbols, std::size_t& next, std::int64_t bar) {
-        const std::int64_t end = (bar + 1) * notation_.bar_length;
-        for (; next < symbols.size() && symbols[next].onset < end; ++next) {
-            const NotatedSymbol& symbol = symbols[next];
-            if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
-            go_to(symbol.onset);
-            write_symbol(symbol);
-            here_ += symbol.length;
+    void write_direction(std::string_view type, std::string_view placement) {
+        put("<direction placement=\"{}\"><direction-type>{}</direction-type>", placement, type);
+        if (staff_ > 0) put("<staff>{}</staff>", staff_);
+        put("</direction>\n");
+    }
+
+    /// Writes clefs, lines of 8va and dynamics that begin before `end`.
+    void write_changes(StaffState& state, std::int64_t end, const NotatedPart& part) {
+        const Staff& staff = *state.staff;
+        for (; state.change < staff.changes.size() && staff.changes[state.change].onset < end; ++state.change) {
+            const StaffChange& change = staff.changes[state.change];
+            go_to(change.onset);
+            if (change.clef != state.clef) {
+                put("<attributes>\n");
+                write_clef(change.clef, part, state.index);
+                put("</attributes>\n");
+            }
+            if (change.octaves != state.octaves) {
+                if (state.octaves != 0) write_shift(state, "stop", state.octaves);
+                if (change.octaves != 0) write_shift(state, change.octaves > 0 ? "down" : "up", change.octaves);
+            }
+            state.clef = change.clef;
+            state.octaves = change.octaves;
+        }
+        for (; state.mark < staff.dynamics.size() && staff.dynamics[state.mark].onset < end; ++state.mark) {
+            const DynamicMark& mark = staff.dynamics[state.mark];
+            go_to(mark.onset);
+            if (state.is_hairpin) write_direction("<wedge type=\"stop\"/>", "below");
+            state.is_hairpin = mark.kind != DynamicMark::Kind::level;
+            if (state.is_hairpin) {
+                const bool rises = mark.kind == DynamicMark::Kind::crescendo;
+                write_direction(fmt::format("<wedge type=\"{}\"/>", rises ? "crescendo" : "diminuendo"), "below");
+            } else {
+                write_direction(fmt::format("<dynamics><{}/></dynamics>", dynamic_name(mark.level)), "below");
+            }
         }
     }
 
-    void write_symbol(const NotatedSymbol& symbol) {
+    void write_shift(const StaffState& state, std::string_view type, int octaves) {
+        write_direction(fmt::format("<octave-shift type=\"{}\" size=\"{}\" number=\"{}\"/>", type,
+                                    std::abs(octaves) == 2 ? 15 : 8, state.index % 16 + 1),
+                        octaves > 0 ? "above" : "below");
+    }
+
+    void write_bar(const NotatedVoice& voice, std::size_t& next, std::int64_t bar, StaffState* state,
+                   const NotatedPart& part) {
+        const std::int64_t end = (bar + 1) * notation_.bar_length;
+        for (; next < voice.symbols.size() && voice.symbols[next].onset < end; ++next) {
+            const NotatedSymbol& symbol = voice.symbols[next];
+            if (state) write_changes(*state, symbol.onset + symbol.length, part);
+            if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
+            go_to(symbol.onset);
+            if (symbol.cents != 0) {
+                write_direction(fmt::format("<words font-size=\"7\">{:+}</words>", symbol.cents), "above");
+            }
+            write_symbol(symbol, voice);
+            for (const ChordNote& note : symbol.chord) write_chord_note(symbol, note, voice);
+            here_ += symbol.length;
+        }
+        if (state && bar + 1 == notation_.bars && state->octaves != 0) {
+            go_to(end);
+            write_shift(*state, "stop", state->octaves);
+            state->octaves = 0;
+        }
+    }
+
+    /// A further note of a chord: as its first note, but without what is written once.
+    void write_chord_note(const NotatedSymbol& first, const ChordNote& note, const NotatedVoice& voice) {
+        NotatedSymbol symbol = first;
+        symbol.pitch = note.pitch;
+        symbol.drum = note.drum;
+        symbol.has_sign = note.has_sign;
+        symbol.is_accented = symbol.begins_slide = symbol.ends_slide = false;
+        symbol.beams = {};
+        write_symbol(symbol, voice, true);
+    }
+
+    void write_symbol(const NotatedSymbol& symbol, const NotatedVoice& voice, bool is_chord = false) {
         const bool is_note = symbol.kind == SymbolKind::note;
-        put("<note{}>", symbol.kind == SymbolKind::gap ? " print-object=\"no\"" : "");
+        put("<note{}>{}", symbol.kind == SymbolKind::gap ? " print-object=\"no\"" : "", is_chord ? "<chord/>" : "");
         if (is_note) {
             write_pitch(symbol);
         } else {
             put("{}", symbol.kind == SymbolKind::bar_rest ? "<rest measure=\"yes\"/>" : "<rest/>");
         }
-        put("<duration>{}</duration>", symbol.length);
+        put("<duration>{}</duration>", symbol.length / unit_);
         if (is_note && symbol.tied_back) put("<tie type=\"stop\"/>");
         if (is_note && symbol.tied_forward) put("<tie type=\"start\"/>");
+        if (symbol.drum > 0) put("<instrument id=\"P{}-I{}\"/>", part_, symbol.drum);
         put("<voice>{}</voice>", voice_);
         if (symbol.kind != SymbolKind::bar_rest) {
-            const NoteValue value = note_value(symbol.length);
-            put("<type>{}</type>{}", type_name(value.divisor), value.dotted ? "<dot/>" : "");
+            put("<type>{}</type>{}", type_name(symbol.value.divisor), symbol.value.dotted ? "<dot/>" : "");
         }
         if (is_note && symbol.has_sign) put("<accidental>{}</accidental>", accidental_name(symbol.pitch.quarters));
-        if (staff_ > 0) put("<staff>{}</staff>", staff_);
-        if (is_note && (symbol.tied_back || symbol.tied_forward)) {
-            put("<notations>{}{}</notations>", symbol.tied_back ? "<tied type=\"stop\"/>" : "",
-                symbol.tied_forward ? "<tied type=\"start\"/>" : "");
+        const TupletSpan* tuplet =
+            symbol.tuplet >= 0 ? &voice.tuplets[static_cast<std::size_t>(symbol.tuplet)] : nullptr;
+        if (tuplet) {
+            put("<time-modification><actual-notes>{}</actual-notes><normal-notes>{}</normal-notes>"
+                "<normal-type>{}</normal-type></time-modification>",
+                tuplet->actual, tuplet->normal, type_name(tuplet->divisor));
         }
+        if (symbol.drum > 0) {
+            static constexpr std::array<std::string_view, 4> heads = {"normal", "x", "diamond", "triangle"};
+            const NoteHead head = drum_of(symbol.drum).head;
+            if (head != NoteHead::normal) put("<notehead>{}</notehead>", heads[static_cast<std::size_t>(head)]);
+        }
+        if (staff_ > 0) put("<staff>{}</staff>", staff_);
+        write_beams(symbol);
+        write_notations(symbol, is_chord ? nullptr : tuplet);
         put("</note>\n");
+    }
+
+    void write_beams(const NotatedSymbol& symbol) {
+        static constexpr std::array<std::string_view, 6> names = {"",    "begin",        "continue",
+                                                                  "end", "forward hook", "backward hook"};
+        for (std::size_t i = 0; i < symbol.beams.size() && symbol.beams[i] != Beam::none; ++i) {
+            put("<beam number=\"{}\">{}</beam>", i + 1, names[static_cast<std::size_t>(symbol.beams[i])]);
+        }
+    }
+
+    void write_notations(const NotatedSymbol& symbol, const TupletSpan* tuplet) {
+        const bool is_first = tuplet && tuplet->from == symbol.onset;
+        const bool is_last = tuplet && tuplet->to == symbol.onset + symbol.length;
+        if (!symbol.tied_back && !symbol.tied_forward && !is_first && !is_last && !symbol.is_accented &&
+            !symbol.begins_slide && !symbol.ends_slide) {
+            return;
+        }
+        put("<notations>{}{}", symbol.tied_back ? "<tied type=\"stop\"/>" : "",
+            symbol.tied_forward ? "<tied type=\"start\"/>" : "");
+        if (is_first) put("<tuplet type=\"start\"/>");
+        if (is_last) put("<tuplet type=\"stop\"/>");
+        const int slide = (voice_ - 1) % 6 + 1;
+        if (symbol.ends_slide) put("<slide type=\"stop\" number=\"{}\"/>", slide);
+        if (symbol.begins_slide) put("<slide type=\"start\" number=\"{}\" line-type=\"solid\"/>", slide);
+        if (symbol.is_accented) put("<articulations><accent/></articulations>");
+        put("</notations>");
     }
 
     void write_pitch(const NotatedSymbol& symbol) {
         const Pitch& pitch = symbol.pitch;
+        if (symbol.drum > 0) {
+            put("<unpitched><display-step>{}</display-step><display-octave>{}</display-octave></unpitched>",
+                "CDEFGAB"[pitch.letter], pitch.octave);
+            return;
+        }
         if (pitch.octave < 0) {
             throw ScoreError(fmt::format("bar {} has a note below C0, the lowest that MusicXML can tell",
                                          symbol.onset / notation_.bar_length + 1));
@@ -202,7 +405,9 @@ private:
     const ScoreHead& head_;
     Output& sink_;
     fmt::memory_buffer text_;
-    std::int64_t here_ = 0;  ///< where the reader is, in 64ths
+    std::int64_t unit_ = 1;  ///< ticks of a division
+    std::int64_t here_ = 0;  ///< where the reader is, in ticks
+    std::size_t part_ = 1;   ///< from 1
     std::size_t staff_ = 0;  ///< from 1; 0 if there is but one
     int voice_ = 1;
 };

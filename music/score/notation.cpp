@@ -1,12 +1,14 @@
 #include "music/score/notation.h"
 
+#include "music/score/drums.h"
+#include "music/score/dynamics.h"
 #include "music/score/spelling.h"
+#include "music/score/staves.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,87 +17,181 @@ namespace {
 
 constexpr std::size_t most_notes = 200'000;
 constexpr std::int64_t most_bars = 100'000;
-constexpr double middle_c = 60.0;
-constexpr double two_octaves = 24.0;
-constexpr std::size_t voices_per_staff = 4;
 constexpr double unheard = 0.01;  // semitones
-
-/// In 64ths, longest first. A dotted 64th would need 128ths.
-constexpr std::array<std::int64_t, 13> printable_list = {96, 64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1};
-
-std::int64_t nearest_64th(std::int64_t ticks) {
-    return (ticks + ticks_per_sixty_fourth / 2) / ticks_per_sixty_fourth;
-}
-
-/// Where the beats of a meter are, in 64ths.
-struct Beats {
-    std::int64_t bar;
-    std::int64_t beat;
-    std::int64_t middle;  ///< the bar's length if it has no middle
-    bool dotted;          ///< three units make a beat
-
-    explicit Beats(const Meter& meter)
-        : bar(64 * meter.beats / meter.unit), dotted(meter.beats > 3 && meter.beats % 3 == 0 && meter.unit >= 8) {
-        beat = dotted ? 3 * 64 / meter.unit : 64 / meter.unit;
-        middle = (bar / beat) % 2 == 0 ? bar / 2 : bar;
-    }
-
-    bool fits(std::int64_t from, std::int64_t to) const {
-        const bool on_beat = from % beat == 0;
-        if (dotted) {
-            const std::int64_t beat_end = (from / beat + 1) * beat;
-            return to <= beat_end || (on_beat && to % beat == 0);
-        }
-        if (on_beat) return true;
-        if (from < middle && to > middle) return false;
-        // The largest power of two in `from` is its metrical place.
-        const std::int64_t wider = 4 * (from & -from);
-        return to <= (from / wider + 1) * wider;
-    }
-};
-
-double median(std::vector<double> keys) {
-    const auto middle = keys.begin() + static_cast<std::ptrdiff_t>(keys.size() / 2);
-    std::nth_element(keys.begin(), middle, keys.end());
-    return *middle;
-}
 
 /// Says which notes need their sign printed: signs hold to the end of the bar, for their octave, in all voices of the
 /// staff; a note tied over the bar line needs none and sets none.
 void set_signs(Staff& staff, const std::array<int, 7>& key, std::int64_t bar) {
-    std::vector<NotatedSymbol*> notes;
+    struct Head {
+        std::int64_t onset;
+        const Pitch* pitch;
+        bool* has_sign;
+    };
+    std::vector<Head> notes;
     for (NotatedVoice& voice : staff.voices) {
         for (NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.kind == SymbolKind::note && !symbol.tied_back) notes.push_back(&symbol);
+            if (symbol.kind != SymbolKind::note || symbol.tied_back) continue;
+            notes.push_back({symbol.onset, &symbol.pitch, &symbol.has_sign});
+            for (ChordNote& other : symbol.chord) notes.push_back({symbol.onset, &other.pitch, &other.has_sign});
         }
     }
-    std::stable_sort(notes.begin(), notes.end(),
-                     [](const NotatedSymbol* a, const NotatedSymbol* b) { return a->onset < b->onset; });
+    std::stable_sort(notes.begin(), notes.end(), [](const Head& a, const Head& b) { return a.onset < b.onset; });
     std::int64_t current_bar = -1;
     std::map<std::pair<int, int>, int> in_force;
-    for (NotatedSymbol* note : notes) {
-        if (note->onset / bar != current_bar) {
-            current_bar = note->onset / bar;
+    for (const Head& note : notes) {
+        if (note.onset / bar != current_bar) {
+            current_bar = note.onset / bar;
             in_force.clear();
         }
-        const Pitch& pitch = note->pitch;
+        const Pitch& pitch = *note.pitch;
         const auto [entry, is_new] =
             in_force.try_emplace({pitch.octave, pitch.letter}, 2 * key[static_cast<std::size_t>(pitch.letter)]);
-        note->has_sign = entry->second != pitch.quarters;
+        *note.has_sign = entry->second != pitch.quarters;
         entry->second = pitch.quarters;
     }
+}
+
+/// Says which notes have their deviation printed: as signs, once in a bar.
+void set_cents(Staff& staff, std::int64_t bar) {
+    for (NotatedVoice& voice : staff.voices) {
+        std::int64_t current_bar = -1;
+        std::map<std::pair<int, int>, int> in_force;
+        for (NotatedSymbol& symbol : voice.symbols) {
+            if (symbol.kind != SymbolKind::note) continue;
+            if (symbol.onset / bar != current_bar) {
+                current_bar = symbol.onset / bar;
+                in_force.clear();
+            }
+            int& last = in_force[{symbol.pitch.height(), symbol.pitch.quarters}];
+            const int cents = symbol.cents;
+            if (symbol.tied_back || cents == last) symbol.cents = 0;
+            last = cents;
+        }
+    }
+}
+
+/// A bar's rest is printed once, and not where another voice sounds; rests of more than two voices have no room.
+void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
+    std::vector<bool> has_notes(static_cast<std::size_t>(bars), false);
+    const auto bar_of = [&](const NotatedSymbol& symbol) {
+        return static_cast<std::size_t>(symbol.onset / bar_length);
+    };
+    for (const NotatedVoice& voice : staff.voices) {
+        for (const NotatedSymbol& symbol : voice.symbols) {
+            if (symbol.kind != SymbolKind::bar_rest) has_notes[bar_of(symbol)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < staff.voices.size(); ++i) {
+        for (NotatedSymbol& symbol : staff.voices[i].symbols) {
+            if (symbol.kind == SymbolKind::bar_rest && (i > 0 || has_notes[bar_of(symbol)])) {
+                symbol.kind = SymbolKind::gap;
+            }
+            if (symbol.kind == SymbolKind::rest && i > 1) symbol.kind = SymbolKind::gap;
+        }
+    }
+}
+
+/// Moves notes to the grid. Returns how many moved.
+std::uint64_t snap(std::vector<Note>& notes, const Grid& grid) {
+    std::uint64_t moved = 0;
+    std::int64_t free = 0;
+    for (Note& note : notes) {
+        const std::int64_t onset = std::max(grid.nearest(note.onset), free);
+        const std::int64_t end = std::max(grid.nearest(note.onset + note.duration), grid.after(onset));
+        if (onset != note.onset || end != note.onset + note.duration) ++moved;
+        note.onset = onset;
+        note.duration = end - onset;
+        free = end;
+    }
+    return moved;
+}
+
+Grid grid_of(std::span<const Note> notes, const Meter& meter) {
+    std::vector<std::int64_t> times;
+    for (const Note& note : notes) {
+        if (times.empty() || times.back() != note.onset) times.push_back(note.onset);
+        times.push_back(note.onset + note.duration);
+    }
+    std::sort(times.begin(), times.end());
+    return Grid(times, meter);
+}
+
+/// Writes the notes and rests of one voice, one after the other.
+class VoiceWriter {
+public:
+    VoiceWriter(const Grid& grid, const Meter& meter, NotatedVoice& voice)
+        : grid_(grid), meter_(meter), bar_(meter.bar()), voice_(voice) {}
+
+    /// Writes a note, or a rest without `note`, up to `end`.
+    void add(std::int64_t end, const NotatedSymbol* note) {
+        const std::int64_t begin = here_;
+        while (here_ < end) {
+            const std::int64_t bar_begin = here_ / bar_ * bar_;
+            std::int64_t piece_end = std::min(end, bar_begin + bar_);
+            if (!note && piece_end - here_ == bar_) {
+                put({{bar_, {}}}, SymbolKind::bar_rest, -1);
+                continue;
+            }
+            const std::size_t at = grid_.tuplet_from(here_);
+            const std::vector<TupletSpan>& tuplets = grid_.tuplets();
+            const bool is_inside = at < tuplets.size() && tuplets[at].from <= here_;
+            if (at < tuplets.size()) piece_end = std::min(piece_end, is_inside ? tuplets[at].to : tuplets[at].from);
+            const std::size_t first = voice_.symbols.size();
+            if (is_inside) {
+                put(written_values(here_, piece_end, tuplets[at]), SymbolKind::rest, static_cast<int>(at));
+            } else {
+                put(written_values(here_ - bar_begin, piece_end - bar_begin, meter_), SymbolKind::rest, -1);
+            }
+            for (std::size_t i = first; note && i < voice_.symbols.size(); ++i) {
+                NotatedSymbol& symbol = voice_.symbols[i];
+                symbol.kind = SymbolKind::note;
+                symbol.pitch = note->pitch;
+                symbol.drum = note->drum;
+                symbol.chord = note->chord;
+                symbol.cents = note->cents;
+                symbol.tied_back = symbol.onset > begin;
+                symbol.tied_forward = symbol.onset + symbol.length < end;
+                symbol.is_accented = note->is_accented && !symbol.tied_back;
+                symbol.begins_slide = note->begins_slide && !symbol.tied_forward;
+                symbol.ends_slide = note->ends_slide && !symbol.tied_back;
+            }
+        }
+    }
+
+private:
+    void put(const std::vector<WrittenValue>& values, SymbolKind kind, int tuplet) {
+        for (const WrittenValue& value : values) {
+            NotatedSymbol& symbol = voice_.symbols.emplace_back();
+            symbol.onset = here_;
+            symbol.length = value.length;
+            symbol.value = value.value;
+            symbol.kind = kind;
+            symbol.tuplet = tuplet;
+            here_ += value.length;
+        }
+    }
+
+    const Grid& grid_;
+    const Meter& meter_;
+    std::int64_t bar_;
+    NotatedVoice& voice_;
+    std::int64_t here_ = 0;
+};
+
+void beam(NotatedVoice& voice, const Meter& meter) {
+    std::vector<BeamedNote> notes;
+    for (const NotatedSymbol& symbol : voice.symbols) {
+        notes.push_back(
+            {symbol.onset, symbol.length, symbol.value, symbol.kind == SymbolKind::note, symbol.tuplet, {}});
+    }
+    set_beams(notes, voice.tuplets, meter);
+    for (std::size_t i = 0; i < notes.size(); ++i) voice.symbols[i].beams = notes[i].beams;
 }
 
 }  // namespace
 
 double Pitch::key() const {
     return 12 * (octave + 1) + letter_semitones(letter) + 0.5 * quarters;
-}
-
-NoteValue note_value(std::int64_t length) {
-    // 3, 6, 12, … are the dotted ones.
-    const bool dotted = length % 3 == 0;
-    return {static_cast<int>(64 / (dotted ? length / 3 * 2 : length)), dotted};
 }
 
 Pitch spelled(double key, const std::array<Spelling, 12>& spelling) {
@@ -113,18 +209,8 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling) {
     return std::abs(raised.quarters) < std::abs(lowered.quarters) ? raised : lowered;
 }
 
-std::vector<std::int64_t> printable_lengths(std::int64_t from, std::int64_t to, const Meter& meter) {
-    const Beats beats(meter);
-    std::vector<std::int64_t> lengths;
-    while (from < to) {
-        // A 64th always fits.
-        const auto length = std::find_if(
-            printable_list.begin(), printable_list.end() - 1,
-            [&](std::int64_t candidate) { return from + candidate <= to && beats.fits(from, from + candidate); });
-        lengths.push_back(*length);
-        from += *length;
-    }
-    return lengths;
+std::optional<KeySignature> printed_key(const Part& part) {
+    return part.signature ? part.signature : part.key;
 }
 
 std::array<int, 7> signs_of(const std::optional<KeySignature>& key) {
@@ -142,7 +228,7 @@ Notator::Notator(const ScoreHead& head) : parts_(head.parts), meter_(head.meter)
     std::size_t voices = 0;
     for (const Part& part : parts_) voices += static_cast<std::size_t>(part.voices);
     voices_.resize(voices);
-    notation_.bar_length = Beats(meter_).bar;
+    notation_.bar_length = meter_.bar();
 }
 
 void Notator::notes(std::span<const Note> notes) {
@@ -154,23 +240,21 @@ void Notator::notes(std::span<const Note> notes) {
         if (note.voice < 0 || static_cast<std::size_t>(note.voice) >= voices_.size()) {
             throw ScoreError(fmt::format("voice {} belongs to no part of the score", note.voice + 1));
         }
-        auto& voice = voices_[static_cast<std::size_t>(note.voice)];
-        Placed placed{nearest_64th(note.onset), nearest_64th(note.onset + note.duration), note.key};
-        if (!voice.empty()) placed.onset = std::max(placed.onset, voice.back().end);
-        placed.end = std::max(placed.end, placed.onset + 1);
-        if (placed.onset * ticks_per_sixty_fourth != note.onset ||
-            placed.end * ticks_per_sixty_fourth != note.onset + note.duration) {
-            ++notation_.moved;
-        }
         if (std::fabs(2 * note.key - std::round(2 * note.key)) > 2 * unheard) ++notation_.bent;
-        voice.push_back(placed);
+        voices_[static_cast<std::size_t>(note.voice)].push_back(note);
     }
 }
 
 void Notator::finish(std::int64_t end) {
-    std::int64_t last = nearest_64th(end);
-    for (const auto& voice : voices_) {
-        if (!voice.empty()) last = std::max(last, voice.back().end);
+    std::size_t first_voice = 0;
+    for (const Part& part : parts_) {
+        if (part.has_chords) gather_chords(part, first_voice);
+        first_voice += static_cast<std::size_t>(part.voices);
+    }
+    std::int64_t last = (end + shortest_value / 2) / shortest_value * shortest_value;
+    for (auto& voice : voices_) {
+        notation_.moved += snap(voice, grid_of(voice, meter_));
+        if (!voice.empty()) last = std::max(last, voice.back().onset + voice.back().duration);
     }
     const std::int64_t bar = notation_.bar_length;
     notation_.bars = std::max<std::int64_t>(1, (last + bar - 1) / bar);
@@ -178,144 +262,143 @@ void Notator::finish(std::int64_t end) {
         throw ScoreError(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
                                      notation_.bars, most_bars));
     }
-    std::size_t first_voice = 0;
-    for (std::size_t part = 0; part < parts_.size(); ++part) {
+    first_voice = 0;
+    for (const Part& part : parts_) {
         notate_part(part, first_voice);
-        first_voice += static_cast<std::size_t>(parts_[part].voices);
+        first_voice += static_cast<std::size_t>(part.voices);
     }
 }
 
-void Notator::notate_part(std::size_t part, std::size_t first_voice) {
-    const Part& told = parts_[part];
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const auto voices = static_cast<std::size_t>(told.voices);
-    double lowest = infinity;
-    double highest = -infinity;
-    std::size_t sounding = 0;
-    for (std::size_t i = 0; i < voices; ++i) {
-        const auto& notes = voices_[first_voice + i];
-        if (!notes.empty()) ++sounding;
-        for (const Placed& note : notes) {
-            lowest = std::min(lowest, note.key);
-            highest = std::max(highest, note.key);
-        }
-    }
-
-    auto& staves = notation_.parts.emplace_back().staves;
-    if (sounding > voices_per_staff) {
-        for (std::size_t i = 0; i < voices;) {
-            std::size_t count = 0;
-            std::size_t taken = 0;
-            while (i + taken < voices && count < voices_per_staff) {
-                if (!voices_[first_voice + i + taken++].empty()) ++count;
-            }
-            if (count > 0) staves.push_back(make_staff(told, first_voice + i, taken, -infinity, infinity));
-            i += taken;
-        }
-    } else if (highest - lowest > two_octaves && lowest < middle_c && highest >= middle_c) {
-        staves.push_back(make_staff(told, first_voice, voices, middle_c, infinity));
-        staves.push_back(make_staff(told, first_voice, voices, -infinity, middle_c));
-        staves[0].clef = Clef::treble;
-        staves[1].clef = Clef::bass;
-    } else {
-        staves.push_back(make_staff(told, first_voice, voices, -infinity, infinity));
-    }
-    for (Staff& staff : staves) set_signs(staff, signs_of(told.key), notation_.bar_length);
-}
-
-/// A staff of those notes of the voices whose keys lie from `low` up to, without, `high`.
-Staff Notator::make_staff(const Part& part, std::size_t first_voice, std::size_t voices, double low,
-                          double high) const {
-    Staff staff;
-    std::vector<double> keys;
-    std::vector<Placed> notes;
-    for (std::size_t i = first_voice; i < first_voice + voices; ++i) {
-        notes.clear();
-        for (const Placed& note : voices_[i]) {
-            if (note.key < low || note.key >= high) continue;
-            notes.push_back(note);
-            keys.push_back(note.key);
-        }
-        if (!notes.empty()) staff.voices.push_back({static_cast<int>(i), fill(notes, part)});
-    }
-    if (staff.voices.empty()) staff.voices.push_back({static_cast<int>(first_voice), fill({}, part)});
-    if (!keys.empty() && median(std::move(keys)) < middle_c) staff.clef = Clef::bass;
-
-    // A bar's rest is printed once, and not where another voice sounds; rests of more than two voices have no room.
-    const auto bars = static_cast<std::size_t>(notation_.bars);
-    std::vector<bool> has_notes(bars, false);
-    for (const NotatedVoice& voice : staff.voices) {
-        for (const NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.kind != SymbolKind::bar_rest) {
-                has_notes[static_cast<std::size_t>(symbol.onset / notation_.bar_length)] = true;
+/// Takes notes that begin with the same symbol as one of a voice before out of their voices.
+void Notator::gather_chords(const Part& part, std::size_t first_voice) {
+    std::map<std::pair<std::uint64_t, std::int64_t>, const Note*> first;
+    for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(part.voices); ++i) {
+        std::vector<Note> kept;
+        for (const Note& note : voices_[i]) {
+            const std::pair place(note.symbol, note.onset);
+            const auto known = first.find(place);
+            if (note.symbol == 0 || known == first.end() || known->second->duration != note.duration) {
+                kept.push_back(note);
+            } else {
+                chords_[place].push_back(note.key);
             }
         }
+        voices_[i] = std::move(kept);
+        for (const Note& note : voices_[i]) first.try_emplace({note.symbol, note.onset}, &note);
     }
-    for (std::size_t i = 0; i < staff.voices.size(); ++i) {
-        for (NotatedSymbol& symbol : staff.voices[i].symbols) {
-            if (symbol.kind == SymbolKind::bar_rest &&
-                (i > 0 || has_notes[static_cast<std::size_t>(symbol.onset / notation_.bar_length)])) {
-                symbol.kind = SymbolKind::gap;
-            }
-            if (symbol.kind == SymbolKind::rest && i > 1) symbol.kind = SymbolKind::gap;
+}
+
+/// Drums have one staff for up to four voices, the highest first.
+void Notator::notate_drums(const Part& part, std::size_t first_voice) {
+    constexpr std::size_t voices_per_staff = 4;
+    const auto height = [](const std::vector<Note>& notes) {
+        double sum = 0;
+        for (const Note& note : notes) {
+            const Drum& drum = drum_of(static_cast<int>(std::lround(note.key)));
+            sum += Pitch{drum.letter, drum.octave, 0}.height();
         }
+        return sum / static_cast<double>(notes.size());
+    };
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(part.voices); ++i) {
+        if (!voices_[i].empty()) order.emplace_back(-height(voices_[i]), i);
     }
-    return staff;
+    if (order.empty()) order.emplace_back(0, first_voice);
+    std::sort(order.begin(), order.end());
+    NotatedPart& notated = notation_.parts.emplace_back();
+    if (order.size() > voices_per_staff) notated.bracket = Bracket::bracket;
+    for (std::size_t begin = 0; begin < order.size(); begin += voices_per_staff) {
+        Staff& staff = notated.staves.emplace_back();
+        staff.changes = {{0, Clef::percussion, 0}};
+        std::vector<Note> together;
+        for (std::size_t i = begin; i < std::min(order.size(), begin + voices_per_staff); ++i) {
+            const std::vector<Note>& notes = voices_[order[i].second];
+            staff.voices.push_back(fill(static_cast<int>(order[i].second), notes, part));
+            together.insert(together.end(), notes.begin(), notes.end());
+        }
+        hide_rests(staff, notation_.bars, notation_.bar_length);
+        std::stable_sort(together.begin(), together.end(),
+                         [](const Note& a, const Note& b) { return a.onset < b.onset; });
+        staff.dynamics = dynamics_of(together, notation_.bar_length);
+    }
 }
 
-std::vector<NotatedSymbol> Notator::fill(std::span<const Placed> notes, const Part& part) const {
-    std::vector<NotatedSymbol> symbols;
-    std::int64_t here = 0;
-    for (const Placed& note : notes) {
-        add_rests(symbols, here, note.onset);
-        add_note(symbols, note.onset, note.end, spelled(note.key, part.spelling));
-        here = note.end;
+void Notator::notate_part(const Part& part, std::size_t first_voice) {
+    if (part.is_drums) return notate_drums(part, first_voice);
+    const auto voices = std::span(voices_).subspan(first_voice, static_cast<std::size_t>(part.voices));
+    PartPlan plan = plan_staves(part, voices, static_cast<int>(first_voice), notation_.bar_length);
+    notation_.merged += plan.merged;
+    if (plan.staves.empty()) plan.staves.push_back({{{static_cast<int>(first_voice), {}}}, {}});
+    NotatedPart& notated = notation_.parts.emplace_back();
+    notated.bracket = plan.bracket;
+    std::vector<Note> together;  // of all staves for two hands
+    for (const StaffPlan& planned : plan.staves) {
+        Staff& staff = notated.staves.emplace_back();
+        if (plan.bracket != Bracket::brace) together.clear();
+        for (const StaffVoice& voice : planned.voices) {
+            staff.voices.push_back(fill(voice.voice, voice.notes, part));
+            together.insert(together.end(), voice.notes.begin(), voice.notes.end());
+        }
+        staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
+        hide_rests(staff, notation_.bars, notation_.bar_length);
+        set_signs(staff, signs_of(printed_key(part)), notation_.bar_length);
+        set_cents(staff, notation_.bar_length);
+        std::stable_sort(together.begin(), together.end(),
+                         [](const Note& a, const Note& b) { return a.onset < b.onset; });
+        Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
+        marked.dynamics = dynamics_of(together, notation_.bar_length);
     }
-    add_rests(symbols, here, notation_.bars * notation_.bar_length);
-    return symbols;
 }
 
-void Notator::add_rests(std::vector<NotatedSymbol>& symbols, std::int64_t from, std::int64_t to) const {
-    const std::int64_t bar = notation_.bar_length;
-    while (from < to) {
-        const std::int64_t bar_begin = from / bar * bar;
-        const std::int64_t piece_end = std::min(to, bar_begin + bar);
+NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part) {
+    const Grid grid = grid_of(notes, meter_);
+    std::vector<std::vector<double>> chords(notes.size());
+    for (std::size_t i = 0; i < notes.size() && !chords_.empty(); ++i) {
+        const auto chord = chords_.find({notes[i].symbol, notes[i].onset});
+        if (chord != chords_.end()) chords[i] = chord->second;
+    }
+    // Notes that come from several voices may lie on several grids.
+    notation_.moved += snap(notes, grid);
+    const std::int64_t end = notation_.bars * notation_.bar_length;
+    while (!notes.empty() && notes.back().onset >= end) notes.pop_back();
+    if (!notes.empty()) notes.back().duration = std::min(notes.back().duration, end - notes.back().onset);
+    NotatedVoice voice;
+    voice.voice = number;
+    voice.tuplets = grid.tuplets();
+    VoiceWriter writer(grid, meter_, voice);
+    const std::vector<bool> accents = accents_of(notes, notation_.bar_length);
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const Note& note = notes[i];
         NotatedSymbol symbol;
-        if (piece_end - from == bar) {
-            symbol.kind = SymbolKind::bar_rest;
-            symbol.onset = from;
-            symbol.length = bar;
-            symbols.push_back(symbol);
-        } else {
-            for (const std::int64_t length : printable_lengths(from - bar_begin, piece_end - bar_begin, meter_)) {
-                symbol.onset = from;
-                symbol.length = length;
-                symbols.push_back(symbol);
-                from += length;
+        symbol.is_accented = accents[i];
+        const auto meets = [&](std::size_t one) {
+            return one + 1 < notes.size() && notes[one].is_sliding &&
+                   notes[one].onset + notes[one].duration == notes[one + 1].onset;
+        };
+        symbol.begins_slide = meets(i);
+        symbol.ends_slide = i > 0 && meets(i - 1);
+        if (part.is_drums) {
+            const Drum& drum = drum_of(static_cast<int>(std::lround(note.key)));
+            symbol.drum = drum.key;
+            symbol.pitch = {drum.letter, drum.octave, 0};
+            for (const double key : chords[i]) {
+                const Drum& other = drum_of(static_cast<int>(std::lround(key)));
+                symbol.chord.push_back({{other.letter, other.octave, 0}, other.key, false});
             }
+            writer.add(note.onset, nullptr);
+            writer.add(note.onset + note.duration, &symbol);
+            continue;
         }
-        from = piece_end;
+        symbol.pitch = spelled(note.key, part.spelling);
+        const double away = note.key - symbol.pitch.key();
+        if (std::fabs(away) > unheard) symbol.cents = static_cast<int>(std::lround(100 * away));
+        for (const double key : chords[i]) symbol.chord.push_back({spelled(key, part.spelling), 0, false});
+        writer.add(note.onset, nullptr);
+        writer.add(note.onset + note.duration, &symbol);
     }
-}
-
-void Notator::add_note(std::vector<NotatedSymbol>& symbols, std::int64_t from, std::int64_t to, Pitch pitch) const {
-    const std::int64_t bar = notation_.bar_length;
-    const std::int64_t begin = from;
-    while (from < to) {
-        const std::int64_t bar_begin = from / bar * bar;
-        const std::int64_t piece_end = std::min(to, bar_begin + bar);
-        for (const std::int64_t length : printable_lengths(from - bar_begin, piece_end - bar_begin, meter_)) {
-            NotatedSymbol symbol;
-            symbol.kind = SymbolKind::note;
-            symbol.onset = from;
-            symbol.length = length;
-            symbol.tied_back = from > begin;
-            symbol.tied_forward = from + length < to;
-            symbol.pitch = pitch;
-            symbols.push_back(symbol);
-            from += length;
-        }
-    }
+    writer.add(end, nullptr);
+    beam(voice, meter_);
+    return voice;
 }
 
 }  // namespace sikku

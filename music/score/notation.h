@@ -1,21 +1,19 @@
-// music/score/notation.h: arranges notes in bars: printable lengths, ties, rests, staves, signs.
+// music/score/notation.h: arranges notes in bars: note values, tuplets, ties, rests, staves, clefs, signs, dynamics.
 #pragma once
 
+#include "music/score/rhythm.h"
 #include "music/score/score.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
-
-/// All times here are counted in 64th notes from the beginning of the score.
-constexpr std::int64_t sixty_fourths_per_quarter = 16;
-constexpr std::int64_t ticks_per_sixty_fourth = ticks_per_quarter / sixty_fourths_per_quarter;
 
 /// A pitch as it is written. `quarters`: what its sign adds, in quarter tones, -4 (two flats) to 4 (two sharps).
 struct Pitch {
@@ -25,6 +23,8 @@ struct Pitch {
 
     /// The MIDI key.
     double key() const;
+    /// Letters above C0.
+    int height() const { return 7 * octave + letter; }
     bool operator==(const Pitch&) const = default;
 };
 
@@ -35,62 +35,92 @@ enum class SymbolKind {
     gap        ///< a rest that is not printed: a bar that other voices of the staff fill, or one of a third voice
 };
 
-/// A note or a rest of a length that has a sign of its own: a power of two from a 64th to a whole, or half as much
-/// again. (Lengths of bar rests and gaps are those of bars.) Notes longer than that, and notes across a bar line,
-/// are several, tied.
+/// Another note of a chord.
+struct ChordNote {
+    Pitch pitch;
+    int drum = 0;  ///< as in NotatedSymbol
+    bool has_sign = false;
+};
+
+/// A note or a rest with a note value. (Lengths of bar rests and gaps may be those of bars.) Notes longer than that,
+/// and notes across a bar line or the end of a tuplet, are several, tied.
 struct NotatedSymbol {
-    std::int64_t onset = 0;
-    std::int64_t length = 1;
+    std::int64_t onset = 0;   ///< ticks
+    std::int64_t length = 1;  ///< ticks, those of its value, or fewer in a tuplet
+    NoteValue value;
     SymbolKind kind = SymbolKind::rest;
     bool tied_back = false;     ///< goes on from the symbol before
     bool tied_forward = false;  ///< goes on into the next one
     bool has_sign = false;      ///< its accidental (perhaps a natural) has to be printed
-    Pitch pitch;                ///< of notes
+    bool is_accented = false;   ///< much louder than the notes around it
+    bool begins_slide = false;  ///< a line leads to the next note
+    bool ends_slide = false;    ///< a line leads here from the note before
+    int tuplet = -1;            ///< of NotatedVoice::tuplets; -1: none
+    int cents = 0;              ///< to be printed: how much higher it sounds than its sign says
+    Pitch pitch;                ///< of notes; of drums their place on the staff, as of a treble clef
+    int drum = 0;               ///< the key of a drum: see drums.h; 0: none
+    std::array<Beam, 4> beams{};
+    std::vector<ChordNote> chord;  ///< notes above `pitch` that sound with it
 };
 
-enum class Clef { treble, bass };
+/// Clefs with an octave are for instruments that are written an octave away from their sound.
+enum class Clef { treble, bass, alto, tenor, treble_8, bass_8, percussion };
 
 /// One voice on one staff. Its symbols fill the score from the first bar to the last, bar by bar.
 struct NotatedVoice {
     int voice = 0;  ///< of the score, from 0
     std::vector<NotatedSymbol> symbols;
+    std::vector<TupletSpan> tuplets;  ///< in ascending order
+};
+
+/// A clef and a line of 8va that hold from `onset` on; a symbol of every voice of the staff begins there.
+struct StaffChange {
+    std::int64_t onset = 0;
+    Clef clef = Clef::treble;
+    int octaves = 0;  ///< notes are written so many octaves lower: -1 8vb, 1 8va, 2 15ma
+    bool operator==(const StaffChange&) const = default;
+};
+
+/// A dynamic, or the beginning of a hairpin, which the next mark ends.
+struct DynamicMark {
+    enum class Kind { level, crescendo, diminuendo };
+    std::int64_t onset = 0;  ///< of a note
+    Kind kind = Kind::level;
+    int level = 4;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff
+    bool operator==(const DynamicMark&) const = default;
 };
 
 struct Staff {
-    Clef clef = Clef::treble;
+    std::vector<StaffChange> changes;  ///< the first is at 0
     std::vector<NotatedVoice> voices;  ///< 1 to 4
+    std::vector<DynamicMark> dynamics;
 };
+
+/// How the staves of a part are joined at the left.
+enum class Bracket { none, brace, bracket };
 
 struct NotatedPart {
     std::vector<Staff> staves;  ///< at least one
+    Bracket bracket = Bracket::none;
 };
 
 /// A score as it is printed; parts in the order of ScoreHead::parts.
 struct Notation {
     std::vector<NotatedPart> parts;
     std::int64_t bars = 1;
-    std::int64_t bar_length = 64;
-    std::uint64_t moved = 0;  ///< notes that began or ended between two 64ths, and were moved to the nearest
-    std::uint64_t bent = 0;   ///< notes more than a cent away from every quarter tone, and written as the nearest
+    std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
+    std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
+    std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
+    std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
 };
-
-/// The sign of a printable length: its note value (1 whole, 2 half, … 64) and whether it has a dot.
-struct NoteValue {
-    int divisor = 4;
-    bool dotted = false;
-};
-NoteValue note_value(std::int64_t length);
 
 /// Collects a melody and makes a Notation of it.
 ///
-/// Bars: a note is split at bar lines, then into the largest printable lengths; one that starts off the beat crosses
-/// neither the middle of the bar nor, starting on a fraction of a beat, what would hide the next larger metrical
-/// place. 6/8, 9/8 and 12/8 have dotted beats. Onsets and ends are rounded to 64ths, never to nothing: a note that
-/// would vanish pushes the next one on.
-/// Staves: a part of up to four voices has one, or, if it reaches over two octaves and to both sides of middle C,
-/// an upper one for notes from C4 and a lower one; more voices have a staff for every four. The clef is that of the
-/// median key. Voices that never sound are left out.
-/// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign.
+/// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
+/// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
+/// Staves: each voice has its own; see staves.h. Voices that never sound are left out.
+/// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
+/// have their deviation in cents.
 /// Memory: O(notes + bars).
 class Notator final : public NoteSink {
 public:
@@ -105,21 +135,16 @@ public:
     const Notation& notation() const { return notation_; }
 
 private:
-    struct Placed {
-        std::int64_t onset = 0;
-        std::int64_t end = 0;
-        double key = 60.0;
-    };
-
-    void notate_part(std::size_t part, std::size_t first_voice);
-    Staff make_staff(const Part& part, std::size_t first_voice, std::size_t voices, double low, double high) const;
-    std::vector<NotatedSymbol> fill(std::span<const Placed> notes, const Part& part) const;
-    void add_rests(std::vector<NotatedSymbol>& symbols, std::int64_t from, std::int64_t to) const;
-    void add_note(std::vector<NotatedSymbol>& symbols, std::int64_t from, std::int64_t to, Pitch pitch) const;
+    void notate_part(const Part& part, std::size_t first_voice);
+    void gather_chords(const Part& part, std::size_t first_voice);
+    void notate_drums(const Part& part, std::size_t first_voice);
+    NotatedVoice fill(int number, std::vector<Note> notes, const Part& part);
 
     std::vector<Part> parts_;
     Meter meter_;
-    std::vector<std::vector<Placed>> voices_;
+    std::vector<std::vector<Note>> voices_;
+    /// Other notes of chords, by the symbol and the part of their first note, with its onset.
+    std::map<std::pair<std::uint64_t, std::int64_t>, std::vector<double>> chords_;
     std::size_t count_ = 0;
     Notation notation_;
 };
@@ -127,8 +152,8 @@ private:
 /// The letter, octave and sign of a key, by Part::spelling.
 Pitch spelled(double key, const std::array<Spelling, 12>& spelling);
 
-/// The lengths into which a stretch within one bar is split, from the beginning. `from` counts from the bar line.
-std::vector<std::int64_t> printable_lengths(std::int64_t from, std::int64_t to, const Meter& meter);
+/// The signature that a part is printed with.
+std::optional<KeySignature> printed_key(const Part& part);
 
 /// Signs that a key signature sets, in semitones for each letter from C.
 std::array<int, 7> signs_of(const std::optional<KeySignature>& key);

@@ -37,8 +37,42 @@ let sounded = 0;
 let recent = [];
 const clock = () => sound ? sound.context.currentTime : performance.now() / 1000;
 const ticksPerSecond = () => speed * data.quarter / 60;
-const tickAt = time => Math.max(0, anchorTick + (playing ? (time - anchorTime) * ticksPerSecond() : 0));
-const timeAt = tick => anchorTime + (tick - anchorTick) / ticksPerSecond();
+/* Where the tempo changes, ticks are longer or shorter: `even` counts ticks of the main tempo, `uneven` is its inverse. */
+const stretches = [[0, 0, 1]];  // tick, even ticks before it, factor of the tempo from there on
+for (const [tick, factor] of data.tempos || []) {
+  const [last, before, old] = stretches[stretches.length - 1];
+  stretches.push([tick, before + (tick - last) / old, factor]);
+}
+function stretchAt(value, column) {
+  let a = 0, b = stretches.length - 1;
+  while (a < b) { const m = (a + b + 1) >> 1; if (stretches[m][column] <= value) a = m; else b = m - 1; }
+  return stretches[a];
+}
+function even(tick) { const [first, before, factor] = stretchAt(tick, 0); return before + (tick - first) / factor; }
+function uneven(ticks) { const [first, before, factor] = stretchAt(ticks, 1); return first + (ticks - before) * factor; }
+const tickAt = time => playing ? Math.max(0, uneven(even(anchorTick) + (time - anchorTime) * ticksPerSecond()))
+                               : Math.max(0, anchorTick);
+const timeAt = tick => anchorTime + (even(tick) - even(anchorTick)) / ticksPerSecond();
+const lasting = (from, to) => (even(to) - even(from)) / ticksPerSecond();
+/* Points of pan (number 10) and pitch (-1) by voice. */
+const curvesOf = [];
+for (const [voice, ...point] of data.controls || []) (curvesOf[voice] = curvesOf[voice] || []).push(point);
+const placeOf = value => Math.max(-1, Math.min(1, (value - 64) / 63));
+/* Calls f(value, time) for the points of a note: of the pan also for the last one before it. */
+function eachPoint(note, number, time, f) {
+  const points = curvesOf[note[VOICE]] || [];
+  let a = 0, b = points.length;
+  while (a < b) { const m = (a + b) >> 1; if (points[m][0] <= note[ONSET]) a = m + 1; else b = m; }
+  for (let i = a - 1; i >= 0; --i) {
+    if (number !== 10 && points[i][0] < note[ONSET]) break;
+    if (points[i][1] !== number) continue;
+    f(points[i][2], time);
+    break;
+  }
+  for (; a < points.length && points[a][0] < note[ONSET] + note[DURATION]; ++a) {
+    if (points[a][1] === number) f(points[a][2], Math.max(time, timeAt(points[a][0])));
+  }
+}
 /* What is heard now was handed over a moment ago. */
 const latency = () => sound && playing ? Math.min(sound.context.outputLatency || 0, 0.5) : 0;
 const shownTick = () => Math.min(end, Math.max(Math.min(anchorTick, end), tickAt(clock() - latency())));
@@ -57,9 +91,54 @@ function openSound() {
   } catch (error) { sound = null; }
 }
 
+/* Drums: bass drums and toms are falling tones, all others noise, of metal high and long. */
+const drumVoices = new Set(data.drums || []);
+const skins = new Set([35, 36, 41, 43, 45, 47, 48, 50, 60, 61, 62, 63, 64, 65, 66]);
+const ringing = new Set([46, 49, 51, 52, 53, 55, 57, 59, 81]);
+let noise = null;
+function beat(note, time) {
+  if (!sound) return;
+  const {context, master} = sound, key = note[KEY];
+  const loud = 0.5 * Math.pow(note[VELOCITY] / 127, 1.6), isSkin = skins.has(key);
+  const length = isSkin ? 0.22 : ringing.has(key) ? 0.5 : key === 38 || key === 40 ? 0.16 : 0.07;
+  const envelope = context.createGain();
+  envelope.gain.setValueAtTime(isSkin ? 1.6 * loud : 0.6 * loud, time);
+  envelope.gain.exponentialRampToValueAtTime(0.0005, time + length);
+  envelope.connect(master);
+  let source;
+  if (isSkin) {
+    source = context.createOscillator();
+    const base = 52 + 7 * Math.max(0, key - 36);
+    source.frequency.setValueAtTime(2.2 * base, time);
+    source.frequency.exponentialRampToValueAtTime(base, time + 0.07);
+    source.connect(envelope);
+  } else {
+    if (!noise) {
+      /* The same noise each time: a generator of Lehmer. */
+      noise = context.createBuffer(1, context.sampleRate / 2, context.sampleRate);
+      const samples = noise.getChannelData(0);
+      for (let i = 0, state = 1; i < samples.length; ++i) {
+        state = state * 48271 % 2147483647;
+        samples[i] = 2 * state / 2147483647 - 1;
+      }
+    }
+    source = context.createBufferSource();
+    source.buffer = noise;
+    const filter = context.createBiquadFilter();
+    filter.type = key < 42 ? "bandpass" : "highpass";
+    filter.frequency.value = key < 42 ? 1800 : 6500;
+    source.connect(filter); filter.connect(envelope);
+  }
+  source.start(time); source.stop(time + length + 0.02);
+  const voice = {envelope, oscillators: [source]};
+  live.add(voice);
+  source.onended = () => { live.delete(voice); envelope.disconnect(); };
+}
+
 /* A soft pluck: a triangle, an octave above it a quiet sine, and a filter that closes as the note fades. */
 function strike(note, time, seconds) {
   if (!sound) return;
+  if (drumVoices.has(note[VOICE])) return beat(note, time);
   const {context, master} = sound;
   const frequency = 440 * Math.pow(2, (note[KEY] - 69) / 12);
   if (frequency > context.sampleRate / 2.2) return;
@@ -73,17 +152,25 @@ function strike(note, time, seconds) {
   envelope.gain.linearRampToValueAtTime(loud, time + Math.min(0.008, seconds / 2));
   envelope.gain.setTargetAtTime(loud * 0.35, time + Math.min(0.008, seconds / 2), 0.45);
   envelope.gain.setTargetAtTime(0, time + seconds, release / 4);
-  filter.connect(envelope); envelope.connect(master);
+  filter.connect(envelope);
+  let output = envelope;
+  if (curvesOf[note[VOICE]] && context.createStereoPanner) {
+    output = context.createStereoPanner();
+    eachPoint(note, 10, time, (value, at) => output.pan.setValueAtTime(placeOf(value), at));
+    envelope.connect(output);
+  }
+  output.connect(master);
   const voice = {envelope, oscillators: []};
   for (const [type, times, part] of [["triangle", 1, 1], ["sine", 2, 0.22]]) {
     const oscillator = context.createOscillator(), gain = context.createGain();
     oscillator.type = type; oscillator.frequency.value = frequency * times; gain.gain.value = part;
+    eachPoint(note, -1, time, (value, at) => oscillator.detune.setValueAtTime(100 * value, at));
     oscillator.connect(gain); gain.connect(filter);
     oscillator.start(time); oscillator.stop(stop);
     voice.oscillators.push(oscillator);
   }
   live.add(voice);
-  voice.oscillators[0].onended = () => { live.delete(voice); envelope.disconnect(); };
+  voice.oscillators[0].onended = () => { live.delete(voice); envelope.disconnect(); output.disconnect(); };
 }
 
 function silence() {
@@ -116,7 +203,7 @@ function ahead() {
   const until = tickAt(now + (document.hidden ? 1.6 : 0.14));
   for (; next < notes.length && notes[next][ONSET] <= until; ++next) {
     const note = notes[next], time = Math.max(now, timeAt(note[ONSET]));
-    strike(note, time, note[DURATION] / ticksPerSecond());
+    strike(note, time, lasting(note[ONSET], note[ONSET] + note[DURATION]));
     pending.push({index: next, time});
   }
 }
@@ -127,7 +214,7 @@ function begin() {
   next = firstFrom(anchorTick);
   eachWithin(anchorTick, anchorTick + 1, note => {
     if (note[ONSET] < anchorTick) {
-      strike(note, anchorTime, (note[ONSET] + note[DURATION] - anchorTick) / ticksPerSecond());
+      strike(note, anchorTime, lasting(anchorTick, note[ONSET] + note[DURATION]));
     }
   });
   ahead();
@@ -380,7 +467,7 @@ function drawRoll(tick) {
 }
 
 function seconds(ticks) {
-  const s = Math.floor(ticks / ticksPerSecond() + 1e-6);
+  const s = Math.floor(even(ticks) / ticksPerSecond() + 1e-6);
   return Math.floor(s / 60) + ":" + String(s % 60).padStart(2, "0");
 }
 let shownText = "";
@@ -400,7 +487,10 @@ function draw() {
   if (text + here !== shownText) {
     shownText = text + here;
     element("place-text").textContent = text;
-    place.setAttribute("aria-valuetext", "bar " + here + " of " + bars + ", " + seconds(tick));
+    // While the music plays, a screen reader would read every change aloud.
+    if (!playing || dragging) {
+      place.setAttribute("aria-valuetext", "bar " + here + " of " + bars + ", " + seconds(tick));
+    }
   }
 }
 function frame() {

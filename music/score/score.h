@@ -29,13 +29,20 @@ struct Note {
     glm::dvec2 from{0.0};        ///< the piece of the curve it comes from, in turtle steps
     glm::dvec2 to{0.0};
     std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
+    std::uint8_t depth = 0;    ///< brackets around it
+    bool is_sliding = false;   ///< its pitch slides to the next note of its voice
 };
+
+struct Curves;
 
 /// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any order
 /// to each other. Spans die with the call.
 class NoteSink {
 public:
     virtual ~NoteSink() = default;
+    /// Called once before the first notes, or not at all. `curves` outlives the sink. Without an implementation they
+    /// are left out.
+    virtual void curves(const Curves& /*curves*/) {}
     virtual void notes(std::span<const Note> notes) = 0;
     /// Called once after the last note. `end`: where the score ends, rests included.
     virtual void finish(std::int64_t end) = 0;
@@ -48,8 +55,10 @@ class ScoreError : public std::runtime_error {
 
 struct Meter {
     int beats = 4;
-    int unit = 4;                                                              ///< a power of two, 1 to 64
+    int unit = 4;                           ///< a power of two, 1 to 64
+    std::array<std::uint8_t, 16> groups{};  ///< of beats, as in `3+2+2/8`, then zeros; zeros alone: see groups_of()
     std::int64_t bar() const { return 4 * ticks_per_quarter * beats / unit; }  ///< ticks
+    bool operator==(const Meter&) const = default;
 };
 
 /// How a pitch class is written: letter 0 (C) to 6 (B), alteration in semitones.
@@ -58,10 +67,14 @@ struct Spelling {
     int alteration = 0;
 };
 
+/// The modes, from the one whose tonic lies lowest among its fifths.
+enum class Mode { lydian, major, mixolydian, dorian, minor, phrygian, locrian };
+
 /// fifths: sharps if positive, flats if negative, -7 to 7.
 struct KeySignature {
     int fifths = 0;
     bool minor = false;
+    Mode mode = minor ? Mode::minor : Mode::major;
 };
 
 /// One instrument: the voices of one pattern.
@@ -70,17 +83,22 @@ struct Part {
     std::string scale;  ///< in words, with its tonic
     int program = 0;    ///< General MIDI, 0 to 127
     int voices = 1;     ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
-    std::optional<KeySignature> key;      ///< only for major, minor and the modes
-    std::array<Spelling, 12> spelling{};  ///< of each pitch class from C
+    std::optional<KeySignature> key;        ///< only for major, minor and the modes
+    std::optional<KeySignature> signature;  ///< in print: of other scales, too
+    std::array<Spelling, 12> spelling{};    ///< of each pitch class from C
+    bool has_chords = false;                ///< notes of one onset and symbol are a chord in print
+    bool is_drums = false;                  ///< percussion of General MIDI: keys are those of drums.h
 };
 
 /// What a score tells beside its notes. Voices are numbered through the parts in order.
 struct ScoreHead {
     std::string title;
-    std::string composer;  ///< the pattern's source, perhaps empty
-    std::string pattern;   ///< the text of the pattern file, so that the score can be made again
-    std::string made;      ///< what made it: `sikku 0.1.0, -n 4`
-    double tempo = 120.0;  ///< quarters a minute
+    std::string composer;         ///< perhaps empty
+    std::string source;           ///< the publication that the pattern comes from, perhaps empty
+    std::string pattern;          ///< the text of the pattern file, so that the score can be made again
+    std::string made;             ///< what made it: `sikku 0.1.0, -n 4`
+    double tempo = 120.0;         ///< quarters a minute
+    std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: it stays
     Meter meter;
     std::vector<Part> parts;
 };

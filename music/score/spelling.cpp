@@ -157,9 +157,46 @@ std::optional<KeySignature> key_signature(const Scale& scale, Spelling tonic) {
         // Of major one note lies below the tonic on the line of fifths: F, of C.
         const int fifths = line_of_fifths(tonic) + 1 - below;
         if (fifths < -7 || fifths > 7) return std::nullopt;
-        return KeySignature{fifths, below == 4};
+        return KeySignature{fifths, below == 4, static_cast<Mode>(below)};
     }
     return std::nullopt;
+}
+
+std::optional<KeySignature> print_signature(const Scale& scale, Spelling tonic) {
+    if (!closes_at_the_octave(scale)) return std::nullopt;
+    for (const auto* list : {&scale.ascent, &scale.descent}) {
+        for (const double cents : *list) {
+            if (std::fabs(cents - 100.0 * std::round(cents / 100.0)) > 25.0) return std::nullopt;
+        }
+    }
+    const std::array<bool, 12> classes = classes_of(scale);
+    const auto notes = std::count(classes.begin(), classes.end(), true);
+    if (notes < 5 || notes > 8) return std::nullopt;
+    const std::array<Spelling, 12> spelling = spell(scale, tonic);
+    /// Notes of the scale that need a sign of their own.
+    const auto signs_with = [&](int fifths) {
+        int count = 0;
+        for (int semitones = 0; semitones < 12; ++semitones) {
+            if (!classes[static_cast<std::size_t>(semitones)]) continue;
+            const Spelling note = spelling[static_cast<std::size_t>(modulo(pitch_class(tonic) + semitones, 12))];
+            const int natural = line_of_fifths({note.letter, 0});  // F is -1
+            const int altered = fifths > natural + 1 ? 1 : -fifths > 5 - natural ? -1 : 0;
+            if (altered != note.alteration) ++count;
+        }
+        return count;
+    };
+    using enum Mode;
+    std::optional<KeySignature> best;
+    int fewest = notes == 7 ? 3 : 2;
+    for (const Mode mode : {major, minor, mixolydian, dorian, phrygian, lydian, locrian}) {
+        const int fifths = line_of_fifths(tonic) + 1 - static_cast<int>(mode);
+        if (fifths < -7 || fifths > 7) continue;
+        const int signs = signs_with(fifths);
+        if (signs >= fewest || (signs > 0 && signs >= signs_with(0))) continue;
+        fewest = signs;
+        best = KeySignature{fifths, mode == minor, mode};
+    }
+    return best;
 }
 
 std::string note_name(double key, const std::array<Spelling, 12>& spelling) {

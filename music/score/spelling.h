@@ -32,6 +32,11 @@ std::array<Spelling, 12> spell(const Scale& scale, Spelling tonic);
 /// signs are enough; else nothing. `minor` is told of minor itself only.
 std::optional<KeySignature> key_signature(const Scale& scale, Spelling tonic);
 
+/// The signature that scores are printed with: of a mode on the tonic that agrees with the letters of the scale in
+/// all degrees but one, or but two of seven, and saves signs; major and minor are preferred. Nullopt for scales of
+/// fewer than five notes or more than eight, with quarter tones, or which need more signs, such as whole tones.
+std::optional<KeySignature> print_signature(const Scale& scale, Spelling tonic);
+
 /// `C4`, `F#3`, `Bb5`: C4 is key 60. Of a key with a fraction the name of the nearest semitone.
 std::string note_name(double key, const std::array<Spelling, 12>& spelling);
 

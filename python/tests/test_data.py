@@ -18,6 +18,7 @@ import sikku
 from conftest import Run
 
 NAMES = [pattern.name for pattern in sikku.patterns()]
+WORDS = [pattern.name for pattern in sikku.patterns() if pattern.kind != "maps"]
 KOLAMS = [pattern.name for pattern in sikku.patterns() if pattern.kind == "kolams"]
 
 
@@ -57,10 +58,15 @@ def test_kolams_are_those_of_the_program(name: str, run: Run) -> None:
     assert sikku.load(name).kolam() == json.loads(run("kolam", name, "--json").stdout)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", WORDS)
 def test_words_are_those_of_the_program(name: str, run: Run) -> None:
     word = run("derive", name).stdout.decode().rstrip("\n")
     assert "".join(map(str, sikku.load(name).word())) == word.replace(" ", "")
+
+
+def test_maps_have_no_words() -> None:
+    with pytest.raises(sikku.Error, match="this pattern is a map"):
+        list(sikku.load("checkers").word())
 
 
 def test_modules() -> None:

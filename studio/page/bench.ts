@@ -1,11 +1,11 @@
-// The kolam bench: a grid of dots with gaps in which lines cross, turn back or run past joined. Every change is written
+// The kolam bench: a grid of dots with gaps in which lines cross, turn back or are joined. Every change is written
 // to the text.
 import { Board, placesAround, type Scene } from "./bench/board";
 import { certificateText, type Examined } from "./bench/certificate";
 import { makeGrid, parseStates, statesText, crossed, joined, turned, type DotGrid, type GridSymmetry, type Place } from "./bench/dot_grid";
 import { changeText, counted, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
 import { Kolam, type Change } from "./bench/kolam";
-import { readKolam, withDots, withEditsOf } from "./bench/kolam_text";
+import { readKolam, withEditsOf, withLook } from "./bench/kolam_text";
 import { capital, first_chances, Side, type Chances, type Look } from "./bench/side";
 import { singleLineNear } from "./bench/symmetry";
 import { Tools, type Tool } from "./bench/tools";
@@ -146,7 +146,7 @@ class BenchPanel implements Panel {
             if (grid.text !== this.kolam.grid.text) this.cursor = -1;
             this.kolam.set(grid, states);
             const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
-            this.look = { ...this.look, isColoured, hasDots: found.hasDots };
+            this.look = { isColoured, isFilled: found.isFilled, hasDots: found.hasDots };
             this.made = "";
             this.text = text;
             this.update();
@@ -201,10 +201,8 @@ class BenchPanel implements Panel {
     }
 
     private setLook(look: Look): void {
-        const isOther = look.isColoured !== this.look.isColoured || look.hasDots !== this.look.hasDots;
         this.look = look;
-        if (isOther) this.commit();
-        else this.update();
+        this.commit();
     }
 
     private resize(rows: number, columns: number): void {
@@ -340,7 +338,7 @@ class BenchPanel implements Panel {
 
     private store(bare: string, merge: string): void {
         const { store } = this.studio;
-        const made = withDots(bare, this.look.hasDots);
+        const made = withLook(bare, this.look);
         const { pattern } = store.work;
         const isOurs = pattern.text === this.text || readKolam(pattern.text) !== null;
         this.text = isOurs ? withEditsOf(pattern.text, this.made, made) : made;

@@ -19,13 +19,13 @@ interface Choice {
 
 const groups: [string, Interpreter, RegExp][] = [
     ["Print", "draw", /^(svg|pdf)$/],
-    ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc)$/],
+    ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc|dxf)$/],
     ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/],
     ["Model", "draw", /^(obj|glb|gltf)$/],
     ["Score", "play", /./],
 ];
 // Pictures other than PNG, animations and sound files need libraries that the page does without.
-const by_the_program = new Set(["tif", "jpg", "exr", "gif", "wav", "flac"]);
+const by_the_program = new Set(["tif", "jpg", "exr", "gif", "wav", "flac", "score.pdf"]);
 const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias: "", is_several: false, is_text: true };
 const types: Record<string, string> = {
     svg: "image/svg+xml",

@@ -1,11 +1,12 @@
 // Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has positions,
-// normals and a single colour. Everything is checked before it is used.
+// normals and a single colour, or a colour for each corner. Everything is checked before it is used.
 
 export interface ModelPart {
     positions: Float32Array; // three for each corner
     normals: Float32Array;
     corners: Uint32Array; // three for each triangle
     colour: [number, number, number, number]; // linear, 0 to 1
+    colours: Float32Array | null; // three for each corner, likewise, instead of `colour`
     isTwoSided: boolean;
 }
 
@@ -85,12 +86,17 @@ export function readModel(bytes: Uint8Array): Model {
             if (value > high[axis]!) high[axis] = value;
         }
         triangles += corners.length / 3;
+        const hues = attributes["COLOR_0"];
+        const colours = hues === undefined ? null : new Float32Array(numbers(hues, "VEC3", 5126));
+        if (colours && colours.length !== positions.length) fail("some corners have no colour");
+        if (colours && !colours.every((value) => value >= 0 && value <= 1)) fail("invalid colour");
         const material = materials[whole(primitive["material"], "a material")] ?? fail("a material is missing");
         return {
             positions,
             normals,
             corners,
             colour: colourOf(material),
+            colours,
             isTwoSided: material["doubleSided"] === true,
         };
     });

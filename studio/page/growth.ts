@@ -82,5 +82,5 @@ export class Growth {
 }
 
 function isEmpty({ message }: RequestFailed): boolean {
-    return message.startsWith("nothing to draw") || message.startsWith("there is nothing to model");
+    return message.startsWith("nothing to draw") || message.startsWith("nothing to model");
 }

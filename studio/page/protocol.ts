@@ -123,7 +123,7 @@ export interface Notes {
     tempo: number; // quarter notes per minute
     beats: number; unit: number; // meter
     ticks: number; // ticks per quarter note
-    parts: { name: string; scale: string; program: number; voices: number }[];
+    parts: { name: string; scale: string; program: number; voices: number; drums: boolean }[];
 }
 
 /// A place in the text; line 0: not in the text, but in a setting.

@@ -115,14 +115,17 @@ export class Stage {
         const order = new Uint32Array(corners);
         let first = 0;
         let next = 0;
-        for (const { positions, normals, corners: those, colour, isTwoSided } of model.parts) {
+        for (const { positions, normals, corners: those, colour, colours, isTwoSided } of model.parts) {
             const hue = packedColour(colour, isTwoSided);
             for (let index = 0, offset = first * stride; index < positions.length; index += 3, offset += stride) {
                 for (let axis = 0; axis < 3; ++axis) {
                     packed.setFloat32(offset + 4 * axis, positions[index + axis]!, true);
                 }
                 packed.setUint32(offset + 12, packedNormal(normals, index), true);
-                packed.setUint32(offset + 16, hue, true);
+                const own = colours
+                    ? packedColour([colours[index]!, colours[index + 1]!, colours[index + 2]!], isTwoSided)
+                    : hue;
+                packed.setUint32(offset + 16, own, true);
             }
             for (let index = 0; index < those.length; ++index) order[next++] = those[index]! + first;
             first += positions.length / 3;
@@ -275,7 +278,7 @@ function packedNormal(normals: Float32Array, index: number): number {
 }
 
 // Square roots of linear colours, which are precise enough in the dark, and a flag for leaves.
-function packedColour([red, green, blue]: readonly [number, number, number, number], isLeaf: boolean): number {
+function packedColour([red, green, blue]: readonly [number, number, number, ...number[]], isLeaf: boolean): number {
     const byte = (value: number) => Math.round(Math.sqrt(value) * 255);
     return (byte(red) | (byte(green) << 8) | (byte(blue) << 16) | ((isLeaf ? 255 : 0) << 24)) >>> 0;
 }

@@ -7,7 +7,7 @@ import { load } from "./load.mjs";
 const { makeGrid, statesText, parseStates, followLines, lineOrbits, countLines, crossed, joined, turned } =
     await load("bench/dot_grid");
 const { symmetrised, isSymmetric, singleLineNear, symmetry_labels } = await load("bench/symmetry");
-const { readKolam, withEditsOf, withDots } = await load("bench/kolam_text");
+const { readKolam, withEditsOf, withLook } = await load("bench/kolam_text");
 const { Kolam } = await load("bench/kolam");
 const { gapText, changeText, placeText, statesTold, neighbour } = await load("bench/gap_names");
 const { placesAround } = await load("bench/board");
@@ -310,7 +310,9 @@ test("a pattern's text is read again, on every kind of grid", () => {
         assert.deepEqual(parseStates(gridOf(found.grid), found.gaps), states);
         assert.equal(found.isColoured, countLines(grid, states) > 1);
         assert.equal(found.hasDots, false);
-        assert.equal(readKolam(withDots(text, true)).hasDots, true);
+        assert.equal(readKolam(withLook(text, { hasDots: true, isFilled: false })).hasDots, true);
+        const filled = withLook(text, { hasDots: false, isFilled: true });
+        assert.deepEqual([readKolam(filled).hasDots, readKolam(filled).isFilled], [false, true]);
     }
     const text = ask({ do: "grid", grid: "oooo/o..o/oooo" }).text;
     assert.match(text, /^title: Kolam on 10 dots\ndescription: 10 dots, \d+ of 10 gaps crossed, \d+ lines?\n/);
@@ -333,7 +335,7 @@ test("what was edited in a pattern stays", () => {
     const bare = ask({ do: "grid", grid: "1-3-1", gaps: "1011" }).text;
     const navy = bare.replace("#7d3324", "navy");
     assert.notEqual(navy, bare);
-    assert.equal(withEditsOf(withDots(navy, true), "", bare), navy);
+    assert.equal(withEditsOf(withLook(navy, { hasDots: true, isFilled: true }), "", bare), navy);
     const edited = navy + "tempo: 90\n";
     assert.equal(withEditsOf(edited, bare, bare), edited);
     assert.equal(withEditsOf(edited, "", bare), edited);

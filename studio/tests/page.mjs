@@ -275,7 +275,7 @@ test("the gallery finds and opens patterns", async ({ page }) => {
     await page.locator(".card .picture.drawn").nth(5).waitFor();
     await screenshot(page, "gallery");
     await search.fill("hilbert todi");
-    await page.locator(".gallery-count", { hasText: "1 of 207" }).waitFor();
+    await page.locator(".gallery-count", { hasText: "1 of 282" }).waitFor();
     await search.fill("snake");
     await page.getByRole("button", { name: "kolams", exact: true }).click();
     await page.locator(".card:visible").first().click();
@@ -469,6 +469,7 @@ test("links are shown one at a time, in part if they are long, and checked", asy
 test("the page works by keyboard", async ({ page }) => {
     await page.reload();
     await page.locator("#facts", { hasText: "No errors" }).waitFor();
+    await page.getByRole("tab", { name: "Gallery" }).waitFor(); // the shortcuts come with the tabs
     await page.keyboard.press("Tab");
     await page.keyboard.press("Enter");
     const focus = () => page.evaluate(() => document.activeElement.className || document.activeElement.id);
@@ -539,7 +540,7 @@ test("patterns that the program wrote into the page are open and in the gallery"
     await page.getByRole("tab", { name: "Gallery" }).click();
     await page.locator(".cost", { hasText: "8 segments" }).waitFor();
     await page.getByRole("button", { name: "yours", exact: true }).click();
-    await page.locator(".gallery-count", { hasText: "1 of 208" }).waitFor();
+    await page.locator(".gallery-count", { hasText: "1 of 283" }).waitFor();
     await page.context().close();
     rmSync(folder, { recursive: true });
 });
@@ -602,7 +603,7 @@ async function measure() {
         const from = performance.now();
         const panel = document.querySelector("#panel-gallery");
         const drawn = () => document.querySelectorAll(".gallery .picture:is(.drawn, .words)").length;
-        for (let at = 0; drawn() < 207 && performance.now() - from < 20000; at += 600) {
+        for (let at = 0; drawn() < 220 && performance.now() - from < 20000; at += 600) {
             panel.scrollTop = at % panel.scrollHeight;
             await new Promise(requestAnimationFrame);
         }

@@ -171,7 +171,7 @@ async function bench() {
     await count("13 lines");
     await page.fill("#bench-grid", "1-2-2");
     await page.keyboard.press("Enter");
-    await until(() => /odd and even in turn/.test(document.querySelector(".bench-problem").textContent));
+    await until(() => /alternate between odd and even/.test(document.querySelector(".bench-problem").textContent));
     await page.waitForTimeout(1200);
 
     // An interlaced grid: the third state, six sides, symmetries, one line, undo.

@@ -39,8 +39,7 @@ function triangle(change = () => {}) {
             { buffer: 0, byteOffset: 72, byteLength: 12 },
         ],
     };
-    change(json, binary);
-    return glb(json, binary);
+    return glb(json, change(json, binary) ?? binary);
 }
 
 test("a model is read", () => {
@@ -51,6 +50,33 @@ test("a model is read", () => {
     assert.deepEqual(model.parts[0].colour, [0.1, 0.2, 0.3, 1]);
     assert.ok(model.parts[0].isTwoSided);
     assert.deepEqual([...model.parts[0].corners], [0, 1, 2]);
+});
+
+/// A triangle whose corners are red, green and blue.
+function blend(change = () => {}) {
+    return triangle((json, binary) => {
+        const longer = new Float32Array(21 + 9);
+        longer.set(new Float32Array(binary, 0, 18));
+        new Uint32Array(longer.buffer, 72).set([0, 1, 2]);
+        longer.set([1, 0, 0, 0, 1, 0, 0, 0, 1], 21);
+        json.accessors.push({ bufferView: 3, componentType: 5126, count: 3, type: "VEC3" });
+        json.bufferViews.push({ buffer: 0, byteOffset: 84, byteLength: 36 });
+        json.meshes[0].primitives[0].attributes.COLOR_0 = 3;
+        change(json, longer);
+        return longer.buffer;
+    });
+}
+
+test("colours of corners are read", () => {
+    assert.equal(readModel(triangle()).parts[0].colours, null);
+    assert.deepEqual([...readModel(blend()).parts[0].colours], [1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    for (const [message, change] of [
+        ["invalid colour", (_, numbers) => (numbers[22] = NaN)],
+        ["some corners have no colour", (json) => (json.accessors[3].count = 2)],
+        ["wrong type", (json) => (json.accessors[3].type = "VEC4")],
+    ]) {
+        assert.throws(() => readModel(blend(change)), new RegExp(message));
+    }
 });
 
 test("invalid models are refused", () => {

@@ -149,9 +149,9 @@ const tests = {
         for (let press = 0; press < 4; ++press) await page.keyboard.press("ArrowRight");
         await page.getByLabel("Perspective").check();
         await page.getByRole("button", { name: "Use this view for prints" }).click();
-        await page.locator("#message", { hasText: "view 20,10,perspective" }).waitFor();
+        await page.locator("#message", { hasText: "view 40,14,perspective" }).waitFor();
         await page.waitForTimeout(700);
-        assert.deepEqual((await kept(page)).draw, [["view", "20,10,perspective"]]);
+        assert.deepEqual((await kept(page)).draw, [["view", "40,14,perspective"]]);
         await page.getByRole("button", { name: "Use this n" }).click();
         await page.waitForTimeout(700);
         assert.deepEqual((await kept(page)).pattern.settings, [["derivation length", "4"]]);

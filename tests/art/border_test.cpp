@@ -144,6 +144,10 @@ TEST(Borders, OfPatternFilesAreRepeatsOfTheirDrawing) {
         prints().plan(document, "svg", {{"size", "100x150mm"}}, folder.path())->make(memory, "a.svg", {});
         return std::string(memory.outputs().at("a.svg"));
     };
+    // Lines that the ground would hide get a colour that is seen.
+    EXPECT_NE(made("border: tooth.lsys\n").find("#000080"), std::string::npos);
+    EXPECT_EQ(made("border: tooth.lsys\nground: navy\nstroke: white\n").find("stroke=\"#000080\""),
+              std::string::npos);
     const std::string plain = made("");
     const std::string teeth = made("border: tooth.lsys\n");
     const std::string both = made("border: tooth.lsys, corner.lsys\n");

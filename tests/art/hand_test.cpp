@@ -3,6 +3,7 @@
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
 #include "art/hand/hand_order.h"
+#include "art/prints.h"
 #include "art/raster/raster.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
@@ -10,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -331,6 +334,34 @@ TEST_F(Hand, BandsAreRowsOfTheWhole) {
     EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(128 * row)));
 }
 
+/// Areas are strewn with powder, too: within a filled square there are grains of several shades, and the ground
+/// hardly shows.
+TEST_F(Hand, AreasShowGrains) {
+    const auto shades = [&](double hand) {
+        const Document square = parse("square.lsys", fmt::format("hand: {}\nstroke: 0.1 step white\nground: black\n"
+                                                                 "palette: white\naxiom: {{F+F+F+F}}\n",
+                                                                 hand));
+        const Print print = kolam_print(square, 300, hand);
+        const std::vector<std::uint8_t> all = pixels(square, print, 2);
+        const std::size_t channels = all.size() / (300 * 300);
+        std::set<int> found;
+        double sum = 0;
+        for (std::size_t y = 100; y < 200; ++y) {
+            for (std::size_t x = 100; x < 200; ++x) {
+                const int shade = all[(300 * y + x) * channels];
+                found.insert(shade);
+                sum += shade;
+            }
+        }
+        return std::pair(found.size(), sum / (100 * 100));
+    };
+    EXPECT_EQ(shades(0), std::pair(std::size_t{1}, 255.0));
+    const auto [count, mean] = shades(0.5);
+    EXPECT_GT(count, 8U);
+    EXPECT_GT(mean, 170);
+    EXPECT_LT(mean, 230);
+}
+
 /// Grain lies in the drawing, not in the pixels: a part of the page that begins elsewhere shows the same.
 TEST_F(Hand, GrainMovesWithTheDrawing) {
     const Document snake = kolam("snake-kolam", 2);
@@ -456,6 +487,31 @@ TEST_F(Hand, AppearsPieceByPieceInAnAnimation) {
     }
     EXPECT_GT(pieces, 20);
     EXPECT_NE(svg.find("@keyframes fall"), std::string::npos);
+}
+
+/// How a line thinner than 0.02 mm wavers cannot be seen, so that it takes no more points.
+TEST_F(Hand, SamplesThinLinesNoFinerThanCanBeSeen) {
+    const auto points_of = [](double width) {
+        const Style style = thin_style(width);
+        NoSink fills;
+        HandGatherer gatherer(fills, style, 1.0, 1e6);
+        draw_circle(gatherer, {0, 0}, 50, false);
+        std::size_t points = 0;
+        for (const HandLine& line : gatherer.gathered) points += line.size();
+        return points;
+    };
+    EXPECT_GT(points_of(0.02), points_of(2.0));
+    EXPECT_EQ(points_of(1e-9), points_of(0.02));
+    EXPECT_LT(points_of(1e-9), 10'000u);
+}
+
+/// Places far from the others do not share a cell of the grid that finds neighbours.
+TEST_F(Hand, IsQuickForStepsOfVeryDifferentLength) {
+    const Document far = parse("far.lsys", "axiom: F(1e9)F(1)\nhand: 1\nstroke: 1e-9 step black\n");
+    MemoryDestination memory;
+    const auto begin = std::chrono::steady_clock::now();
+    prints().plan(far, "svg", {})->make(memory, "far.svg", {});
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST_F(Hand, RefusesWhatItCannotKeep) {

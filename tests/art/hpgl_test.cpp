@@ -209,6 +209,23 @@ TEST_F(Hpgl, WhatThePlotterDoesNotReachIsRefused) {
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
 }
 
+TEST_F(Hpgl, APlaceBesideThePageIsNamedIfThePlotterDoesNotReachIt) {
+    const Print print = sheet_print({297, 210, 20});
+    options_.paper = parse_hpgl_paper("a4", 96);
+    MemoryDestination memory;
+    const auto output = memory.open("plot.hpgl");
+    const auto writer = write_hpgl(print, options_, *output);
+    EXPECT_NO_THROW(writer->dip({10, 10}, Pen{}));
+    try {
+        writer->dip({-20, 40}, Pen{});
+        ADD_FAILURE() << "is accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(),
+                     "the place for refilling (-20,40) is out of the plotter's reach on a4 (HP 7475A); expected x "
+                     "from 8.4 to 284.4 mm and y from 2.0 to 195.0 mm");
+    }
+}
+
 TEST_F(Hpgl, WhatLiesOffThePageIsRefused) {
     const Print print = plain_print();
     for (const glm::dvec2 end : {glm::dvec2(101, 30), {50, 60.1}, {-0.1, 3}, {50, -1}}) {

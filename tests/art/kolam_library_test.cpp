@@ -44,6 +44,8 @@ TEST(KolamLibrary, IsCertified) {
             const RadialKolam kolam = parse_radial_kolam(name.substr(13));
             EXPECT_EQ(found.lines, kolam.lines()) << name;
             EXPECT_EQ(found.symmetry.rotations, kolam.arms) << name;
+            EXPECT_TRUE(found.is_kolam()) << name;
+            EXPECT_EQ(found.dots.size(), kolam.arms * kolam.dots() + 1) << name;
             continue;
         }
         const DotGrid grid = parse_dot_grid(behind(text, "// grid: "));

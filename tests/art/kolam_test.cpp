@@ -440,7 +440,7 @@ TEST(Kolam, SaysWhatBreaksTheRules) {
     const KolamExamination island = examined(known("curves/koch-island"));
     EXPECT_EQ(island.lines, 1u);
     EXPECT_EQ(island.dots.size(), 1u);
-    EXPECT_TRUE(names(island.faults(), "1 of 1 dot is not circumscribed"));
+    EXPECT_TRUE(names(island.faults(), "1 of 1 dot is not encircled"));
     EXPECT_EQ(island.symmetry.name(), "C4");
 
     const KolamExamination open = examined("90", "F+F+F+FF");
@@ -667,7 +667,7 @@ TEST(KolamCommand, TellsInWordsAndAsJson) {
     EXPECT_TRUE(has(snake.output, "D4: 4 rotations, 4 mirrors, about 7.5 7.5"));
     const Outcome island = run({"kolam", "koch-island"});
     EXPECT_EQ(island.status, 0) << island.errors;
-    EXPECT_TRUE(has(island.output, "no: 1 of 1 dot is not circumscribed"));
+    EXPECT_TRUE(has(island.output, "no: 1 of 1 dot is not encircled"));
     const Outcome json = run({"kolam", "anklets-of-krishna", "-n", "1", "--json"});
     EXPECT_EQ(json.status, 0) << json.errors;
     EXPECT_TRUE(has(json.output, "\"kolam\": true"));

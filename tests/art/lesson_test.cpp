@@ -4,6 +4,7 @@
 #include "art/drawing/lesson_drawing.h"
 #include "art/hand/hand_order.h"
 #include "art/prints.h"
+#include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
 #include "tests/print_tools.h"
 
@@ -191,6 +192,53 @@ TEST_F(Lesson, ByHandItIsTheSameLine) {
     const std::string svg = make(snake + "hand: 0.5\n", "svg").at("lesson.svg");
     EXPECT_GT(count(svg, "class=\"n\""), 3u);
     EXPECT_NE(svg, make(snake, "svg").at("lesson.svg"));
+}
+
+TEST_F(Lesson, RefusesDrawingsThatAreTooLarge) {
+    const auto error_of = [&](const std::string& pattern, OptionValues values) -> std::string {
+        try {
+            make(pattern, "pdf", std::move(values));
+        } catch (const BudgetError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(error_of(rings, {{"repeat", "p1:40x40"}}).find("a lesson has at most 1000 lines"), std::string::npos);
+    EXPECT_NE(error_of("axiom: F\nF --> F+F--F+F\nangle factor: 6\nderivation length: 8\n", {})
+                  .find("the lines of this lesson take more than 100000 points"),
+              std::string::npos);
+    EXPECT_EQ(error_of(rings, {{"repeat", "p1:3x3"}}), "");
+}
+
+TEST_F(Lesson, PlansItsStrokesOnce) {
+    LessonMemo memo;
+    int made = 0;
+    const auto make_plan = [&] {
+        ++made;
+        return LessonPlan{};
+    };
+    const auto plan = memo.plan(2, 0.4, make_plan);
+    EXPECT_EQ(memo.plan(2, 0.4, make_plan), plan);
+    EXPECT_EQ(made, 1);
+    EXPECT_NE(memo.plan(3, 0.4, make_plan), plan);
+    EXPECT_EQ(made, 2);
+}
+
+/// A picture has ten strokes at most, besides the dots and the whole; those of a page are the same for all formats.
+TEST_F(Lesson, JoinsStepsForPictures) {
+    std::vector<HandLine> lines(60);
+    for (HandLine& line : lines) {
+        line.nodes = {{{0, 0}, 0, 0.1}, {{1, 0}, 1, 0.1}};
+        line.length = 1;
+    }
+    EXPECT_EQ(lesson_steps(lines).size(), most_lesson_steps);
+    EXPECT_EQ(lesson_steps(lines, most_lesson_cells).size(), most_lesson_cells);
+}
+
+TEST_F(Lesson, FieldsComeWithTheWhole) {
+    const std::string svg = make(rings, "svg", {{"fields", "kind"}, {"powders", "#123456"}}).at("lesson.svg");
+    EXPECT_GT(svg.find("fill=\"#123456\""), svg.rfind("class=\"s\""));
+    EXPECT_NE(svg.find("fill=\"#123456\""), std::string::npos);
 }
 
 TEST_F(Lesson, RefusesWhatHasNoSteps) {

@@ -3,6 +3,8 @@
 #include "art/drawing/draw.h"
 #include "art/prints.h"
 #include "engine/geometry/parallel_curve.h"
+#include "engine/language/document.h"
+#include "tests/files.h"
 #include "tests/line_tools.h"
 
 #include <gtest/gtest.h>
@@ -133,7 +135,7 @@ TEST(LineBands, SpacingIsLimitedByTurnsAndNeighbours) {
     EXPECT_EQ(tight.look.wanted, 2);
     EXPECT_LE(tight.look.spacing, 0.75 + 1e-3);
     EXPECT_LE(tight.look.width, 0.5 * tight.look.spacing * 1.2);
-    // Of two rings with 0.6 between them, bands stay apart.
+    // The bands of two rings 0.6 apart do not touch.
     const Bands apart = bands_of(joined({ring({0, 0}, 3), ring({6.6, 0}, 3)}), 0.2, {}, {3, 2});
     EXPECT_LT(apart.look.band(), 0.6);
     EXPECT_GT(apart.look.band(), 0.3);
@@ -225,6 +227,37 @@ TEST(LineWork, SameBytesEveryTime) {
 TEST(LineWork, RefusesMoreThanTheBudgetAllows) {
     EXPECT_THROW(svg_of({{"fields", "fields", "chessboard"}, {"-n", "derivation length", "6"}}, {{"budget", "4e5"}}),
                  std::runtime_error);
+}
+
+/// The warnings of a print.
+std::string warnings_of(const std::string& text) {
+    MemoryDestination memory;
+    std::string warnings;
+    const Document document = parse("work.lsys", text);
+    for (const Remark& remark : prints().plan(document, "svg", {})->make(memory, "work.svg", {}).remarks) {
+        if (remark.is_warning) warnings += remark.text + "\n";
+    }
+    return warnings;
+}
+
+TEST(LineWork, ReportsWhatHasNoEffectOrDoesNotFit) {
+    const std::string ring = "axiom: F+F+F+F\nangle factor: 4\nstroke: 0.1 step black\n";
+    const std::filesystem::path patterns = std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns";
+    const std::string snake = contents(patterns / "kolams/snake-kolam.lsys");
+    EXPECT_NE(warnings_of(ring + "weave: yes\n").find("'weave' has no effect: the lines do not cross"),
+              std::string::npos);
+    EXPECT_NE(warnings_of(ring + "powders: lotus\n").find("'powders' has no effect"), std::string::npos);
+    EXPECT_EQ(warnings_of(ring + "powders: lotus\nfields: kind\n"), "");
+    EXPECT_EQ(warnings_of(contents(patterns / "kolam-library/kolam-5x5-b1ahhk0r.lsys") + "\nweave: yes\n"), "");
+    // Without a distance lines move closer as they have to; a distance that does not fit is reported.
+    EXPECT_EQ(warnings_of(snake + "\nparallel: 3\n"), "");
+    EXPECT_NE(warnings_of(snake + "\nparallel: 3 9\n").find("do not fit"), std::string::npos);
+    try {
+        warnings_of("axiom: F+F+F+F\nangle factor: 4\nstroke: none\nfields: kind\n");
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("need lines, and 'stroke' is none"), std::string::npos);
+    }
 }
 
 }  // namespace

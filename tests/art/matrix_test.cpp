@@ -31,6 +31,15 @@ const std::string kolam =
 const std::string shape =
     "title: Shape\naxiom: {F+F+F+F}\nF --> FF\nderivation length: 1\nangle increment: 90\n"
     "stroke: 0.4mm #203060\nground: #ffffff\n";
+/// Two tiles with an edge in common.
+const std::string squares =
+    "title: Squares\naxiom: {F+F+F+F}+f{F+F+F+F}\nF --> F\nderivation length: 1\nangle increment: 90\n"
+    "stroke: 0.4mm #203060\nground: #ffffff\npalette: #203060 #304060\nfill: #30a050\n";
+/// A tiling by squares.
+const std::string grid =
+    "title: Grid\naxiom: A\nA --> A[fA][+f-A][f+f-A]\nf --> ff\nderivation length: 2\nangle increment: 90\n"
+    "heading: 0\nturn: left\nstroke: 0.4mm #203060\nground: #ffffff\npalette: #203060 #304060\n"
+    "interpret:\nA --> {F+F+F+F}\n";
 /// A fill whose edges no line draws.
 const std::string leaf =
     "title: Leaf\naxiom: {f+f+f+f}F'F\nderivation length: 1\nangle increment: 90\n"
@@ -42,6 +51,15 @@ const std::string woven =
 const std::string solid =
     "title: Solid\naxiom: F\nF --> F[&F]F\nderivation length: 2\nangle increment: 40\nstroke: 0.2 step #203060\n"
     "ground: #ffffff\n";
+
+/// A polygon that begins in one branch and ends in another.
+const std::string blade =
+    "title: Blade\naxiom: {.[+F'F.]FF.}\nF --> F\nderivation length: 1\nangle increment: 60\npolygons: framework\n"
+    "stroke: 1mm #203060\nground: #ffffff\npalette: #203060 #304060\n";
+const std::string bent =
+    "title: Bent\naxiom: F~leaf(2)\nF --> F\nderivation length: 1\nstroke: 0.2 step #203060\nground: #ffffff\n"
+    "patch leaf:\n0 0 0, .3 0 0, .6 0 0, 1 0 0\n-.5 1 .3, 0 1 0, .5 1 0, 1.5 1 .3\n"
+    "-.5 2 .3, 0 2 0, .5 2 0, 1.5 2 .3\n0 3 0, .3 3 0, .6 3 0, 1 3 0\n";
 
 using Values = std::map<std::string, std::string>;
 
@@ -81,10 +99,17 @@ std::vector<Feature> features() {
             {"weave", woven, {{"weave", "yes"}}, {}, {}},
             {"parallel lines", kolam, {{"parallel", "3"}}, {}, {}},
             {"fills", leaf, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
+            {"blades", blade, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
+            {"surfaces", bent, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
+            {"colours of tiles", leaf, {{"tile colours", "by shape"}}, {}, {}},
+            {"filled page", grid, {}, {{"fill-page", "true"}}, {}},
+            {"names of tiles", squares, {}, {{"name-tiles", "true"}}, {}},
+            {"edges of tiles", squares, {{"tile edges", "border"}}, {}, {}},
             {"splines", kolam, {{"line", "spline"}}, {}, {}, {{"line", "straight"}}},
             {"lines by hand", kolam, {{"hand", "0.5"}}, {}, {}, {{"hand", "0"}}},
             {"window", kolam, {}, {{"window", "-1,-1,2,2"}}, {}},
             {"view", solid, {}, {{"view", "30,60"}}, {}},
+            {"light", solid, {}, {{"light", "sun"}}, {}},
             {"rotation", kolam, {}, {{"rotate", "30"}}, {}},
             {"step", kolam, {}, {{"step", "3mm"}}, {}},
             {"animation", kolam, {}, {{"animate", "5"}}, {}},
@@ -140,6 +165,7 @@ std::vector<Target> targets() {
             {"GIF", "gif", growth},
             {"HP-GL", "hpgl", one},
             {"G-code", "gcode", one},
+            {"DXF", "dxf", one},
             {"OBJ", "obj", one},
             {"glTF", "glb", one},
             {"poster", "svg", one, true},
@@ -148,15 +174,25 @@ std::vector<Target> targets() {
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Combinations where a feature rightly changes nothing: HP-GL and G-code are always plots, which fill fields only by
-/// hatching, and a sheet of
-/// generations is compared with itself.
-const std::set<std::string> unchanged = {"fields on HP-GL",
+/// Combinations where a feature rightly changes nothing: HP-GL, G-code and DXF are always plots, which fill fields
+/// only by hatching, a light only by pictures, and a sheet of generations is compared with itself.
+const std::set<std::string> unchanged = {"light on SVG",
+                                         "light on PDF",
+                                         "light on HP-GL",
+                                         "light on G-code",
+                                         "light on DXF",
+                                         "light on sheet",
+                                         "light on tile",
+                                         "light on frame",
+                                         "fields on HP-GL",
                                          "fields on G-code",
+                                         "fields on DXF",
                                          "powders on HP-GL",
                                          "powders on G-code",
+                                         "powders on DXF",
                                          "plotter on HP-GL",
                                          "plotter on G-code",
+                                         "plotter on DXF",
                                          "sheet of generations on GIF",
                                          "sheet of generations on frame",
                                          "sheet of generations on sheet",
@@ -189,6 +225,10 @@ std::string drawing_of(const std::string& name, std::string bytes, const Scratch
         return bytes.substr(20 + length);
     }
     if (format == "hpgl") return bytes.substr(0, bytes.find("CO\""));
+    if (format == "dxf") {
+        erase_between(bytes, "999\n", "\n");
+        return bytes;
+    }
     if (format == "gcode") {
         erase_between(bytes, "(", "\n");
         erase_between(bytes, ";", "\n");

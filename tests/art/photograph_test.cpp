@@ -1,8 +1,11 @@
 // tests/art/photograph_test.cpp: kolams read from pictures that look like photographs, of which the truth is known.
 #include "art/reading/photograph.h"
 
+#include "art/kolam/dot_grid_pattern.h"
 #include "art/kolam/dot_grid_symmetry.h"
+#include "art/prints.h"
 #include "art/reading/kolam_lines.h"
+#include "engine/language/document.h"
 #include "tests/files.h"
 #include "tests/photograph_maker.h"
 
@@ -12,6 +15,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -204,8 +208,8 @@ TEST(Photograph, RefusesWhatIsNone) {
     const ScratchFolder folder;
     const auto path = folder.path() / "photo.jpg";
     const auto write = [&](const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; };
-    EXPECT_NE(error_of(folder.path() / "none.jpg").find("not a file"), std::string::npos);
-    EXPECT_NE(error_of(folder.path()).find("not a file"), std::string::npos);
+    EXPECT_NE(error_of(folder.path() / "none.jpg").find("not a regular file"), std::string::npos);
+    EXPECT_NE(error_of(folder.path()).find("not a regular file"), std::string::npos);
     write("axiom: F\n");
     EXPECT_NE(error_of(path).find("not a picture"), std::string::npos);
     write("\xFF\xD8\xFFnothing");
@@ -234,6 +238,104 @@ TEST(Photograph, RefusesWhatIsNone) {
         const std::string error = error_of(folder.path() / "noise.png");
         EXPECT_NE(error, "no error") << noise;
     }
+}
+
+/// Writes a kolam as `draw` does, with options, and reads it.
+Photograph read_drawn(const std::string& grid, const OptionValues& values) {
+    const ScratchFolder folder;
+    const DotGrid dots = parse_dot_grid(grid);
+    const std::string pattern = kolam_pattern(dots, random_states(dots, {.seed = 2}), {}).text;
+    OptionValues all = {{"dots", ""}, {"size", "150x150mm"}, {"dpi", "150"}};
+    all.insert(all.end(), values.begin(), values.end());
+    folder.write("kolam.png", draw(parse("kolam.lsys", pattern), "png", all));
+    return read_photograph(folder.path() / "kolam.png");
+}
+
+bool has_note(const Photograph& photograph, const std::string& part) {
+    const auto& notes = photograph.kolam.notes;
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+TEST(Photograph, LeavesBordersOut) {
+    for (const char* border : {"kaavi", "padi", "lotus", "rope", "diamonds", "waves"}) {
+        SCOPED_TRACE(border);
+        const Photograph photograph = read_drawn("5x5", {{"border", border}});
+        EXPECT_EQ(photograph.kolam.grid.text(), "5x5");
+        EXPECT_TRUE(photograph.kolam.doubtful().empty());
+    }
+    EXPECT_TRUE(has_note(read_drawn("5x5", {{"border", "rope"}}), "a border around the kolam was left out"));
+}
+
+TEST(Photograph, ReportsTheEdgeOnlyIfTheKolamSeemsToContinue) {
+    const char* const continues = "seems to continue outside";
+    for (const char* grid : {"5x5", "7-4 idukku"}) {
+        for (const char* margin : {"20mm", "10mm", "2mm"}) {
+            EXPECT_FALSE(has_note(read_drawn(grid, {{"margin", margin}}), continues)) << grid << ", " << margin;
+        }
+    }
+    // A part of a kolam.
+    EXPECT_TRUE(has_note(read_drawn("9x9", {{"window", "2,-5,11,4"}}), continues));
+}
+
+/// Dots without lines, and a page of letters.
+TEST(Photograph, RefusesPicturesOfSomethingElse) {
+    EXPECT_THROW(read_drawn("6x6", {{"stroke", "0.01 step #7d3324"}}), std::runtime_error);
+}
+
+/// A damaged header can claim a size at which blurs and degenerate lattices took minutes.
+TEST(Photograph, TakesSecondsForAnySizeAHeaderClaims) {
+    const ScratchFolder folder;
+    const auto path = folder.path() / "noise.jpg";
+    ImageSpec spec;
+    spec.format = "jpg";
+    spec.width = spec.height = 300;
+    std::vector<std::uint8_t> pixels(3 * 300 * 300);
+    PictureChance chance(3);
+    for (auto& value : pixels) value = static_cast<std::uint8_t>(chance.uniform(0, 255));
+    const auto writer = open_image(path, spec);
+    writer->rows(0, 300, pixels);
+    writer->close();
+    std::string bytes = contents(path);
+    const std::size_t frame = bytes.find("\xFF\xC0");
+    ASSERT_NE(frame, std::string::npos);
+    bytes.replace(frame + 5, 4, std::string("\x26\xAC\x26\xAC"));  // 9900 x 9900
+    folder.write("claims.jpg", bytes);
+    const std::clock_t begin = std::clock();
+    EXPECT_NE(error_of(folder.path() / "claims.jpg"), "no error");
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 25);
+}
+
+/// libpng would print its own words on the error output.
+TEST(Photograph, DamagedPngsAreRefusedWithoutTheWordsOfLibraries) {
+    const ScratchFolder folder;
+    const DotGrid dots = parse_dot_grid("3x3");
+    const std::string pattern = kolam_pattern(dots, parse_gap_states(dots, "all"), {}).text;
+    const std::string png =
+        draw(parse("kolam.lsys", pattern), "png", {{"dots", ""}, {"size", "60x60mm"}, {"dpi", "100"}});
+    const auto refuses = [&](const std::string& bytes) {
+        folder.write("damaged.png", bytes);
+        testing::internal::CaptureStderr();
+        const std::string error = error_of(folder.path() / "damaged.png");
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+        EXPECT_NE(error.find("damaged"), std::string::npos) << error;
+    };
+    folder.write("sound.png", png);
+    EXPECT_EQ(error_of(folder.path() / "sound.png"), "no error");
+    for (const std::size_t at : {16U, 24U, 25U, 29U}) {  // in the header
+        std::string bytes = png;
+        bytes[at] = static_cast<char>(bytes[at] ^ 5);
+        refuses(bytes);
+    }
+    const std::size_t pixels = png.find("IDAT");
+    ASSERT_NE(pixels, std::string::npos);
+    for (std::size_t i = 4; i < 300; i += 37) {
+        std::string bytes = png;
+        bytes[pixels + i] = static_cast<char>(bytes[pixels + i] ^ 0x55);
+        refuses(bytes);
+    }
+    refuses(png.substr(0, png.size() - 12));
+    refuses(png.substr(0, pixels + 60));
 }
 
 /// Pictures that claim sizes of gigabytes, from the corpus of files that the program reads elsewhere.

@@ -274,7 +274,28 @@ TEST_F(Plotter, PensHaveTheirOwnSpeedHeightsAndPauses) {
     EXPECT_LT(raised - stop, travel - stop);
     // 400 mm at 30 mm/s, 200 mm at 10 mm/s, and 10 lifts with 2 pauses.
     const PlotSpeeds speeds{40, 1e6, 0};
-    EXPECT_NEAR(plot_seconds(report_, speeds), 400.0 / 30 + 200.0 / 10 + 10 * 0.5, 0.01);
+    EXPECT_NEAR(plot_seconds(report_.after, report_.pens, speeds), 400.0 / 30 + 200.0 / 10 + 10 * 0.5, 0.01);
+}
+
+/// A drawing in the best order already is as long before as after: both dip the brush.
+TEST_F(Plotter, RefillsCountBeforeAsAfter) {
+    const auto draw = [](PathSink& sink) {
+        for (const double y : {10.0, 20.0, 30.0}) {
+            sink.begin_stroke({0, y}, {});
+            sink.lines(Points{{20, y}});
+            sink.end_stroke(false);
+        }
+    };
+    for (const double length : {20.0, 40.0, 1000.0}) {
+        PlotOptions options;
+        options.refill = Refill{length, {5, 1}};
+        const auto plan = arranged(print_, draw, options);
+        const PlotReport& report = plan->report();
+        EXPECT_EQ(report.before.lifts, report.after.lifts) << length;
+        EXPECT_GE(report.before.travelled, report.after.travelled - 1e-9) << length;
+        ASSERT_EQ(report.pens_before.size(), 1u);
+        EXPECT_EQ(report.pens_before[0].lifts, report.before.lifts);
+    }
 }
 
 TEST_F(Plotter, RulesOfPensAreRead) {

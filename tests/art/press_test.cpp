@@ -59,11 +59,11 @@ TEST(Spot, SaysWhatIsWrong) {
         {"Kaavi=", "its colour is missing"},
         {"Kaavi=rde", "'rde' is not a colour"},
         {"Kaavi=#12345", "'#12345' is not a colour"},
-        {"Kaavi=#ff000080", "not transparent"},
-        {"Kaavi=transparent", "not transparent"},
+        {"Kaavi=#ff000080", "cannot be transparent"},
+        {"Kaavi=transparent", "cannot be transparent"},
         {std::string(128, 'x') + "=red", "longer than 127 bytes"},
-        {"All=red", "the name All is taken"},
-        {"None=red", "the name None is taken"},
+        {"All=red", "the name All is reserved"},
+        {"None=red", "the name None is reserved"},
         {std::string("a\0b=red", 7), "control characters"},
         {"a\nb=red", "control characters"},
         {"\xC3=red", "invalid UTF-8"},
@@ -110,7 +110,7 @@ TEST(Press, RefusesWhatAFormatDoesNotHave) {
         EXPECT_TRUE(says(check({.cmyk = "a.icc"}, format), "only TIFF and PDF"));
         EXPECT_TRUE(says(check({.registration = true}, format), "only a PDF has registration marks"));
         EXPECT_TRUE(says(check({.overprint = Overprint::black}, format), "only a PDF has inks"));
-        EXPECT_TRUE(says(check({.bits = 1}, format), "only a TIFF"));
+        EXPECT_TRUE(says(check({.bits = 1}, format), "only TIFF"));
     }
     EXPECT_EQ(check({.cmyk = "a.icc"}, PrintFormat::pdf), "");
     EXPECT_EQ(check({.cmyk = "a.icc", .overprint = Overprint::all}, PrintFormat::pdf), "");

@@ -1,10 +1,12 @@
 #include "art/kolam/radial_kolam.h"
 
+#include "art/kolam/kolam.h"
 #include "engine/geometry/spline.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -79,6 +81,55 @@ TEST(RadialKolam, LinesAreTheGreatestCommonDivisorAndVisitEveryDot) {
         }
         EXPECT_EQ(visits, std::vector<int>(visits.size(), 1)) << size;
     }
+}
+
+/// The tangent of a Bézier at its beginning leads to its next control.
+TEST(RadialKolam, LinesCrossArmsAtRightAngles) {
+    for (const char* size : {"8x5", "5x4", "6x3", "12x7", "2x3"}) {
+        const KolamPattern pattern = radial_pattern(parse_radial_kolam(size));
+        std::size_t crossed = 0;
+        for (const reference::Line& stroke : drawn(pattern.text).strokes) {
+            for (std::size_t i = 0; i + 1 < stroke.points.size(); i += 3) {
+                const glm::dvec2 at = stroke.points[i], way = stroke.points[i + 1] - at;
+                const bool is_dot = std::any_of(pattern.dots.begin(), pattern.dots.end(), [&](glm::dvec2 dot) {
+                    return std::hypot(at.x - dot.x, at.y - dot.y) < 1e-8;
+                });
+                if (!is_dot) continue;
+                ++crossed;
+                const double along_arm = at.x * way.x + at.y * way.y;
+                EXPECT_LT(std::fabs(along_arm), 1e-7 * std::hypot(at.x, at.y) * std::hypot(way.x, way.y)) << size;
+            }
+        }
+        EXPECT_EQ(crossed, pattern.dots.size()) << size;
+    }
+}
+
+TEST(RadialKolam, LinesRunThroughTheirOwnDotsAndAroundTheCentre) {
+    for (const char* size : {"8x5", "5x4", "6x3", "12x7"}) {
+        for (const bool is_drawn : {false, true}) {
+            const KolamPattern pattern = radial_pattern(parse_radial_kolam(size), {.dot_symbols = is_drawn});
+            const KolamExamination found =
+                examine_kolam(reference::grammar_of(pattern.text),
+                              {.spline = true, .draws = [](const Pen& pen) { return pen.colour == 0; }});
+            EXPECT_TRUE(found.has_own_dots) << size;
+            EXPECT_EQ(found.dots.size(), pattern.dots.size() + is_drawn) << size;
+            EXPECT_EQ(found.dots_on_lines(), pattern.dots.size()) << size;
+            EXPECT_EQ(found.loose_dots(), 0u) << size;
+        }
+    }
+}
+
+TEST(RadialKolam, OwnDotsOutsideOfTheLineAreFaults) {
+    // A square of 4 steps with a dot in it, one on its side, and two outside of it, one of which is drawn twice.
+    const std::string text =
+        "angle factor: 4\naxiom: [FFFF+FFFF+FFFF+FFFF][+f(1.5)-f(1)@.][f(2)@.][-f@.@.][f(9)@.]\n";
+    const KolamExamination found = examine_kolam(reference::grammar_of(text), {});
+    ASSERT_TRUE(found.has_own_dots);
+    EXPECT_EQ(found.dots.size(), 4u);
+    EXPECT_EQ(found.dots_on_lines(), 1u);
+    EXPECT_EQ(
+        std::count_if(found.dots.begin(), found.dots.end(), [](const KolamDot& dot) { return dot.is_enclosed; }), 1);
+    EXPECT_EQ(found.faults(), (std::vector<std::string>{"no line runs around or through 2 of 4 dots"}));
 }
 
 TEST(RadialKolam, ReadsOrders) {

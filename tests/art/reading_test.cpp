@@ -291,6 +291,25 @@ TEST(KolamCsv, ReadsTheKolamsOfATable) {
     EXPECT_TRUE(contains(error_of([&] { read_kolam_csv("x-kolam 1,y-kolam 1\n1,2\n", 1); }), "has no line"));
 }
 
+/// The grid would grow to reach such a point.
+TEST(KolamCsv, RefusesAPointThatIsFarFromTheOthers) {
+    const DotGrid grid = parse_dot_grid("4x5");  // a single line
+    const std::string text = kolam_csv_file(grid, parse_gap_states(grid, "all"));
+    EXPECT_EQ(read_kolam_csv(text, 1).grid.text(), "4x5");
+    for (const std::size_t row : {2U, 7U}) {
+        std::size_t at = 0;
+        for (std::size_t i = 1; i < row; ++i) at = text.find('\n', at) + 1;
+        try {
+            read_kolam_csv(text.substr(0, at) + "2000000.5,3\n" + text.substr(at), 1);
+            ADD_FAILURE() << "read";
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(fmt::format("row {}: the point 2000000.5, 3 is", row)),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+}
+
 TEST(KolamCsv, ComesBackByteForByte) {
     for (const std::string& name : square_grids()) {
         const DotGrid grid = parse_dot_grid(name);
@@ -353,7 +372,7 @@ TEST(Gestures, SayWhatTheyCannotDescribe) {
         {"O1 O9", "loop 1, gesture 2: 'o9' is unknown"},
         {"C2", "decoration"},
         {"O1 O1", "loop 1 does not close"},
-        {"O4 C1", "C1 is a loop by itself"},
+        {"O4 C1", "C1 must be the only gesture"},
         {"C1\nC1", "loop 2 has no start"},
         {"0,0.5,90: C1", "heading 90"},
         {"0,0,45: C1", "does not start midway"},

@@ -1,7 +1,10 @@
 // Repeats of a drawing: the group is recognised from the points of the SVG alone.
 #include "art/print/repeat.h"
 
+#include "art/print/crop.h"
 #include "art/prints.h"
+#include "engine/base/output.h"
+#include "engine/derivation/derivation.h"
 #include "tests/tools.h"
 
 #include <gtest/gtest.h>
@@ -336,10 +339,118 @@ TEST(Repeat, WorksWithDotsColoursAndPlots) {
     EXPECT_EQ(count(plot, "PD"), 5 * count(draw(kolam, "hpgl", {}), "PD"));
 }
 
+/// A weave cuts a line into pieces, which are not lines of their own.
+TEST(Repeat, CountsLinesBeforeTheyAreWoven) {
+    const Document kolam = parse("kolam.lsys",
+                                 "axiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\n"
+                                 "angle increment: 90\n");
+    for (const OptionValues& options :
+         {OptionValues{}, OptionValues{{"weave", "yes"}}, OptionValues{{"parallel", "3"}}}) {
+        OptionValues values = options;
+        values.push_back({"repeat", "p1:2x3"});
+        MemoryDestination made;
+        const Made found = prints().plan(kolam, "svg", values, {})->make(made, "k.svg", {}, 1);
+        ASSERT_FALSE(found.remarks.empty());
+        EXPECT_EQ(found.remarks.front().text, "p1: 6 copies, 6 lines");
+    }
+}
+
+/// Copies reach the edges of the page on all sides, and nothing beyond them.
+TEST(Repeat, FillsThePage) {
+    const Document document = parse("hook.lsys", hook);
+    for (const char* group : {"p1", "cmm", "p4m", "p31m"}) {
+        for (const char* rotate : {"0", "25"}) {
+            SCOPED_TRACE(std::string(group) + rotate);
+            const OptionValues values = {
+                {"repeat", std::string(group) + ":6xfill"}, {"size", "200x300mm"}, {"rotate", rotate}};
+            Box box;
+            for (const Points& path : paths_of(draw(document, "svg", values))) {
+                for (const glm::dvec2 point : path) box.add(point);
+            }
+            constexpr double pen = 0.1 + close;
+            EXPECT_NEAR(box.low.x, 0, 12);
+            EXPECT_NEAR(box.low.y, 0, 12);
+            EXPECT_NEAR(box.high.x, 200, 12);
+            EXPECT_NEAR(box.high.y, 300, 12);
+            EXPECT_GE(std::min(box.low.x, box.low.y), -pen);
+            EXPECT_LE(box.high.x, 200 + pen);
+            EXPECT_LE(box.high.y, 300 + pen);
+            OptionValues plotted = values;
+            plotted.push_back({"plotter", "true"});
+            Box plot;
+            for (const Points& path : paths_of(draw(document, "svg", plotted))) {
+                for (const glm::dvec2 point : path) plot.add(point);
+            }
+            EXPECT_GE(std::min(plot.low.x, plot.low.y), 10 - close) << "the margin";
+            EXPECT_LE(plot.high.x, 190 + close);
+            EXPECT_LE(plot.high.y, 290 + close);
+        }
+    }
+    EXPECT_EQ(parse_repeat("p4m:fill")->columns, 3);
+    EXPECT_EQ(parse_repeat("p4m:5xFILL")->columns, 5);
+    for (const char* bad : {"frieze:fill", "ring:fill", "p4m:fillx3", "p4m:0xfill", "p4m:fill4"}) {
+        EXPECT_FALSE(parse_repeat(bad)) << bad;
+    }
+    EXPECT_ANY_THROW(draw(document, "svg", {{"repeat", "p4m:fill"}, {"step", "0.1mm"}, {"size", "A0"}}));
+}
+
+/// Fills are cut, too; a stroke that leaves the area and returns becomes two.
+TEST(Repeat, CropsExactly) {
+    class Noted : public PathSink {
+    public:
+        void begin_stroke(glm::dvec2 start, const Pen&) override { strokes.push_back({start}); }
+        void lines(std::span<const glm::dvec2> ends) override {
+            strokes.back().insert(strokes.back().end(), ends.begin(), ends.end());
+        }
+        void curves(std::span<const glm::dvec2> controls) override { lines(controls.last(1)); }
+        void change_pen(const Pen&) override {}
+        void end_stroke(bool closed) override { is_closed = closed; }
+        void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+            polygons.emplace_back(vertices.begin(), vertices.end());
+        }
+        void area(std::span<const glm::dvec2>, const Pen&) override { ++wholes; }
+        void disc(glm::dvec2, double, const Pen&) override { ++wholes; }
+        std::vector<Points> strokes, polygons;
+        bool is_closed = false;
+        int wholes = 0;
+    } noted;
+    CropSink crop(noted, {0, 0}, {10, 10}, {{2, 0}, {0, -2}, {0, 10}}, 0.001);  // steps 0 to 5
+    const Points line = {{2, 1}, {8, 1}, {8, 4}, {1, 4}};
+    crop.begin_stroke(line.front(), {});
+    crop.lines(std::span(line).subspan(1));
+    crop.end_stroke(false);
+    ASSERT_EQ(noted.strokes.size(), 2u);
+    EXPECT_NEAR(glm::length(noted.strokes[0].back() - glm::dvec2(5, 1)), 0, 1e-9);
+    EXPECT_NEAR(glm::length(noted.strokes[1].front() - glm::dvec2(5, 4)), 0, 1e-9);
+    // Out at the top and in again.
+    noted.strokes.clear();
+    crop.begin_stroke({1, 4}, {});
+    crop.curves(Points{{1, 8}, {4, 8}, {4, 4}});
+    crop.end_stroke(false);
+    ASSERT_EQ(noted.strokes.size(), 2u);
+    EXPECT_NEAR(noted.strokes[0].back().y, 5, 1e-9);
+    EXPECT_NEAR(noted.strokes[1].front().y, 5, 1e-9);
+    crop.polygon(Points{{4, 2}, {8, 2}, {8, 3}, {4, 3}}, {});
+    ASSERT_EQ(noted.polygons.size(), 1u);
+    for (const glm::dvec2 corner : noted.polygons[0]) EXPECT_LE(corner.x, 5 + 1e-9);
+    crop.disc({2, 2}, 1, {});
+    crop.disc({5, 2}, 1, {});
+    crop.disc({9, 2}, 1, {});
+    EXPECT_EQ(noted.wholes, 1);
+    EXPECT_EQ(noted.polygons.size(), 2u);
+}
+
 TEST(Repeat, RefusesTooMuch) {
     const Document large = parse("large.lsys", "axiom: F\nF --> FFFFFFFFFF\nderivation length: 5\n");
     EXPECT_NO_THROW(draw(large, "svg", {{"repeat", "ring:3"}, {"budget", "1e6"}}));
     EXPECT_ANY_THROW(draw(large, "svg", {{"repeat", "ring:300"}, {"budget", "1e6"}}));
+    try {
+        draw(large, "svg", {{"repeat", "ring:300"}, {"budget", "1e6"}});
+    } catch (const BudgetError& error) {
+        EXPECT_NE(std::string(error.what()).find("; the 300 copies of 'repeat' share the budget of 1000000 nodes"),
+                  std::string::npos)
+            << error.what();
+    }
     const Document solid = parse("solid.lsys", "axiom: F&F\n");
     EXPECT_THROW(draw(solid, "svg", {{"repeat", "ring:3"}}), SettingError);
     EXPECT_THROW(draw(large, "svg", {{"repeat", "ring:3"}, {"window", "0,0,1,1"}}), SettingError);

@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -199,6 +201,150 @@ TEST(SolidRaster, WhatIsInFrontHidesWhatIsBehindWhateverComesFirst) {
     const Picture picture = picture_of("turn: left\naxiom: " + behind + front + "\n", back);
     EXPECT_EQ(hue(picture.at(-5, 0)), 'r');
     EXPECT_EQ(hue(picture.at(-15, 0)), 'g');
+}
+
+/// A square of a framework, red on its left and blue on its right.
+const std::string blend = "polygons: framework\nturn: left\naxiom: g(10)+g(20)-|{.G(20).;;+G(40).+G(20).}\n";
+
+TEST(SolidRaster, ColoursOfVerticesBlend) {
+    const Picture picture = picture_of(blend, pixel_print(64));
+    EXPECT_EQ(hue(picture.at(-18, 0)), 'r');
+    EXPECT_EQ(hue(picture.at(17, 0)), 'b');
+    EXPECT_EQ(hue(picture.at(0, 15)), 'w');
+    const glm::ivec3 left = picture.at(-10, 0), middle = picture.at(0, 0), right = picture.at(9, 0);
+    EXPECT_GT(left.x, middle.x);
+    EXPECT_GT(middle.x, right.x);
+    EXPECT_LT(left.z, middle.z);
+    EXPECT_LT(middle.z, right.z);
+    EXPECT_NEAR(middle.x, middle.z, 12);
+}
+
+TEST(SolidRaster, AMeshIsLitSmoothly) {
+    // A dome of one patch: neither of two neighbouring pixels is much brighter.
+    const std::string dome =
+        "patch p:\n-20 -20 0, -7 -20 7, 7 -20 7, 20 -20 0\n-20 -7 7, -7 -7 20, 7 -7 20, 20 -7 7\n"
+        "-20 7 7, -7 7 20, 7 7 20, 20 7 7\n-20 20 0, -7 20 7, 7 20 7, 20 20 0\naxiom: ~p\n";
+    const Picture picture = picture_of(dome, pixel_print(64));
+    int changes = 0;
+    for (int x = -18; x < 17; ++x) {
+        const int change = picture.at(x + 1, 0).x - picture.at(x, 0).x;
+        EXPECT_LE(std::abs(change), 14) << x;
+        changes += change != 0 ? 1 : 0;
+    }
+    EXPECT_GT(changes, 20);
+    EXPECT_EQ(hue(picture.at(25, 0)), 'w');
+}
+
+TEST(Model, ColoursOfVerticesAreKept) {
+    const ScratchFolder folder;
+    const Print print = pixel_print(64);
+    const Scene scene = scene_of(blend, print.style);
+    write_model(scene, print, PrintFormat::obj, folder.file("c.obj"));
+    const std::string obj = contents(folder.file("c.obj"));
+    EXPECT_NE(obj.find(" 1.0000 0.0000 0.0000\n"), std::string::npos);
+    EXPECT_NE(obj.find(" 0.0000 0.0000 1.0000\n"), std::string::npos);
+    EXPECT_NE(obj.find("usemtl fill-blend\n"), std::string::npos);
+    write_model(scene, print, PrintFormat::glb, folder.file("c.glb"));
+    const std::string glb = contents(folder.file("c.glb"));
+    EXPECT_NE(glb.find("\"COLOR_0\":"), std::string::npos);
+    EXPECT_EQ(glb.size() % 4, 0u);
+}
+
+/// The parts of a binary glTF file, read as its specification says.
+struct GlbPart {
+    std::vector<glm::vec3> positions, normals, colours;
+    std::vector<std::uint32_t> corners;
+    bool is_two_sided = false;
+};
+std::vector<GlbPart> read_glb(const std::string& bytes) {
+    const auto number = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return value;
+    };
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(number(4), 2u);
+    EXPECT_EQ(number(8), bytes.size());
+    const std::size_t length = number(12);
+    const auto json = nlohmann::json::parse(bytes.substr(20, length));
+    const std::string binary = bytes.substr(28 + length);
+    EXPECT_EQ(number(20 + length), binary.size());
+    const auto values = [&](const nlohmann::json& index, const std::string& type, auto& list) {
+        const auto& accessor = json["accessors"][index.get<std::size_t>()];
+        const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        EXPECT_EQ(accessor["type"], type);
+        list.resize(accessor["count"].get<std::size_t>());
+        const std::size_t size = list.size() * sizeof(list[0]), offset = view["byteOffset"].get<std::size_t>();
+        EXPECT_EQ(view["byteLength"].get<std::size_t>(), size);
+        ASSERT_LE(offset + size, binary.size());
+        std::memcpy(list.data(), binary.data() + offset, size);
+    };
+    std::vector<GlbPart> parts;
+    for (const auto& primitive : json["meshes"][0]["primitives"]) {
+        GlbPart& part = parts.emplace_back();
+        const auto& attributes = primitive["attributes"];
+        values(attributes["POSITION"], "VEC3", part.positions);
+        values(attributes["NORMAL"], "VEC3", part.normals);
+        values(primitive["indices"], "SCALAR", part.corners);
+        if (attributes.contains("COLOR_0")) values(attributes["COLOR_0"], "VEC3", part.colours);
+        part.is_two_sided = json["materials"][primitive["material"].get<std::size_t>()].value("doubleSided", false);
+        EXPECT_EQ(part.normals.size(), part.positions.size());
+        for (const glm::vec3& normal : part.normals) EXPECT_NEAR(glm::length(normal), 1, 1e-5);
+        for (const std::uint32_t corner : part.corners) EXPECT_LT(corner, part.positions.size());
+    }
+    return parts;
+}
+
+TEST(Model, VerticesHaveTheColoursOfTheirMarks) {
+    const ScratchFolder folder;
+    const Print print = pixel_print(64);
+    write_model(scene_of(blend, print.style), print, PrintFormat::glb, folder.file("c.glb"));
+    // Its sides are lines as well, of one colour each.
+    auto parts = read_glb(contents(folder.file("c.glb")));
+    std::erase_if(parts, [](const GlbPart& part) { return part.colours.empty(); });
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_TRUE(parts[0].is_two_sided);
+    ASSERT_EQ(parts[0].colours.size(), 4u);
+    float left = 1e9F, right = -1e9F;
+    for (const glm::vec3& at : parts[0].positions) {
+        left = std::min(left, at.x);
+        right = std::max(right, at.x);
+    }
+    EXPECT_NEAR(right - left, 40, 1e-4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        // Red and blue are the same in linear values.
+        const bool is_left = parts[0].positions[i].x < (left + right) / 2;
+        EXPECT_EQ(parts[0].colours[i], is_left ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1));
+    }
+    EXPECT_EQ(parts[0].corners.size(), 6u);
+}
+
+TEST(Model, SurfacesHaveTheirNormals) {
+    // z = xy over a square of three steps, whose normal is (-y, -x, 1).
+    std::string net = "patch p:\n";
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            net += std::to_string(column) + " " + std::to_string(row) + " " + std::to_string(row * column) + " ";
+        }
+        net += "\n";
+    }
+    const ScratchFolder folder;
+    const Print print = pixel_print(64);
+    write_model(scene_of(net + "axiom: ~p\n", print.style), print, PrintFormat::glb, folder.file("s.glb"));
+    const auto parts = read_glb(contents(folder.file("s.glb")));
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_TRUE(parts[0].colours.empty());
+    EXPECT_TRUE(parts[0].is_two_sided);
+    // n x n places and vertices that neighbours share.
+    const std::size_t squares = parts[0].corners.size() / 6;
+    const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(squares))));
+    EXPECT_EQ(n * n, squares);
+    EXPECT_EQ(parts[0].positions.size(), (n + 1) * (n + 1));
+    for (std::size_t i = 0; i < parts[0].positions.size(); ++i) {
+        const glm::vec3 at = parts[0].positions[i];  // the first point seen, a corner, is the origin
+        EXPECT_NEAR(at.z, at.x * at.y, 1e-4);
+        EXPECT_NEAR(std::fabs(glm::dot(parts[0].normals[i], glm::normalize(glm::vec3(-at.y, -at.x, 1)))), 1, 1e-4);
+    }
 }
 
 TEST(SolidRaster, PolygonsThatCutEachOtherAreEachSeenInPart) {

@@ -412,7 +412,7 @@ TEST_F(Sheets, FailuresNameTheCellOrTheFile) {
         EXPECT_NE(message({}, name), "");
         EXPECT_TRUE(message({cell(kolam), cell("axiom: f\n", "Empty one")}, name).starts_with("'Empty one': "));
         options_.page = {20.0, 20.0, 8.0};
-        EXPECT_NE(message(four(), name).find("no room"), std::string::npos);
+        EXPECT_NE(message(four(), name).find("do not fit"), std::string::npos);
         options_.page = {120.0, 160.0, 8.0};
     }
     SheetCell endless = cell(kolam, "Endless");

@@ -169,6 +169,27 @@ TEST(SeveralDrawings, LookTheSameInPicturesAndVectors) {
     EXPECT_LT(static_cast<double>(difference) / static_cast<double>(pdf.bytes.size()), 3.0);
 }
 
+/// The same kolam, once in steps of double length: dots are as large as they are far apart.
+TEST(SeveralDrawings, OfOneScaleHaveTheirDotsEquallyFarApart) {
+    const std::string doubled =
+        "axiom: FF+XFF+FF+XFF\nX --> XFF-FF-FF+XFF+FF+XFF-FF-FF+X\nderivation length: 2\nangle increment: 90\n"
+        "stroke: 0.4 step #fffaf0\nground: #8c3b2a\n";
+    const auto radii = [&](OptionValues values) {
+        values.push_back({"dots", ""});
+        pugi::xml_document document;
+        EXPECT_TRUE(document.load_string(made({item(kolam), item(doubled)}, "svg", std::move(values)).c_str()));
+        double least = 1e300, most = 0;
+        for (const auto& found : document.select_nodes("//circle")) {
+            const double radius = found.node().attribute("r").as_double();
+            least = std::min(least, radius);
+            most = std::max(most, radius);
+        }
+        return most / least;
+    };
+    EXPECT_GT(radii({}), 1.5);
+    EXPECT_NEAR(radii({{"same-scale", "true"}}), 1, 0.01);
+}
+
 TEST(SeveralDrawings, ShareAScaleOrADotSpacing) {
     const auto steps = [&](OptionValues values) {
         const std::string large = "axiom: FF-FF-FF-FF\nangle increment: 90\n";

@@ -2,7 +2,9 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/geometry/turtle.h"
+#include "engine/map/placement.h"
 #include "engine/measure/extent.h"
+#include "tests/maps.h"
 
 #include <cstdlib>
 #include <string>
@@ -118,6 +120,27 @@ void a_step_with_contexts(benchmark::State& state, bool parametric) {
     state.counters["symbols"] = static_cast<double>(grammar.axiom().size());
 }
 
+/// The cell layer of 2^n cells.
+void map_of_cells(benchmark::State& state) {
+    const Grammar grammar = grammar_of(maps::layer, state.range(0));
+    std::size_t edges = 0;
+    for (auto _ : state) edges = derive_map(grammar).edges().size();
+    state.counters["edges"] = static_cast<double>(edges);
+}
+
+void placed_cells(benchmark::State& state, const std::string& placing) {
+    const Grammar grammar = grammar_of(maps::layer + "place: " + placing + "\n", state.range(0));
+    for (auto _ : state) {
+        PlacedMap map(grammar);
+        while (map.next()) {
+        }
+        benchmark::DoNotOptimize(map.vertices());
+    }
+}
+
+BENCHMARK(map_of_cells)->Arg(12)->Arg(20)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(placed_cells, gravity, "gravity")->Arg(12)->Arg(14)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(placed_cells, pressure, "pressure")->Arg(10)->Arg(12)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(modules, honda_17, honda, 17)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(modules, specimen_10, specimen, 10)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(a_step_with_contexts, plain, false)->Unit(benchmark::kMillisecond);

@@ -135,7 +135,7 @@ TEST(Expression, MistakesNameTheirPlace) {
     expect_mistake("max(1, )", 8, "expected a number");
     expect_mistake("1, 2", 2, "','");
     expect_mistake("max((1, 2), 3)", 7, "','");
-    expect_mistake("random(0, 1)", 1, "no place here");
+    expect_mistake("random(0, 1)", 1, "not allowed here");
     expect_mistake("1 = 1", 3, "'=='");
     expect_mistake("1 & 1", 3, "expected an operator");
     expect_mistake("1 | 1", 3, "expected an operator");

@@ -1,4 +1,6 @@
 // Every pattern that comes along states in a comment what it measures: `// expect: symbols 3803, drawn 2048, ...`.
+#include "engine/language/document.h"
+#include "engine/map/map_step.h"
 #include "engine/measure/extent.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
@@ -94,9 +96,28 @@ void expect_told(const std::map<std::string, std::vector<std::string>>& expected
     }
 }
 
+/// Of a map, the numbers of its parts.
+void expect_map(const std::map<std::string, std::vector<std::string>>& expected, const Grammar& grammar) {
+    const Map map = derive_map(grammar);
+    const std::map<std::string, std::size_t> found = {{"cells", map.cells()},
+                                                      {"edges", map.edges().size()},
+                                                      {"vertices", map.vertices()},
+                                                      {"outer", map.outer().size()}};
+    ASSERT_EQ(expected.size(), found.size());
+    for (const auto& [name, words] : expected) {
+        ASSERT_TRUE(found.contains(name)) << "no such expectation: " << name;
+        EXPECT_EQ(static_cast<double>(found.at(name)), number(words.at(0))) << name;
+    }
+}
+
 TEST_P(Facts, AreWhatEveryRoadMeasures) {
     const std::string text = contents(GetParam());
     const auto expected = expectations(text);
+    if (const Document document = parse(GetParam().string(), text); document.map()) {
+        EXPECT_NE(document.text("title"), "");
+        EXPECT_NE(document.text("source"), "");
+        return expect_map(expected, document.grammar());
+    }
     ASSERT_TRUE(expected.contains("symbols") && expected.contains("drawn") && expected.contains("moves"))
         << "the pattern lacks its `// expect:` line";
     Diagnostics diagnostics;

@@ -43,9 +43,9 @@ TEST(Words, ASymbolIsOneCodePoint) {
 
 TEST(Words, AtGoesWithTheCharacterAfterIt) {
     EXPECT_EQ(letters_of("@OF@.@@ @\xCE\xB1@O(2)"), (Letters{"@O", "F", "@.", "@@", "@\xCE\xB1", "@O(2)"}));
-    expect_mistakes("axiom: F@\n", {{{1, 9}, "a lone '@'"}});
-    expect_mistakes("axiom: F@ O\n", {{{1, 9}, "a lone '@'"}});
-    expect_mistakes("axiom: @(1)\n", {{{1, 8}, "a lone '@'"}});
+    expect_mistakes("axiom: F@\n", {{{1, 9}, "'@' is not a symbol by itself"}});
+    expect_mistakes("axiom: F@ O\n", {{{1, 9}, "'@' is not a symbol by itself"}});
+    expect_mistakes("axiom: @(1)\n", {{{1, 8}, "'@' is not a symbol by itself"}});
 }
 
 TEST(Words, TheLongestListedNameIsTaken) {
@@ -60,15 +60,15 @@ TEST(Words, TheLongestListedNameIsTaken) {
 
 TEST(Words, NamesAreLettersAndDigits) {
     expect_mistakes("axiom: F\nsymbols: Fl, Fr\n", {{{2, 12}, "not by commas"}});
-    expect_mistakes("axiom: F\nsymbols: Fl 1a\n", {{{2, 13}, "a name is letters and digits"}});
-    expect_mistakes("axiom: F\nsymbols: Fl a_b\n", {{{2, 13}, "a name is letters and digits"}});
+    expect_mistakes("axiom: F\nsymbols: Fl 1a\n", {{{2, 13}, "expected a name of letters and digits"}});
+    expect_mistakes("axiom: F\nsymbols: Fl a_b\n", {{{2, 13}, "expected a name of letters and digits"}});
     expect_mistakes("axiom: F\nsymbols: Fl Fr Fl\n", {{{2, 16}, "'Fl' is listed twice"}});
 }
 
 TEST(Words, CharactersThatAreNoSymbols) {
     expect_mistakes("axiom: F)\n", {{{1, 9}, "')' without '('"}});
     expect_mistakes("axiom: (2)F\n", {{{1, 8}, "'('"}});
-    expect_mistakes("axiom: F (2)\n", {{{1, 10}, "without a blank"}});
+    expect_mistakes("axiom: F (2)\n", {{{1, 10}, "unexpected blank"}});
     expect_mistakes("axiom: F<G\n", {{{1, 9}, "'<' is not a symbol"}});
     expect_mistakes("axiom: F>G\n", {{{1, 9}, "'>' is not a symbol"}});
     expect_mistakes("axiom: F:G\n", {{{1, 9}, "':' is not a symbol"}});
@@ -120,7 +120,7 @@ TEST(Words, TheEmptyWordHasThreeSpellings) {
     }
     expect_mistakes("axiom: F\n* --> F\n", {{{2, 1}, "cannot be a predecessor"}});
     expect_mistakes("axiom: F\n\xCE\xB5 --> F\n", {{{2, 1}, "cannot be a predecessor"}});
-    expect_mistakes("axiom: F\nF --> F*\n", {{{2, 8}, "stands alone"}});
+    expect_mistakes("axiom: F\nF --> F*\n", {{{2, 8}, "must stand alone"}});
 }
 
 // --- productions ---------------------------------------------------------------------------------------------------

@@ -286,6 +286,10 @@ TEST(ImportCpfg, WhatTheTurtleDoesOtherwise) {
     EXPECT_NEAR(survey.end.x, -3, 1e-12);
     EXPECT_NEAR(survey.end.y, 2, 1e-12);
     EXPECT_EQ(survey.drawn, 2U);
+    // Polygons are those of a framework.
+    const std::string blade = cpfg("Lsystem: 1\nAxiom: {.G.+(90)G.+(90)G.}\nendlsystem\n").pattern;
+    EXPECT_TRUE(has(blade, "\npolygons: framework\n"));
+    EXPECT_EQ(reference::survey_of(grammar_of(blade)).drawn, 3U);
     // A surface called f does not move the turtle.
     const ImportedSystem surface =
         cpfg("Lsystem: 1\nderivation length: 1\nAxiom: F~f(1)\n~f(s) --> ~f(s*2)~p(1)\nendlsystem\n");

@@ -39,8 +39,10 @@ TEST(Keys, AreReadByTheirOwner) {
         SCOPED_TRACE(key.name);
         if (key.owner == KeyOwner::engine) continue;
         Diagnostics none;
-        const Document document =
-            Document::compile("keys.lsys", fmt::format("axiom: F\n{}: ,?!\n", key.name), {}, none);
+        const Document document = Document::compile(
+            "keys.lsys",
+            fmt::format("{}axiom: FFF\n{}: ,?!\n", key.scope == KeyScope::maps ? "map: clockwise\n" : "", key.name),
+            {}, none);
         EXPECT_TRUE(none.list().empty());
         Diagnostics art;
         read_style(document.pattern(), 96, art);

@@ -481,8 +481,8 @@ TEST(Chance, WeightsAreComputedFromParameters) {
 // --- mistakes ------------------------------------------------------------------------------------------------------
 
 TEST(ModuleMistakes, HaveTheirPlaces) {
-    expect_mistakes("axiom: A(1)\nA(x+1) --> A(1)\n", {{{2, 3}, "names of parameters only"}});
-    expect_mistakes("axiom: A(1)\nA(2) --> A(1)\n", {{{2, 3}, "names of parameters only"}});
+    expect_mistakes("axiom: A(1)\nA(x+1) --> A(1)\n", {{{2, 3}, "its contexts must be names"}});
+    expect_mistakes("axiom: A(1)\nA(2) --> A(1)\n", {{{2, 3}, "its contexts must be names"}});
     expect_mistakes("axiom: A(1)\nA(x) < A(x) --> A(1)\n", {{{2, 10}, "named twice"}});
     expect_mistakes("axiom: A(1,2)\nA(x,x) --> A(1,2)\n", {{{2, 5}, "named twice"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(y)\n", {{{2, 12}, "'y' is not defined"}});
@@ -497,16 +497,18 @@ TEST(ModuleMistakes, HaveTheirPlaces) {
     expect_mistakes("axiom: A\nA --> B : 1\nA --> C\n", {{{3, 1}, "has no weight"}});
     expect_mistakes("axiom: A\nA --> B\nA --> C : 1\n", {{{2, 1}, "has no weight"}});
     expect_mistakes("axiom: A\nA --> B : -1\nA --> C : 1/0\nA --> D : 0/0\n",
-                    {{{2, 11}, "finite number"}, {{3, 11}, "finite number"}, {{4, 11}, "finite number"}});
+                    {{{2, 11}, "expected a finite weight"},
+                     {{3, 11}, "expected a finite weight"},
+                     {{4, 11}, "expected a finite weight"}});
     expect_mistakes("axiom: A\nA --> B : 0\nA --> C : 0\n", {{{2, 11}, "all 0"}});
     expect_mistakes("axiom: A\nA --> B : 1e308\nA --> C : 1e308\n", {{{2, 11}, "no finite sum"}});
     expect_mistakes("axiom: A\nA > [B --> C\n", {{{2, 5}, "not closed"}});
     expect_mistakes("axiom: A\nA > B]C --> C\n", {{{2, 5}, "without '['"}});
     expect_mistakes("axiom: A\n[B] < A --> C\n", {{{2, 1}, "left context cannot contain brackets"}});
-    expect_mistakes("axiom: A\nA% --> C\n", {{{2, 2}, "gone before"}});
+    expect_mistakes("axiom: A\nA% --> C\n", {{{2, 2}, "removed before"}});
     expect_mistakes("axiom: A%(3)\n", {{{1, 10}, "no parameters"}});
     expect_mistakes("axiom: A\nignore: F(1)\n", {{{2, 10}, "cannot contain parameters"}});
-    expect_mistakes("axiom: A\ndefine a = random(0, 1)\n", {{{2, 12}, "chance has no place here"}});
+    expect_mistakes("axiom: A\ndefine a = random(0, 1)\n", {{{2, 12}, "'random' is not allowed here"}});
     expect_mistakes("axiom: A\nseed: -1\n", {{{2, 7}, "whole number"}});
     expect_mistakes("axiom: A(1)\nA(x) --> A(x)\nA(y) --> A(y)\n", {{{3, 1}, "can never apply"}});
     expect_mistakes("axiom: A(1)\ninterpret:\nA(x) > B --> F(x)\n", {{{3, 1}, "replaces one symbol"}});
@@ -514,7 +516,7 @@ TEST(ModuleMistakes, HaveTheirPlaces) {
     EXPECT_TRUE(diagnostics_of("axiom: A(1)\nA(x) : x > 1 --> A(x)\nA(x) --> A(x)\n").empty());
     // A warning: the axiom of equation 10 as the scan has it.
     expect_mistakes("axiom: !(1)F(1,1)\nF(s) --> G(s)\n",
-                    {{{2, 1}, "no word has 'F' with 1 parameters, but one with 2"}});
+                    {{{2, 1}, "words contain 'F' with 2 parameters, never with 1"}});
 }
 
 TEST(ModuleMistakes, HostileFilesAreReadQuickly) {

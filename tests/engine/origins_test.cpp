@@ -39,6 +39,7 @@ TEST(Origins, ShowTheSymbolsOfTheWord) {
     for (const LibraryPattern& pattern : PatternLibrary::bundled().patterns()) {
         SCOPED_TRACE(pattern.name);
         const Document document = load(pattern.name);
+        if (document.map()) continue;
         try {
             origins(document, {});
         } catch (const std::runtime_error&) {

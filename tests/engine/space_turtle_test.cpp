@@ -1,6 +1,7 @@
 #include "engine/geometry/space_turtle.h"
 
 #include "engine/geometry/turtle.h"
+#include "engine/language/surface.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,14 @@ public:
         polygons.emplace_back(vertices.begin(), vertices.end());
         colours.push_back(pen.colour);
     }
+    void facet(std::span<const glm::dvec3> vertices, std::span<const int> vertex_colours, const Pen& pen) override {
+        polygon(vertices, pen);
+        corner_colours.emplace_back(vertex_colours.begin(), vertex_colours.end());
+    }
+    void surface(const Surface& surface, const glm::dmat4x3& map, const Pen& pen) override {
+        surfaces.emplace_back(surface.name, map);
+        colours.push_back(pen.colour);
+    }
     void sphere(const glm::dvec3& centre, double radius, const Pen&) override {
         spheres.emplace_back(centre, radius);
     }
@@ -43,6 +52,8 @@ public:
     std::vector<Stem> stems;
     std::vector<std::vector<glm::dvec3>> polygons;
     std::vector<int> colours;
+    std::vector<std::vector<int>> corner_colours;
+    std::vector<std::pair<std::string, glm::dmat4x3>> surfaces;
     std::vector<std::pair<glm::dvec3, double>> spheres;
     SpaceSurvey survey;
 };
@@ -287,13 +298,83 @@ TEST(SpaceTurtle, TellsThePlaceOfWhatItCannotRead) {
 }
 
 TEST(SpaceTurtle, KeysOfTropismAreChecked) {
-    expect_mistakes("axiom: F\ntropism: 0 -1 0\n", {{{2, 1}, "one needs the other"}});
-    expect_mistakes("axiom: F\nelasticity: 1\n", {{{2, 1}, "one needs the other"}});
+    expect_mistakes("axiom: F\ntropism: 0 -1 0\n", {{{2, 1}, "need each other"}});
+    expect_mistakes("axiom: F\nelasticity: 1\n", {{{2, 1}, "need each other"}});
     for (const char* wrong : {"0", "down", "0 -1 0 0", "0 -1 nan", "0 -1e200", ""}) {
         expect_mistakes("axiom: F\nelasticity: 1\ntropism: " + std::string(wrong) + "\n",
-                        {{{3, wrong[0] ? 10 : 9}, "expected numbers x, y"}});
+                        {{{3, wrong[0] ? 10 : 9}, "expected two or three numbers x, y"}});
     }
     expect_mistakes("axiom: F\nelasticity: much\ntropism: 0 1\n", {{{2, 13}, "expected a number"}});
+}
+
+// --- polygons of frameworks ---------------------------------------------------------------------------------------
+
+/// The framework of the lily of the valley: Prusinkiewicz & Lindenmayer 1990, section 5.2.
+std::string lily(int n) {
+    std::string axiom;
+    for (int gore = 0; gore < 5; ++gore) axiom += "[X(36)A]/(72)[X(36)B]";
+    return "derivation length: " + std::to_string(n) + "\nangle increment: 9\npolygons: framework\naxiom: " + axiom +
+           "\nA --> [&GA{.].\nB --> B&.G.}\nX(a) --> X(a+4.5)\ninterpret:\nX(a) --> ^(a)\n";
+}
+
+TEST(SpaceTurtle, PolygonsOfAFrameworkContinueThroughBranches) {
+    const Recorder flower = drawn(lily(10));
+    EXPECT_EQ(flower.stems.size(), 100u);
+    EXPECT_EQ(flower.survey.polygons, 50u);
+    EXPECT_EQ(flower.polygons.size(), 50u);
+    // Trapezoids, and triangles at the base, of sides of one step along the ribs.
+    std::size_t triangles = 0;
+    for (const auto& polygon : flower.polygons) {
+        triangles += polygon.size() == 3 ? 1 : 0;
+        ASSERT_TRUE(polygon.size() == 3 || polygon.size() == 4);
+        EXPECT_NEAR(glm::distance(polygon[0], polygon[1]), 1, 1e-9);
+    }
+    EXPECT_EQ(triangles, 5u);
+}
+
+TEST(SpaceTurtle, VerticesOfAFrameworkKeepTheirColours) {
+    const Recorder found = drawn("polygons: framework\naxiom: {;(1).&G;(2).-G;(3).}\n");
+    ASSERT_EQ(found.corner_colours.size(), 1u);
+    EXPECT_EQ(found.corner_colours[0], (std::vector{1, 2, 3}));
+}
+
+TEST(SpaceTurtle, InsertedEdgesCloseCyclesInSpace) {
+    const Recorder found = drawn("edges: ? #\naxiom: [&F?]^F#\n");
+    ASSERT_EQ(found.polygons.size(), 1u);
+    expect_near(found.polygons[0][0], {0, 0, -1}, "the beginning of the edge");
+    expect_near(found.polygons[0][1], {0, 0, 0}, "the branching point");
+    expect_near(found.polygons[0][2], {0, 0, 1}, "its end");
+    ASSERT_EQ(found.stems.size(), 3u);
+    expect_near(found.stems[2].from, {0, 0, -1}, "the edge");
+    expect_near(found.stems[2].to, {0, 0, 1}, "the edge");
+}
+
+// --- surfaces ----------------------------------------------------------------------------------------------------
+
+const std::string flat_patch =
+    "patch leaf:\n"
+    "-1 0 0  -0.5 0 0  0.5 0 0  1 0 0\n"
+    "-1 1 0  -0.5 1 0  0.5 1 0  1 1 0\n"
+    "-1 2 0  -0.5 2 0  0.5 2 0  1 2 0\n"
+    "-1 3 0  -0.5 3 0  0.5 3 0  1 3 0\n";
+
+TEST(SpaceTurtle, SurfacesStandWhereTheTurtleStandsAndTurnWithIt) {
+    const auto at = [](const Recorder& found, const glm::dvec3& point) {
+        return found.surfaces.at(0).second * glm::dvec4(point, 1.0);
+    };
+    // Upright, a patch lies on the page as it is written: x to the right, y up, z towards the reader.
+    const Recorder plain = drawn(flat_patch + "axiom: F~leaf;~leaf(2)F\n");
+    EXPECT_EQ(plain.surfaces.size(), 2u);
+    EXPECT_EQ(plain.surfaces[0].first, "leaf");
+    EXPECT_EQ(plain.colours, (std::vector{0, 1}));
+    expect_near(at(plain, {1, 3, 0.5}), {1, 4, 0.5}, "upright");
+    expect_near(plain.surfaces[1].second * glm::dvec4(1, 3, 0, 1), {2, 7, 0}, "twice as large");
+    expect_near(plain.survey.end, {0, 2, 0}, "the turtle stays where it is");
+    expect_near(at(drawn(flat_patch + "axiom: +~leaf\n"), {1, 3, 0.5}), {3, -1, 0.5}, "to the right");
+    expect_near(at(drawn(flat_patch + "axiom: ^~leaf\n"), {1, 3, 0.5}), {1, -0.5, 3}, "pitched up");
+    expect_near(at(drawn(flat_patch + "axiom: ~leaf(2,3,4)\n"), {1, 3, 0.5}), {2, 9, 2}, "three factors");
+    expect_near(at(drawn(flat_patch + "axiom: A(2)\nA(s) --> ~leaf(s,s+1,s*s)\nderivation length: 1\n"), {1, 3, 0.5}),
+                {2, 9, 2}, "three factors that a module computes");
 }
 
 }  // namespace

@@ -1,14 +1,24 @@
 #include "engine/geometry/turtle.h"
 
+#include "engine/measure/extent.h"
+
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
 
+using reference::derived_text;
+using reference::expect_mistakes;
 using reference::grammar_of;
 using reference::Kind;
 using reference::Recorder;
@@ -255,6 +265,138 @@ TEST(Turtle, PensTravelAlongTheStroke) {
     EXPECT_EQ(widths, (std::vector{1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.25, 1.0, 0.8, 0.5, 4.0}));
     EXPECT_FALSE(found.strokes[0].pens[8].width_set);
     EXPECT_TRUE(found.strokes[0].pens[9].width_set);
+}
+
+TEST(Turtle, PolygonsOfAFrameworkHaveTheVerticesThatAreMarked) {
+    const auto framed = [](const std::string& axiom) { return drawn(axiom, false, "polygons: framework\n"); };
+    // { and the ends of G and g are not vertices; those of F and f and . are.
+    EXPECT_EQ(framed("G{F+f+F}").polygons.at(0).vertices, (Points{{0, 2}, {1, 2}, {1, 1}}));
+    EXPECT_EQ(framed("{.G+g.+G.}").polygons.at(0).vertices, (Points{{0, 0}, {1, 1}, {1, 0}}));
+    EXPECT_EQ(framed("{.G+g.+G.}").strokes.size(), 2u);
+    EXPECT_EQ(framed("{[-G.]G.[+G.]}").polygons.at(0).vertices, (Points{{-1, 0}, {0, 1}, {1, 1}}));
+    // Vertices in one place are one.
+    EXPECT_EQ(framed("{..G.[+G.][.]-G.|G}").polygons.at(0).vertices,
+              (Points{{0, 0}, {0, 1}, {1, 1}, {0, 1}, {-1, 1}}));
+    EXPECT_TRUE(framed("{.G.G}{..}").polygons.empty());
+    // Without the key, G, g and . have no meaning.
+    EXPECT_TRUE(drawn("{.G.+g.}").polygons.empty());
+    EXPECT_EQ(drawn("GFgF").strokes.at(0).points.size(), 3u);
+    EXPECT_EQ(drawn("{.G+g.+G.}", false, "polygons: framework\nforward: G\nmove: g\n").polygons.at(0).vertices.size(),
+              4u);
+    // Under splines, their edges are straight.
+    EXPECT_EQ(drawn("{F+f+F}", true, "polygons: framework\n").polygons.size(), 1u);
+    expect_mistakes("axiom: F\npolygons: both\n", {{{2, 11}, "'outline' or 'framework'"}});
+}
+
+TEST(Turtle, TheBladeOfTheCordateLeafIsASetOfTriangles) {
+    const std::string system =
+        "angle increment: 9.5\nturn: left\npolygons: framework\nderivation length: 17\n"
+        "axiom: [A][B]\nA --> [+A{.].C.}\nB --> [-B{.].C.}\nC --> GC\n";
+    const Recorder leaf = drawn(grammar_of(system));
+    const Measurement measured = measure(grammar_of(system), 1e6);
+    EXPECT_EQ(measured.drawn.value, 272);
+    EXPECT_EQ(measured.polygons.value, 34);
+    EXPECT_FALSE(measured.derived);
+    // The innermost has no area, nor has the next, whose sides are one axis.
+    EXPECT_EQ(leaf.polygons.size(), 30u);
+    for (const auto& polygon : leaf.polygons) EXPECT_EQ(polygon.vertices.size(), 3u);
+}
+
+TEST(Turtle, GeneralisedCylindersAreRefused) {
+    const std::string essence = "symbol 2 of the word: '{' with a parameter begins a generalised cylinder";
+    for (int type = 1; type <= 4; ++type) {
+        EXPECT_TRUE(word_error("F{(" + std::to_string(type) + ")FF}").starts_with(essence));
+        EXPECT_THROW(measure(grammar_of("axiom: F{(" + std::to_string(type) + ")FF}\n"), 1e6), WordError);
+    }
+    EXPECT_THROW(measure(grammar_of("axiom: A(1)\nA(n) --> F{(n+1)F}\nderivation length: 1\n"), 1e6), WordError);
+    EXPECT_THROW(drawn("&{(2)FF}"), WordError);
+    // {(0) is { in cpfg.
+    EXPECT_EQ(drawn("{(0)F+F}").polygons.size(), 1u);
+}
+
+TEST(Turtle, InsertedEdgesCloseThePathBetweenTheirEnds) {
+    const auto edged = [](const std::string& axiom, bool moves_draw = false) {
+        return drawn(axiom, moves_draw, "edges: ? #\n");
+    };
+    const Recorder found = edged("[-F?]F+F#");
+    ASSERT_EQ(found.polygons.size(), 1u);
+    EXPECT_EQ(found.polygons[0].vertices, (Points{{-1, 0}, {0, 0}, {0, 1}, {1, 1}}));
+    ASSERT_EQ(found.strokes.size(), 3u);
+    EXPECT_EQ(found.strokes[2].points, (Points{{-1, 0}, {1, 1}}));
+    // They nest as brackets do. A place is left where it was entered.
+    EXPECT_EQ(edged("[-F?F?]F#F#").polygons.size(), 2u);
+    EXPECT_EQ(edged("[-F?F?]F#F#").polygons.at(0).vertices, (Points{{-2, 0}, {-1, 0}, {0, 0}, {0, 1}}));
+    EXPECT_EQ(edged("F[F][-F?][F]+F#").polygons.at(0).vertices, (Points{{-1, 1}, {0, 1}, {1, 1}}));
+    // Of length zero, and along an axis: nothing, and a line.
+    EXPECT_TRUE(edged("[?]#").strokes.empty());
+    EXPECT_EQ(edged("[?]F#").strokes.size(), 2u);
+    EXPECT_TRUE(edged("[?]F#").polygons.empty());
+    // # widens the pen where it is not the end of an edge.
+    EXPECT_EQ(drawn("F#F").strokes.at(0).pens.at(1).width, 1.25);
+    EXPECT_THROW(edged("F#"), WordError);
+    EXPECT_THROW(edged("F?"), WordError);
+    expect_mistakes("axiom: F\nedges: ?\n", {{{2, 8}, "expected two symbols"}});
+    expect_mistakes("axiom: F\nedges: ? ?\n", {{{2, 8}, "expected two symbols"}});
+}
+
+TEST(Turtle, TheCordateLeafHasAnEdgeBetweenNeighbouringAxes) {
+    const std::string system =
+        "turn: left\nforward: I\nedges: ? #\nangle increment: 10\nderivation length: 4\n"
+        "axiom: [A][B]\nA --> [+A?]C#\nB --> [-B?]C#\nC --> IC\n";
+    const Grammar grammar = grammar_of(system);
+    const Recorder leaf = drawn(grammar);
+    // Of four edges on either side one has no length, one lies on an axis, and two complete triangles.
+    EXPECT_EQ(leaf.polygons.size(), 4u);
+    EXPECT_EQ(measure(grammar, 1e6).polygons.value, 8);
+    EXPECT_EQ(measure(grammar, 1e6).drawn.value, 12);
+    // The left half, as section 4.2 prints it; the other half is its mirror image.
+    EXPECT_EQ(derived_text(grammar).substr(0, 33), "[[+[+[+[+A?]C#?]IC#?]IIC#?]IIIC#]");
+    // Axis k has k steps, 10 (3 - k) degrees to the left of the midrib; edge k joins the tips of axes k and k + 1.
+    const auto tip = [](int k) {
+        const double angle = (90 + 10 * (3 - k)) * M_PI / 180;
+        return double(k) * glm::dvec2(std::cos(angle), std::sin(angle));
+    };
+    const auto lines = [&](const glm::dvec2& from, const glm::dvec2& to) {
+        return std::count_if(leaf.strokes.begin(), leaf.strokes.end(), [&](const auto& stroke) {
+            return glm::distance(stroke.points.front(), from) < 1e-9 &&
+                   glm::distance(stroke.points.back(), to) < 1e-9;
+        });
+    };
+    // The innermost, of length 0, is not drawn; the next lies on an axis, which is drawn as well.
+    EXPECT_EQ(lines({0, 0}, {0, 0}), 0);
+    EXPECT_EQ(lines({0, 0}, tip(1)), 2);
+    EXPECT_EQ(lines({0, 0}, tip(2)), 1);
+    EXPECT_EQ(lines(tip(1), tip(2)), 1);
+    EXPECT_EQ(lines(tip(2), tip(3)), 1);
+}
+
+TEST(Turtle, BothVersionsOfTheCordateLeafAreOneShape) {
+    // Inserted edges ? # and marks . on the same axes fill the same triangles.
+    const std::string keys = "turn: left\nangle increment: 9.5\nderivation length: 17\n";
+    const Recorder edged = drawn(grammar_of(keys + "forward: I\nedges: ? #\naxiom: [A][B]\nA --> [+A?]C#\n"
+                                                   "B --> [-B?]C#\nC --> IC\n"));
+    const Recorder framed = drawn(grammar_of(keys + "polygons: framework\naxiom: [A][B]\nA --> [+A{.].C.}\n"
+                                                    "B --> [-B{.].C.}\nC --> GC\n"));
+    const auto triangles = [](const Recorder& recorder) {
+        std::vector<std::vector<std::pair<long, long>>> result;
+        for (const auto& polygon : recorder.polygons) {
+            // Inserted edges have a vertex at each step of an axis.
+            const auto& points = polygon.vertices;
+            std::vector<std::pair<long, long>> corners;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const glm::dvec2 in = points[i] - points[(i + points.size() - 1) % points.size()];
+                const glm::dvec2 out = points[(i + 1) % points.size()] - points[i];
+                if (std::fabs(in.x * out.y - in.y * out.x) < 1e-9 && glm::dot(in, out) > 0) continue;
+                corners.emplace_back(std::lround(points[i].x * 1e6), std::lround(points[i].y * 1e6));
+            }
+            std::sort(corners.begin(), corners.end());
+            if (corners.size() == 3) result.push_back(corners);
+        }
+        std::sort(result.begin(), result.end());
+        return result;
+    };
+    EXPECT_EQ(triangles(edged).size(), 30u);
+    EXPECT_EQ(triangles(edged), triangles(framed));
 }
 
 TEST(Turtle, PolygonsTakeTheirFirstVertexFromTheBrace) {

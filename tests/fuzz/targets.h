@@ -12,6 +12,7 @@
 #include "engine/language/grammar.h"
 #include "engine/measure/extent.h"
 #include "engine/measure/fold.h"
+#include "tests/maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,6 +122,9 @@ public:
     void polygon(std::span<const glm::dvec3> vertices, const Pen&) override {
         require(vertices.size() >= 3, "a polygon in space has fewer than three corners");
         for (const glm::dvec3& vertex : vertices) require(is_finite(vertex), "a corner in space is not finite");
+    }
+    void surface(const Surface&, const glm::dmat4x3& map, const Pen&) override {
+        for (int axis = 0; axis < 4; ++axis) require(is_finite(map[axis]), "a surface is not finite");
     }
     void sphere(const glm::dvec3& centre, double radius, const Pen&) override {
         require(is_finite(centre) && std::isfinite(radius) && radius >= 0, "a sphere is not finite");
@@ -242,11 +246,35 @@ inline void try_modules(const Grammar& grammar, double most_nodes) {
 }
 
 /// Compiles bytes and derives them in every way there is, within a small budget.
+/// The map, compared with that of the recursion.
+inline void try_map(const Grammar& grammar) {
+    constexpr double most_edges = 20'000;
+    maps::SlowMap slow(*grammar.map());
+    try {
+        MapDerivation derivation(grammar, {most_edges});
+        do {
+            if (derivation.steps() > 0) {
+                require(slow.text() == maps::text_of(derivation.map(), *grammar.map()), "maps differ");
+            }
+            require(maps::fault_of(derivation.map()).empty(), "not a planar map");
+            std::int64_t before = derivation.steps();
+            for (const ScheduleRun& run : grammar.schedule()) {
+                if (before >= 0 && before < run.steps) {
+                    slow.step(run.table, static_cast<std::uint32_t>(derivation.steps() + 1));
+                }
+                before -= run.steps;
+            }
+        } while (derivation.steps() < 200 && derivation.next());
+    } catch (const BudgetError&) {  // as it should be
+    }
+}
+
 inline void try_derivation(std::string_view bytes) {
     constexpr std::uint64_t most_nodes = 20'000;
     constexpr std::int64_t most_steps_here = 200;
     const Compiled compiled = compile_bytes(bytes);
     if (!compiled.grammar) return;
+    if (compiled.grammar->map()) return try_map(*compiled.grammar);
     try {
         // Chains of any length are composed at once; what grows is told off.
         const Grammar whole = shorten(*compiled.grammar);

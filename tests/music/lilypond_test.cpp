@@ -23,39 +23,66 @@ std::string lilypond_of(const TestScore& score) {
 }
 
 /// The notes of the \new Voice blocks, read with a pattern for tokens: names are taken apart sign by sign, bar checks
-/// must lie on bar lines.
+/// must lie on bar lines, tuplets scale what they contain, beams and tuplets must end.
 std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
     static const std::map<char, int> semitones = {{'c', 0}, {'d', 2}, {'e', 4}, {'f', 5},
                                                   {'g', 7}, {'a', 9}, {'b', 11}};
     static const std::regex token(
-        R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)|[rs](\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
+        R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)([\[\]]?)(->)?(\^\\markup\\teeny"[-+]\d+")?|)"
+        R"([rs](\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
+    static const std::regex dynamics(R"((\\[mpf]+|\\<|\\>)+$)");
     std::vector<PlainNote> list;
     std::istringstream stream(text);
     bool in_voice = false;
     bool tied = false;
+    bool is_beamed = false;
     std::int64_t here = 0;
     std::int64_t number = 0;
+    std::int64_t actual = 1;
+    std::int64_t normal = 1;
     for (std::string row; std::getline(stream, row);) {
         if (row.find("\\new Voice {") != std::string::npos) {
             in_voice = true;
             here = number = 0;
             continue;
         }
-        if (row.find('}') != std::string::npos && in_voice) {
+        if (row == "      }" && in_voice) {
             in_voice = false;
-            EXPECT_FALSE(tied);
+            EXPECT_FALSE(tied || is_beamed);
+            EXPECT_EQ(actual, 1);
         }
-        if (!in_voice || row.find('\\') != std::string::npos) continue;
+        if (!in_voice || row.find("\\time") != std::string::npos || row.find("\\compound") != std::string::npos ||
+            row.find("\\tempo") != std::string::npos || row.find("\\voice") != std::string::npos) {
+            continue;
+        }
         std::istringstream words(row);
         for (std::string word; words >> word;) {
             if (word == "|") {
                 EXPECT_EQ(here, ++number * bar);
+                EXPECT_EQ(actual, 1);
                 words >> word;
                 EXPECT_EQ(word, "%");
                 words >> word;
                 EXPECT_EQ(word, std::to_string(number));
                 continue;
             }
+            if (word == "\\tuplet") {
+                char slash = 0;
+                EXPECT_EQ(actual, 1);
+                words >> actual >> slash >> normal >> word;
+                EXPECT_EQ(word, "{");
+                continue;
+            }
+            if (word == "}") {
+                EXPECT_NE(actual, 1);
+                actual = normal = 1;
+                continue;
+            }
+            if (word == "\\clef" || word == "\\ottava" || word == "\\bar") {
+                words >> word;
+                continue;
+            }
+            word = std::regex_replace(word, dynamics, "");
             std::smatch match;
             if (!std::regex_match(word, match, token)) {
                 ADD_FAILURE() << "what is " << word << " in: " << row;
@@ -63,12 +90,14 @@ std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
             }
             const auto length = [&](std::size_t digits, std::size_t dot) {
                 const std::int64_t whole = 4 * ticks_per_quarter / std::stoi(match[digits]);
-                return match[dot].length() > 0 ? whole * 3 / 2 : whole;
+                const std::int64_t written = match[dot].length() > 0 ? whole * 3 / 2 : whole;
+                EXPECT_EQ(written * normal % actual, 0);
+                return written * normal / actual;
             };
-            if (match[9].matched) {
-                here += 4 * ticks_per_quarter * std::stoi(match[9]) / std::stoi(match[10]);
-            } else if (match[7].matched) {
-                here += length(7, 8);
+            if (match[12].matched) {
+                here += 4 * ticks_per_quarter * std::stoi(match[12]) / std::stoi(match[13]);
+            } else if (match[10].matched) {
+                here += length(10, 11);
             } else {
                 double key = 48 + semitones.at(match[1].str().front());
                 const std::string signs = match[2];
@@ -84,6 +113,13 @@ std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
                     list.push_back({here, length(4, 5), key});
                 }
                 tied = match[6].length() > 0;
+                if (match[7].length() > 0) {
+                    EXPECT_EQ(match[7] == "]", is_beamed);
+                    is_beamed = match[7] == "[";
+                }
+                if (is_beamed) {
+                    EXPECT_GE(std::stoi(match[4]), 8);
+                }
                 here += length(4, 5);
             }
         }
@@ -129,13 +165,16 @@ TEST(LilyPond, WritesALineForEachBar) {
       \new Voice {
         \clef treble \key c \minor \time 4/4
         \tempo 4 = 120
-        c''1~ | % 1
+        c''1~\mf | % 1
         c''4 r4 fis'4 r4 | % 2
-        R1*4/4 | % 3
+        R1*4/4 \bar "|." | % 3
       }
     >>
   >>
-  \layout { indent = 0\mm }
+  \layout {
+    indent = 0\mm
+    \context { \Score \autoBeamOff }
+  }
   \midi { }
 }
 )");
@@ -148,8 +187,10 @@ TEST(LilyPond, NamesOfPartsHaveRoomBeforeTheirStaves) {
     score.notes.push_back(score.notes.front());
     score.notes.back().voice = 1;
     const std::string text = lilypond_of(score);
-    EXPECT_NE(text.find("instrumentName = \"Acoustic Grand Piano\""), std::string::npos) << text;
-    EXPECT_NE(text.find("indent = 46\\mm"), std::string::npos) << text;
+    EXPECT_NE(text.find("instrumentName = \\markup \\right-column { \"Acoustic Grand\" \"Piano\" }"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("indent = 38\\mm"), std::string::npos) << text;
     EXPECT_EQ(text.find("instrument = "), std::string::npos);
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -146,7 +147,9 @@ TEST(Runs, WhatVerticalRunsAre) {
         told(played(hilbert(3), melody)),
         "0:2 1:3 3:2 2:2 3:3 1:2 0:3 1:2 0:3 1:2 2:2 3:3 2:4 5:2 4:3 5:2 6:2 7:3 6:2 7:3 6:3 4:2 5:2 4:3 6:2 7:1");
     melody.vertical = Vertical::glissando;
-    EXPECT_EQ(told(played(hilbert(1, right), melody)), "0:1 0:1 1:1");
+    EXPECT_EQ(told(played(hilbert(1, right), melody)), "0:2 1:1");
+    EXPECT_EQ(told(played(grammar_of("turn: left\nheading: 0\naxiom: F+FFF-FF-F+F\n"), melody)),
+              "0:1 1:1 2:1 3:3 2:2");
     melody.vertical = Vertical::voice;
     const Collector two = played(hilbert(4), melody);
     std::int64_t across = 0;
@@ -349,6 +352,94 @@ TEST(Runs, ABranchBeginsWhereAndWhenTheTurtleIs) {
     EXPECT_EQ(onsets("angle factor: 8\nheading: 45\naxiom: FF[-F]FF-F\n"), "1:0@0 0:2@0");
 }
 
+/// Onset:degree:duration of each note, in units, of one voice.
+std::string times_of(const Collector& collector) {
+    std::string text;
+    for (const Note& note : collector.all) {
+        EXPECT_EQ(note.voice, 0);
+        const auto units = [](std::int64_t ticks) {
+            return fmt::format("{:.4g}", static_cast<double>(ticks) / unit);
+        };
+        text += fmt::format("{}{}:{}:{}", text.empty() ? "" : " ", units(note.onset), note.key - 40,
+                            units(note.duration));
+    }
+    return text;
+}
+
+TEST(Brackets, FollowOneAnother) {
+    Melody melody = plain();
+    melody.branches = Branches::sequence;
+    melody.mapping = Mapping::symbols;
+    // After Worth & Stepney: `]` restores the pitch, and time goes on.
+    EXPECT_EQ(times_of(played(grammar_of("axiom: FF[+F[+F]F]F[-f-F]F\n"), melody)),
+              "0:0:2 2:1:1 3:2:1 4:1:1 5:0:1 7:-2:1 8:0:1");
+    melody.mapping = Mapping::runs;
+    melody.anchor = Anchor::first_note;
+    EXPECT_EQ(times_of(played(grammar_of("turn: left\nheading: 0\naxiom: FF[+F-FFF]FF[-F+FF]F\n"), melody)),
+              "0:0:2 2:1:3 5:0:2 7:-1:2 9:0:1");
+    melody.vertical = Vertical::rest;
+    EXPECT_EQ(times_of(played(grammar_of("turn: left\nheading: 0\naxiom: FF[+F-FFF]FF\n"), melody)),
+              "0:0:2 3:1:3 6:0:2");
+    EXPECT_THROW(played(grammar_of("axiom: F[+F\n"), melody), WordError);
+    EXPECT_THROW(played(grammar_of("axiom: F]+F\n"), melody), WordError);
+}
+
+TEST(Brackets, ShareAStepOfTheirStem) {
+    Melody melody = plain();
+    melody.branches = Branches::shares;
+    melody.mapping = Mapping::symbols;
+    EXPECT_EQ(times_of(played(grammar_of("axiom: F[+F[+FF]-F]F[-f-F]F[]F\n"), melody)),
+              "0:0:1 1:1:0.3333 1.333:2:0.3333 1.667:0:0.3333 2:0:1 3.5:-2:0.5 4:0:1 5:0:1");
+    melody.mapping = Mapping::runs;
+    melody.anchor = Anchor::first_note;
+    melody.vertical = Vertical::rest;
+    EXPECT_EQ(times_of(played(grammar_of("turn: left\nheading: 0\naxiom: FF[+F-FFF]FF\n"), melody)),
+              "0:0:2 2.25:1:0.75 3:0:2");
+}
+
+TEST(Brackets, InSequencePiecesEqualTheWholeCut) {
+    const Grammar tree = grammar_of("derivation length: 7\nangle increment: 25.7\naxiom: F\nF --> FF[+F]F[-F-f]\n");
+    const Grammar comb = grammar_of("derivation length: 6\nturn: left\nheading: 0\naxiom: F\nF --> F+F[-F+F]-F\n");
+    for (const bool is_tree : {true, false}) {
+        Melody melody = plain();
+        melody.branches = Branches::sequence;
+        melody.anchor = Anchor::first_note;
+        melody.range = Range::clamp;
+        if (is_tree) melody.mapping = Mapping::symbols;
+        const Grammar& grammar = is_tree ? tree : comb;
+        const Collector whole = played(grammar, melody);
+        for (const std::int64_t from : {0, 100, 3001, 9999}) {
+            PlayOptions options;
+            options.from = from * unit;
+            options.to = (from + 57) * unit;
+            const Collector piece = played(grammar, melody, options);
+            std::string expected;
+            std::string found;
+            for (const Note& note : whole.all) {
+                const std::int64_t onset = std::max(note.onset, options.from);
+                const std::int64_t end = std::min(note.onset + note.duration, options.to);
+                if (onset < end) expected += fmt::format("{}+{}:{} ", onset - options.from, end - onset, note.key);
+            }
+            for (const Note& note : piece.all) {
+                found += fmt::format("{}+{}:{} ", note.onset, note.duration, note.key);
+            }
+            EXPECT_EQ(found, expected) << is_tree << " from " << from;
+        }
+    }
+    // Any order starts anywhere.
+    Melody melody = plain();
+    melody.branches = Branches::sequence;
+    melody.mapping = Mapping::symbols;
+    melody.range = Range::clamp;
+    PlayOptions options;
+    options.from = 123'456'789'012'345 * unit;
+    options.to = options.from + 64 * unit;
+    EXPECT_GT(played(grammar_of("derivation length: 25\nangle increment: 25.7\naxiom: F\nF --> FF[+F]F[-F-f]\n"),
+                     melody, options)
+                  .all.size(),
+              10u);
+}
+
 TEST(OtherMappings, CounterpointHasTwoVoicesThatFillTheTime) {
     Melody melody = plain();
     melody.mapping = Mapping::counterpoint;
@@ -445,6 +536,52 @@ TEST(Census, EqualsWhatIsPlayed) {
     EXPECT_EQ(census(hilbert(40), plain())->ticks, (Integer(1) << 79) * unit);
     EXPECT_FALSE(census(grammar_of("axiom: F[F]F\n"), plain()));
     EXPECT_FALSE(census(grammar_of("angle factor: 6\naxiom: F+F\n"), plain()));
+}
+
+TEST(Pieces, BeyondTheTicksOf64Bits) {
+    // Sub-curves of equal order are equal, so that a bar of a far one sounds as in the first, degrees higher.
+    for (const char* rhythm : {"", "x..xx."}) {
+        Melody melody = plain();
+        melody.anchor = Anchor::piece;
+        if (*rhythm != 0) {
+            std::string problem;
+            melody.rhythm = read_rhythm_template(rhythm, problem);
+        }
+        const Grammar grammar = hilbert(60, "heading: 0\n");
+        PlayOptions near;
+        near.from = std::int64_t{1} << 50;
+        near.to = near.from + 8 * melody.meter.bar();
+        PlayOptions split = near;
+        split.ahead = ((Integer(1) << 50) - (Integer(1) << 49)) / period(melody) * period(melody);
+        split.from = (Integer(near.from) - split.ahead).convert_to<std::int64_t>();
+        split.to = split.from + 8 * melody.meter.bar();
+        EXPECT_EQ(told(played(grammar, melody, split)), told(played(grammar, melody, near))) << rhythm;
+        PlayOptions far = near;
+        far.ahead = Integer("1920000000000000000000") / period(melody) * period(melody);
+        EXPECT_GT(played(grammar, melody, far).all.size(), 20u) << rhythm;
+    }
+    PlayOptions far;
+    far.ahead = Integer(1) << 70;
+    far.from = std::int64_t{1} << 50;
+    far.to = far.from + 1920;
+    Melody phrased = plain();
+    phrased.phrase_order = 2;
+    EXPECT_THROW(played(hilbert(60), phrased, far), ScoreError);
+    EXPECT_THROW(played(grammar_of("angle factor: 6\naxiom: F+F\n"), plain(), far), ScoreError);
+}
+
+TEST(Runs, WhereNothingIsDrawnMovesSound) {
+    const std::string word = "turn: left\nheading: 0\naxiom: F+FF-FF\n";
+    std::string moves = word;
+    std::replace(moves.begin(), moves.end(), 'F', 'f');
+    for (const Mapping mapping : {Mapping::runs, Mapping::counterpoint, Mapping::symbols}) {
+        Melody melody = plain();
+        melody.mapping = mapping;
+        melody.anchor = Anchor::first_note;
+        EXPECT_EQ(told(played(grammar_of(moves), melody)), told(played(grammar_of(word), melody)));
+    }
+    EXPECT_EQ(census(grammar_of(moves), plain())->notes, 2);
+    EXPECT_EQ(told(played(grammar_of("heading: 0\naxiom: fFf\n"), plain())), "r:1 0:1 r:1");
 }
 
 using Played = std::vector<std::tuple<int, std::int64_t, std::int64_t, double>>;
@@ -578,6 +715,240 @@ TEST(Pieces, AnyOrderStartsAnywhere) {
     piece_options.to = 960;
     play(grammar_of("derivation length: 2\naxiom: F\nF --> FF[+F]F\n"), symbols, branch, piece_options);
     EXPECT_EQ(branch.end, 480);
+}
+
+std::string slots_of(const std::string& text) {
+    std::string problem;
+    const RhythmTemplate rhythm = read_rhythm_template(text, problem);
+    std::string slots(static_cast<std::size_t>(rhythm.slots), '~');
+    for (const auto& [onset, length, is_accented] : rhythm.hits) {
+        for (std::int64_t i = 0; i < length; ++i) slots[static_cast<std::size_t>(onset + i)] = '.';
+        slots[static_cast<std::size_t>(onset)] = is_accented ? 'X' : 'x';
+    }
+    return slots;
+}
+
+TEST(Rhythms, OfToussaintAndOfTalas) {
+    EXPECT_EQ(slots_of("E(3,8)"), "x..x..x.");  // tresillo
+    EXPECT_EQ(slots_of("E(5,8)"), "x.xx.xx.");  // cinquillo
+    EXPECT_EQ(slots_of("E(5,12)"), "x..x.x..x.x.");
+    EXPECT_EQ(slots_of("e(7, 16)"), "x..x.x.x..x.x.x.");
+    EXPECT_EQ(slots_of("E(3,8,3)"), "x..x.x..");
+    EXPECT_EQ(slots_of("E(4,4)"), "xxxx");
+    EXPECT_EQ(slots_of("adi"), "X...x.x.");
+    EXPECT_EQ(slots_of("Misra Chapu"), "X..x.x.");
+    EXPECT_EQ(slots_of("3+3+2"), "X..x..x.");
+    EXPECT_EQ(slots_of("x.~x | X.."), "x.~xX..");
+    for (const char* bad : {"", "E(0,8)", "E(9,8)", "E(3)", "E(3,257)", "0+2", "4", ".x", "xyx", "adii", "300+1"}) {
+        EXPECT_EQ(slots_of(bad), "") << bad;
+    }
+}
+
+TEST(Rhythms, AreLaidOverTheStepsOfACurve) {
+    Melody melody = plain();
+    std::string problem;
+    melody.rhythm = read_rhythm_template("E(3,8)", problem);
+    EXPECT_EQ(told(played(dragon(4, ""), melody)), "5:3 4:3 3:2 2:3 1:3 2:2 1:3 0:3");
+    melody.rhythm = read_rhythm_template("X.~x", problem);
+    const Collector found = played(grammar_of("turn: left\nheading: 0\naxiom: F+F-FF+F-F\n"), melody);
+    // A run of two steps is held over two hits.
+    EXPECT_EQ(told(found), "0:2 r:1 1:3 r:1 2:1");
+    EXPECT_EQ(found.all[0].velocity, 96);
+    EXPECT_EQ(found.all[1].velocity, 80);
+    melody.branches = Branches::voices;
+    Collector unheard;
+    EXPECT_THROW(play(grammar_of("axiom: F[+F]F\n"), melody, unheard, {}), ScoreError);
+}
+
+/// The notes of a piece, and of the whole cut to it.
+void expect_pieces(const Grammar& grammar, const Melody& melody, const std::vector<std::int64_t>& starts) {
+    const Collector whole = played(grammar, melody);
+    for (const std::int64_t from : starts) {
+        PlayOptions options;
+        options.from = from * unit;
+        options.to = (from + 64) * unit;
+        std::vector<std::tuple<int, std::int64_t, std::int64_t, double, int>> expected;
+        std::vector<std::tuple<int, std::int64_t, std::int64_t, double, int>> found;
+        for (const Note& note : whole.all) {
+            const std::int64_t onset = std::max(note.onset, options.from);
+            const std::int64_t end = std::min(note.onset + note.duration, options.to);
+            if (onset < end) {
+                expected.emplace_back(note.voice, onset - options.from, end - onset, note.key, note.velocity);
+            }
+        }
+        for (const Note& note : played(grammar, melody, options).all) {
+            found.emplace_back(note.voice, note.onset, note.duration, note.key, note.velocity);
+        }
+        std::sort(expected.begin(), expected.end());
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected) << "from " << from;
+    }
+}
+
+TEST(Form, PhrasesEndWhereSubCurvesDo) {
+    Melody melody = plain();
+    melody.anchor = Anchor::lowest_vertex;
+    melody.phrase_order = 2;
+    melody.breath = 2 * unit;
+    // Four Hilbert curves of order 2; a run that goes on beyond the end of one ends the phrase.
+    EXPECT_EQ(told(played(hilbert(3, right), melody)),
+              "6:1 7:2 6:1 5:1 4:2 5:1 r:2 3:1 2:1 0:1 1:1 0:1 2:1 3:3 r:2 2:1 0:1 1:1 0:1 2:1 3:1 r:2 5:1 4:2 5:1 "
+              "6:1 7:2 6:1");
+    melody.cadence = Cadence::tonic;
+    const Collector closed = played(hilbert(3, right), melody);
+    for (std::size_t i = 0; i < closed.all.size(); ++i) {
+        const bool is_last =
+            i + 1 == closed.all.size() || closed.all[i + 1].onset > closed.all[i].onset + closed.all[i].duration;
+        if (!is_last) continue;
+        EXPECT_EQ(std::remainder(closed.all[i].key - 40, 12), 0) << i;
+        EXPECT_EQ(std::fabs(closed.all[i - 1].key - closed.all[i].key), 1) << i;
+    }
+    // Phrases end on the fifth and the tonic in turn; the last one closes, though it is the third.
+    melody.scale = *find_scale("major");
+    melody.cadence = Cadence::alternate;
+    melody.phrase_order = 1;
+    std::vector<double> ends;
+    const Collector open = played(grammar_of("derivation length: 1\nturn: left\nheading: 0\naxiom: X+F-X+F-X\n"
+                                             "X --> F+F-F+F-F+F-F\n"),
+                                  melody);
+    for (std::size_t i = 0; i < open.all.size(); ++i) {
+        const bool is_last =
+            i + 1 == open.all.size() || open.all[i + 1].onset > open.all[i].onset + open.all[i].duration;
+        if (is_last) ends.push_back(std::fmod(open.all[i].key - 40 + 24, 12));
+    }
+    EXPECT_EQ(ends, (std::vector<double>{7, 0, 0}));
+    Collector unheard;
+    EXPECT_THROW(play(grammar_of("axiom: F(1)\nderivation length: 3\nF(x) --> F(x+1)F(x)\n"), melody, unheard, {}),
+                 ScoreError);
+}
+
+TEST(Form, PiecesEqualTheWholeCut) {
+    std::string problem;
+    for (const Mapping mapping : {Mapping::runs, Mapping::counterpoint, Mapping::symbols}) {
+        Melody melody = plain();
+        melody.mapping = mapping;
+        melody.anchor = Anchor::first_note;
+        melody.range = Range::clamp;
+        melody.phrase_order = 2;
+        melody.breath = unit;
+        melody.cadence = Cadence::alternate;
+        melody.articulation = Articulation::detached;
+        melody.swing = 0.66;
+        melody.swing_unit = unit;
+        for (const char* rhythm : {"", "x.~xx", "E(5,8)"}) {
+            melody.rhythm = read_rhythm_template(rhythm, problem);
+            for (const Vertical vertical : {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::voice}) {
+                if (mapping != Mapping::runs && vertical != Vertical::ignore) continue;
+                melody.vertical = vertical;
+                expect_pieces(hilbert(6), melody, {0, 64, 1000, 1729});
+                expect_pieces(dragon(12, ""), melody, {0, 640, 3001});
+            }
+        }
+        // Any order starts anywhere.
+        PlayOptions options;
+        options.from = 123'456'789'012'345 * 8 * unit;
+        options.to = options.from + 128 * unit;
+        melody.anchor = Anchor::piece;
+        EXPECT_GT(played(hilbert(40), melody, options).all.size(), 10u);
+    }
+}
+
+TEST(Form, SwingKeepsTheBeats) {
+    Melody melody = plain();
+    melody.swing = 2.0 / 3;
+    melody.swing_unit = unit;
+    std::vector<std::int64_t> onsets;
+    for (const Note& note :
+         played(grammar_of("heading: 0\nangle factor: 8\naxiom: F+F-F+F\nturn: left\n"), melody).all)
+        onsets.push_back(note.onset);
+    melody.runs = Runs::each_step;
+    onsets.clear();
+    for (const Note& note : played(grammar_of("heading: 0\naxiom: FFFF\n"), melody).all) onsets.push_back(note.onset);
+    EXPECT_EQ(onsets, (std::vector<std::int64_t>{0, 320, 480, 800}));
+}
+
+std::vector<std::string> chord_names(const std::string& scale, const std::string& progression) {
+    std::string problem;
+    std::vector<std::string> names;
+    for (const Chord& chord : read_progression(progression, *find_scale(scale), problem)) {
+        std::string name;
+        for (const double cents : chord.cents) name += fmt::format("{}{:.0f}", name.empty() ? "" : " ", cents / 100);
+        names.push_back(name);
+    }
+    return names;
+}
+
+TEST(Harmonies, ChordsOfScales) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(chord_names("major", "I-IV-V7-vi"), (Names{"0 4 7", "5 9 12", "7 11 17 14", "9 12 16"}));
+    EXPECT_EQ(chord_names("minor", "I-IV-V"), (Names{"0 3 7", "5 8 12", "7 10 14"}));
+    // Without a third above, a chord is a fifth.
+    EXPECT_EQ(chord_names("blues", "I-V"), (Names{"0 3 7", "7 10"}));
+    EXPECT_EQ(chord_names("major", "blues").size(), 12U);
+    for (const char* bad : {"", "I-", "I-VIII", "x", "I--I", "I8"})
+        EXPECT_TRUE(chord_names("major", bad).empty()) << bad;
+    EXPECT_EQ(find_scale("major")->cents(drone_degree(*find_scale("major")), false), 700);
+    EXPECT_EQ(find_scale("hamsadhwani")->cents(drone_degree(*find_scale("hamsadhwani")), false), 700);
+}
+
+TEST(Harmonies, StrongBeatsAreTonesOfTheChord) {
+    std::string problem;
+    for (const Harmony harmony : {Harmony::progression, Harmony::triads}) {
+        Melody melody = plain();
+        melody.scale = *find_scale("major");
+        melody.tonic = 60;
+        melody.range = Range::clamp;
+        melody.anchor = Anchor::lowest_vertex;
+        melody.harmony = harmony;
+        melody.progression.clear();
+        if (harmony == Harmony::progression) melody.progression = read_progression("I-IV-V-I", melody.scale, problem);
+        const Collector found = played(hilbert(5), melody);
+        std::map<std::int64_t, std::set<int>> chords;  // pitch classes by bar
+        std::map<std::int64_t, int> voices;
+        const std::int64_t bar = melody.meter.bar();
+        for (const Note& note : found.all) {
+            if (note.voice == 0) continue;
+            EXPECT_EQ(note.onset % bar, 0);
+            chords[note.onset / bar].insert(static_cast<int>(note.key) % 12);
+            ++voices[note.onset / bar];
+        }
+        std::size_t strong = 0;
+        for (const Note& note : found.all) {
+            if (note.voice != 0 || note.onset % (bar / 2) != 0) continue;
+            ++strong;
+            EXPECT_TRUE(chords[note.onset / bar].contains(static_cast<int>(note.key) % 12)) << note.onset / bar;
+        }
+        EXPECT_GT(strong, 80U);
+        for (const auto& [at, count] : voices) EXPECT_EQ(count, 3) << at;
+        if (harmony == Harmony::progression) {
+            EXPECT_EQ(chords[0], (std::set<int>{0, 4, 7}));
+            EXPECT_EQ(chords[5], (std::set<int>{5, 9, 0}));
+            EXPECT_EQ(chords[10], (std::set<int>{7, 11, 2}));
+        }
+        expect_pieces(hilbert(6), melody, {0, 64, 1024});
+        PlayOptions options;
+        options.from = 123'456'789'012'345 * 8 * unit;
+        options.to = options.from + 128 * unit;
+        melody.anchor = Anchor::piece;
+        EXPECT_GT(played(hilbert(40), melody, options).all.size(), 40u);
+    }
+}
+
+TEST(Harmonies, ADroneSoundsTonicAndFifth) {
+    Melody melody = plain();
+    melody.scale = *find_scale("hamsadhwani");
+    melody.tonic = 60;
+    melody.harmony = Harmony::drone;
+    std::set<int> classes;
+    std::int64_t until = 0;
+    const Collector found = played(hilbert(4), melody);
+    for (const Note& note : found.all) {
+        if (note.voice == 0) continue;
+        classes.insert(static_cast<int>(note.key) % 12);
+        until = std::max(until, note.onset + note.duration);
+    }
+    EXPECT_EQ(classes, (std::set<int>{0, 7}));
+    EXPECT_EQ(until, found.end);
 }
 
 TEST(Runs, MistakesOfTheWord) {

@@ -53,6 +53,12 @@ void expect_faults(const Case& expected) {
     }
 }
 
+TEST(MidiCheck, TempoBelongsToTheFirstTrack) {
+    expect_faults({"late tempo",
+                   melody("00 FF51 03 03D090  00 90 3C 50  83 60 80 3C 40  00 FF 2F 00"),
+                   {{events_at + 1, "track 2, tick 0: a tempo outside the first track"}}});
+}
+
 TEST(MidiCheck, AGoodFileHasNoFaults) {
     ASSERT_EQ(conductor.size(), 8u + 19u);
     EXPECT_EQ(header.size() + conductor.size(), melody_at);
@@ -153,7 +159,9 @@ TEST(MidiCheck, AnHourIsCountedInTheLastTempo) {
                    melody("00 90 3C 50  83 60 80 3C 40  81 D2 F8 01 FF 2F 00"),
                    {{62, "comes 1.0 hours after"}}});
     // At double speed it is half an hour.
-    EXPECT_EQ(midi_faults(melody("00 FF51 03 03D090  00 90 3C 50  83 60 80 3C 40  81 D2 F8 01 FF 2F 00")), "");
+    const std::string fast = midi_chunk("MTrk", hex_bytes("00 FF51 03 03D090  00 FF2F 00"));
+    const std::string held = midi_chunk("MTrk", hex_bytes("00 90 3C 50  83 60 80 3C 40  81 D2 F8 01 FF 2F 00"));
+    EXPECT_EQ(midi_faults(header + fast + held), "");
     // Other tracks go on meanwhile: nothing is silent.
     const std::string slow = hex_bytes("00 90 3C 50  FF FF FF 7F 80 3C 40  00 FF 2F 00");
     EXPECT_EQ(midi_faults(header + midi_chunk("MTrk", hex_bytes("FF FF FF 7F FF 2F 00")) + midi_chunk("MTrk", slow)),
@@ -398,7 +406,7 @@ TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
     for (int i = 0; i < 60; ++i) many += "00 80 3C 40 ";
     outcome = run({"check", folder.write("many.mid", melody(many + "00 FF 2F 00"))});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.output, "only the first 50 faults are listed"));
+    EXPECT_TRUE(has(outcome.output, "only the first 50 errors are listed"));
     outcome = run({"check", folder.file("none.mid")});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_TRUE(has(outcome.errors, "none.mid: No such file or directory"));

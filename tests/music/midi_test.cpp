@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -653,11 +654,42 @@ TEST(MidiReaders, FluidsynthSoundsMicrotones) {
         }
         return pitch_of(samples);
     };
-    for (const Tuning tuning : {Tuning::bend, Tuning::mts}) {
+    for (const Tuning tuning : {Tuning::bend, Tuning::mts, Tuning::mpe}) {
         const double plain = pitch(69.0, 0, tuning);
         EXPECT_NEAR(plain, 0.0, 5.0);
         EXPECT_NEAR(pitch(69.5, 0, tuning) - plain, 50.0, 2.0);
         EXPECT_NEAR(pitch(68.67, 2, tuning) - plain, -33.0, 2.0);
+    }
+}
+
+TEST(MidiTempo, FallsTowardsTheEnd) {
+    for (const std::int64_t notes : {40, 20'000}) {  // of the longer score, the first track is written before the end
+        for (const int format : {0, 1}) {
+            MidiScore score;
+            score.head.parts.resize(1);
+            score.head.ritardando = 3840;
+            for (std::int64_t i = 0; i < notes; ++i) score.notes.push_back(midi_note(i * 240, 240, 60, 0));
+            score.end = notes * 240;
+            MidiOptions options;
+            options.format = format;
+            const std::string bytes = make_midi(score, options);
+            EXPECT_EQ(midi_faults(bytes), "");
+            std::vector<std::int64_t> ticks;
+            std::vector<int> tempos;
+            for (const MidiEvent& event : read_midi(bytes).events) {
+                if (event.status != 0xFF || event.type != 0x51) continue;
+                int micro = 0;
+                for (const char byte : event.data) micro = micro * 256 + static_cast<unsigned char>(byte);
+                ticks.push_back(event.tick);
+                tempos.push_back(micro);
+            }
+            ASSERT_EQ(ticks.size(), 9U);
+            EXPECT_EQ(ticks[1], score.end - 3840);
+            EXPECT_EQ(ticks[8], score.end - 480);
+            EXPECT_TRUE(std::is_sorted(tempos.begin(), tempos.end()));
+            EXPECT_EQ(tempos.front(), 500'000);
+            EXPECT_EQ(tempos.back(), 833'333);
+        }
     }
 }
 

@@ -49,7 +49,7 @@ std::vector<Note> hilbert() {
 ScoreHead head() {
     ScoreHead result;
     result.title = "Hilbert curve";
-    result.composer = "David Hilbert 1891";
+    result.source = "David Hilbert 1891";
     result.pattern = "title: Hilbert curve\naxiom: X\n";
     result.made = "sikku 0.1.0, -n 2";
     return result;
@@ -259,7 +259,7 @@ constexpr std::string_view evil =
 TEST(MusicSvg, TextsAreTexts) {
     ScoreHead about = head();
     about.title = evil;
-    about.composer = evil;
+    about.source = evil;
     about.made = evil;
     about.pattern = evil;
     pugi::xml_document document;
@@ -379,7 +379,7 @@ TEST(MusicPage, IsWellFormedAndNamesWhatItHas) {
 TEST(MusicPage, TextsAreTexts) {
     ScoreHead about = head();
     about.title = evil;
-    about.composer = evil;
+    about.source = evil;
     about.made = evil;
     about.pattern = "\n" + std::string(evil);
     const std::string text = page(about, hilbert(), 1920);

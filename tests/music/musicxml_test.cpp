@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <map>
@@ -56,6 +57,54 @@ struct ReadPart {
     int fifths = 0;
 };
 
+/// A tuplet of a voice that has begun.
+struct OpenTuplet {
+    bool is_open = false;
+    int actual = 0;
+    int normal = 0;
+    std::string type;
+    std::int64_t begin = 0;
+};
+
+/// Notes with a time modification stand between the marks of a tuplet, which is as long as it says.
+void follow_tuplet(OpenTuplet& tuplet, const pugi::xml_node& note, std::int64_t here, std::int64_t duration) {
+    const auto modification = note.child("time-modification");
+    const auto marks = note.child("notations").children("tuplet");
+    for (const auto mark : marks) {
+        if (std::string(mark.attribute("type").value()) != "start") continue;
+        EXPECT_FALSE(tuplet.is_open);
+        tuplet = {true, modification.child("actual-notes").text().as_int(),
+                  modification.child("normal-notes").text().as_int(), modification.child_value("normal-type"), here};
+    }
+    EXPECT_EQ(tuplet.is_open, !modification.empty());
+    if (!tuplet.is_open) return;
+    EXPECT_EQ(modification.child("actual-notes").text().as_int(), tuplet.actual);
+    EXPECT_EQ(modification.child("normal-notes").text().as_int(), tuplet.normal);
+    EXPECT_EQ(modification.child_value("normal-type"), tuplet.type);
+    for (const auto mark : marks) {
+        if (std::string(mark.attribute("type").value()) != "stop") continue;
+        EXPECT_EQ(here + duration - tuplet.begin, tuplet.normal * length_of_type(tuplet.type, false));
+        tuplet.is_open = false;
+    }
+}
+
+/// Beams begin, go on and end, as many as the note value has, and none on longer notes.
+void follow_beams(std::array<bool, 4>& open, const pugi::xml_node& note) {
+    const std::string type = note.child_value("type");
+    const std::size_t most = type == "eighth" ? 1 : type == "16th" ? 2 : type == "32nd" ? 3 : type == "64th" ? 4 : 0;
+    std::size_t count = 0;
+    for (const auto beam : note.children("beam")) {
+        const auto level = beam.attribute("number").as_ullong() - 1;
+        EXPECT_EQ(level, count++);
+        ASSERT_LT(level, 4u);
+        const std::string kind = beam.child_value();
+        EXPECT_EQ(open[level], kind == "continue" || kind == "end") << kind;
+        open[level] = kind == "begin" || kind == "continue";
+    }
+    EXPECT_TRUE(count == 0 || count == most) << type;
+    for (std::size_t level = count; level < 4; ++level) EXPECT_FALSE(open[level]);
+}
+
 ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
     static const std::map<std::string, int> semitones = {{"C", 0}, {"D", 2}, {"E", 4}, {"F", 5},
                                                          {"G", 7}, {"A", 9}, {"B", 11}};
@@ -66,7 +115,7 @@ ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
     std::int64_t bar_number = 0;
     for (const pugi::xml_node measure : part.children("measure")) {
         EXPECT_EQ(measure.attribute("number").as_llong(), ++bar_number);
-        if (const auto attributes = measure.child("attributes")) {
+        if (const auto attributes = measure.child("attributes"); attributes.child("divisions")) {
             divisions = attributes.child("divisions").text().as_llong();
             result.fifths = attributes.child("key").child("fifths").text().as_int();
         }
@@ -75,6 +124,8 @@ ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
         };
         std::int64_t here = bar_begin;
         std::map<std::string, std::int64_t> sums;
+        std::map<std::string, OpenTuplet> tuplets;
+        std::map<std::string, std::array<bool, 4>> beams;
         for (const pugi::xml_node node : measure.children()) {
             const std::string name = node.name();
             if (name == "backup") {
@@ -87,7 +138,15 @@ ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
                 const std::int64_t duration = ticks(node);
                 sums[voice] += duration;
                 if (const auto type = node.child("type")) {
-                    EXPECT_EQ(duration, length_of_type(type.text().as_string(), !node.child("dot").empty()));
+                    const auto modification = node.child("time-modification");
+                    const std::int64_t actual =
+                        modification ? modification.child("actual-notes").text().as_llong() : 1;
+                    const std::int64_t normal =
+                        modification ? modification.child("normal-notes").text().as_llong() : 1;
+                    EXPECT_EQ(duration * actual,
+                              length_of_type(type.text().as_string(), !node.child("dot").empty()) * normal);
+                    follow_tuplet(tuplets[voice], node, here, duration);
+                    follow_beams(beams[voice], node);
                 } else {
                     EXPECT_STREQ(node.child("rest").attribute("measure").value(), "yes");
                     EXPECT_EQ(duration, bar_ticks);
@@ -135,6 +194,8 @@ ReadPart read_part(const pugi::xml_node& part, std::int64_t bar_ticks) {
         // Voices are whole bars, and the bar ends at its end.
         EXPECT_EQ(here, bar_begin + bar_ticks);
         for (const auto& [voice, sum] : sums) EXPECT_EQ(sum, bar_ticks) << "voice " << voice;
+        for (const auto& [voice, tuplet] : tuplets) EXPECT_FALSE(tuplet.is_open) << "voice " << voice;
+        for (const auto& [voice, open_beams] : beams) EXPECT_EQ(open_beams, (std::array<bool, 4>{})) << voice;
         bar_begin += bar_ticks;
     }
     EXPECT_TRUE(open.empty());
@@ -193,7 +254,8 @@ TEST(MusicXml, RandomScoresAreReadBack) {
 
 TEST(MusicXml, TellsWhatTheScoreIs) {
     TestScore score = line({5, 8}, {1200, 240});
-    score.head.composer = "peano.lsys";
+    score.head.composer = "Peano";
+    score.head.source = "peano.lsys";
     score.head.made = "sikku 0.1.0, -n 4";
     score.head.pattern = "axiom: X\nX --> F\n";
     score.head.tempo = 92.5;
@@ -204,7 +266,8 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
     EXPECT_STREQ(root.attribute("version").value(), "4.0");
     EXPECT_STREQ(root.child("work").child_value("work-title"), "A line");
     const auto identification = root.child("identification");
-    EXPECT_STREQ(identification.child_value("creator"), "peano.lsys");
+    EXPECT_STREQ(identification.child_value("creator"), "Peano");
+    EXPECT_STREQ(identification.child_value("source"), "peano.lsys");
     EXPECT_STREQ(identification.child("encoding").child_value("software"), "sikku 0.1.0");
     EXPECT_FALSE(identification.child("encoding").child("encoding-date"));
     const auto field = [&](const char* name) {
@@ -227,8 +290,9 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
     EXPECT_STREQ(measure.child("direction").child("sound").attribute("tempo").value(), "92.5");
     // Peano's five units.
     const auto first = measure.child("note");
-    EXPECT_STREQ(first.child_value("type"), "half");
-    EXPECT_STREQ(first.next_sibling("note").child_value("type"), "eighth");
+    EXPECT_STREQ(first.child_value("type"), "quarter");
+    EXPECT_STREQ(first.next_sibling("note").child_value("type"), "quarter");
+    EXPECT_FALSE(first.next_sibling("note").child("dot").empty());
     EXPECT_STREQ(first.child("tie").attribute("type").value(), "start");
 }
 

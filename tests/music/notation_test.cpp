@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <random>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sikku {
@@ -26,12 +30,12 @@ std::vector<PlainNote> joined(const Notation& notation) {
                         EXPECT_FALSE(symbol.tied_back || symbol.tied_forward);
                         continue;
                     }
-                    const std::int64_t duration = symbol.length * ticks_per_sixty_fourth;
+                    const std::int64_t duration = symbol.length;
                     if (symbol.tied_back) {
                         EXPECT_EQ(list.back().key, symbol.pitch.key());
                         list.back().duration += duration;
                     } else {
-                        list.push_back({symbol.onset * ticks_per_sixty_fourth, duration, symbol.pitch.key()});
+                        list.push_back({symbol.onset, duration, symbol.pitch.key()});
                     }
                 }
                 EXPECT_FALSE(open);
@@ -51,7 +55,7 @@ std::string words(const Notation& notation) {
             text += "R ";
             continue;
         }
-        const NoteValue value = note_value(symbol.length);
+        const NoteValue value = symbol.value;
         if (symbol.kind == SymbolKind::rest) text += "r";
         text += std::to_string(value.divisor) + (value.dotted ? "." : "") + (symbol.tied_forward ? "~ " : " ");
     }
@@ -82,8 +86,8 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
     EXPECT_EQ(words({4, 4}, {7 * eighth, 9 * eighth}), "2.~ 8 8~ | 1");
     EXPECT_EQ(words({3, 4}, {6 * eighth, 6 * eighth}), "2. | 2.");
     EXPECT_EQ(words({2, 2}, {480, 960, 480}), "4 4~ 4 4");
-    EXPECT_EQ(words({5, 8}, {5 * eighth, 3 * eighth, 2 * eighth}), "2~ 8 | 4. 4");
-    EXPECT_EQ(words({7, 8}, {7 * eighth}), "2.~ 8");
+    EXPECT_EQ(words({5, 8}, {5 * eighth, 3 * eighth, 2 * eighth}), "4~ 4. | 4~ 8 4");
+    EXPECT_EQ(words({7, 8}, {7 * eighth}), "2~ 4.");
     EXPECT_EQ(words({8, 4}, {16 * eighth}), "1.~ 2");
     // Beats of three eighths.
     EXPECT_EQ(words({6, 8}, {4 * eighth, 2 * eighth}), "4.~ 8 4");
@@ -95,7 +99,7 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
 
 TEST(Notation, RestsFillGapsAndTheLastBar) {
     EXPECT_EQ(words({4, 4}, {-480, 480, -960, -1920, 480}), "r4 4 r2 | R | 4 r2.");
-    EXPECT_EQ(words({5, 8}, {-5 * eighth, 5 * eighth}), "R | 2~ 8");
+    EXPECT_EQ(words({5, 8}, {-5 * eighth, 5 * eighth}), "R | 4~ 4.");
     EXPECT_EQ(words({4, 4}, {}), "R");
     EXPECT_EQ(words({4, 4}, {480, -5000}), "4 r2. | R | R");
     EXPECT_EQ(notate(line({4, 4}, {1920})).bars, 1);
@@ -109,7 +113,7 @@ TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
         ASSERT_EQ(joined(notation), plain(score.notes)) << seed;
         EXPECT_EQ(notation.moved, 0u);
         EXPECT_EQ(notation.bent, 0u);
-        EXPECT_EQ(notation.bar_length * ticks_per_sixty_fourth, score.head.meter.bar());
+        EXPECT_EQ(notation.bar_length, score.head.meter.bar());
         EXPECT_GE(notation.bars * score.head.meter.bar(), score.end);
         EXPECT_LT((notation.bars - 1) * score.head.meter.bar(), std::max<std::int64_t>(score.end, 1));
         ASSERT_EQ(notation.parts.size(), score.head.parts.size());
@@ -131,8 +135,8 @@ TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
                             continue;
                         }
                         if (symbol.kind == SymbolKind::gap && symbol.length == notation.bar_length) continue;
-                        const NoteValue value = note_value(symbol.length);
-                        EXPECT_EQ(symbol.length, 64 / value.divisor * (value.dotted ? 3 : 2) / 2);
+                        const NoteValue value = symbol.value;
+                        EXPECT_EQ(symbol.length, 1920 / value.divisor * (value.dotted ? 3 : 2) / 2);
                         EXPECT_TRUE((std::set{1, 2, 4, 8, 16, 32, 64}.contains(value.divisor)));
                     }
                     for (const std::int64_t sum : sums) ASSERT_EQ(sum, notation.bar_length);
@@ -143,37 +147,140 @@ TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
 }
 
 TEST(Notation, EveryStretchOfEveryBarIsPrintable) {
-    for (const Meter meter :
-         {Meter{4, 4}, {3, 4}, {2, 4}, {5, 8}, {6, 8}, {7, 16}, {1, 64}, {9, 32}, {3, 2}, {1, 1}}) {
-        const std::int64_t bar = 64 * meter.beats / meter.unit;
-        for (std::int64_t from = 0; from < bar; ++from) {
-            for (std::int64_t to = from + 1; to <= bar; ++to) {
+    for (const Meter meter : {Meter{4, 4},
+                              {3, 4},
+                              {2, 4},
+                              {5, 8},
+                              {6, 8},
+                              {7, 16},
+                              {1, 64},
+                              {9, 32},
+                              {3, 2},
+                              {1, 1},
+                              {7, 8, {3, 2, 2}},
+                              {8, 8, {3, 3, 2}}}) {
+        for (std::int64_t from = 0; from < meter.bar(); from += 30) {
+            for (std::int64_t to = from + 30; to <= meter.bar(); to += 30) {
                 std::int64_t sum = 0;
-                for (const std::int64_t length : printable_lengths(from, to, meter)) {
-                    sum += length;
-                    EXPECT_TRUE(
-                        (std::set<std::int64_t>{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96}.contains(length)));
+                for (const WrittenValue& written : written_values(from, to, meter)) {
+                    sum += written.length;
+                    EXPECT_EQ(written.value.ticks(), written.length);
+                    EXPECT_TRUE((std::set{1, 2, 4, 8, 16, 32, 64}.contains(written.value.divisor)));
+                    EXPECT_FALSE(written.value == (NoteValue{64, true}));
                 }
                 ASSERT_EQ(sum, to - from);
             }
         }
     }
     // Off the beat nothing hides the middle.
-    for (std::int64_t from = 1; from < 32; ++from) {
-        if (from % 16 == 0) continue;
+    for (std::int64_t from = 30; from < 960; from += 30) {
+        if (from % 480 == 0) continue;
         std::int64_t here = from;
-        for (const std::int64_t length : printable_lengths(from, 64, {4, 4})) {
-            EXPECT_FALSE(here < 32 && here % 16 != 0 && here + length > 32) << from;
-            here += length;
+        for (const WrittenValue& written : written_values(from, 1920, Meter{4, 4})) {
+            EXPECT_FALSE(here < 960 && here % 480 != 0 && here + written.length > 960) << from;
+            here += written.length;
         }
     }
 }
 
-TEST(Notation, WhatFallsBetween64thsIsMovedAndCounted) {
-    // Triplets of an eighth.
-    const Notation triplets = notate(line({4, 4}, {160, 160, 160}));
-    EXPECT_EQ(triplets.moved, 3u);
-    EXPECT_EQ(joined(triplets), (std::vector<PlainNote>{{0, 150, 72}, {150, 180, 72}, {330, 150, 72}}));
+TEST(Notation, NothingCrossesTheEndOfAGroup) {
+    const Meter meter{7, 8, {3, 2, 2}};
+    EXPECT_EQ(words(meter, {7 * eighth}), "4.~ 2");
+    EXPECT_EQ(words(meter, {2 * eighth, 3 * eighth, 2 * eighth}), "4 8~ 4 4");
+    EXPECT_EQ(words(meter, {eighth, -6 * eighth}), "8 r4 r2");
+    EXPECT_EQ(words({7, 8, {2, 2, 3}}, {3 * eighth, 4 * eighth}), words({7, 8}, {3 * eighth, 4 * eighth}));
+    EXPECT_EQ(words({8, 8, {3, 3, 2}}, {8 * eighth}), "1");
+    EXPECT_EQ(groups_of(meter), (std::vector<std::int64_t>{720, 480, 480}));
+    EXPECT_EQ(groups_of({7, 8}), (std::vector<std::int64_t>{480, 480, 720}));
+    EXPECT_EQ(groups_of({6, 8}), (std::vector<std::int64_t>{720, 720}));
+}
+
+/// The tuplets of the first voice, `5:4/16` each.
+std::string tuplets(const Notation& notation) {
+    std::string text;
+    for (const TupletSpan& tuplet : notation.parts.front().staves.front().voices.front().tuplets) {
+        text += std::to_string(tuplet.actual) + ":" + std::to_string(tuplet.normal) + "/" +
+                std::to_string(tuplet.divisor) + " ";
+    }
+    if (!text.empty()) text.pop_back();
+    return text;
+}
+
+TEST(Notation, ThirdsAndFifthsAreTuplets) {
+    const auto both = [](const Meter& meter, const std::vector<std::int64_t>& lengths) {
+        const Notation notation = notate(line(meter, lengths));
+        EXPECT_EQ(notation.moved, 0u);
+        EXPECT_EQ(joined(notation), plain(line(meter, lengths).notes));
+        return tuplets(notation) + "; " + words(notation);
+    };
+    EXPECT_EQ(both({4, 4}, {160, 160, 160, 480, 960}), "3:2/8; 8 8 8 4 2");
+    EXPECT_EQ(both({4, 4}, {320, 320, 320, 960}), "3:2/4; 4 4 4 2");
+    EXPECT_EQ(both({4, 4}, {640, 640, 640}), "3:2/2; 2 2 2");
+    EXPECT_EQ(both({4, 4}, {160, 320 + 160, 320, 960}), "3:2/8 3:2/8; 8 4~ 8 4 2");
+    EXPECT_EQ(both({4, 4}, {80, 240, 160, 1440}), "6:4/16; 16 8~ 16 8 2.");
+    EXPECT_EQ(both({4, 4}, {80, 160, 80, 160, 1440}), "3:2/16 3:2/16; 16 8 16 8 2.");
+    EXPECT_EQ(both({4, 4}, {96, 96, 288, 1440}), "5:4/16; 16 16 8. 2.");
+    EXPECT_EQ(both({4, 4}, {192, 768, 960}), "5:4/8; 8 2 2");
+    EXPECT_EQ(both({4, 4}, {160, -1760}), "3:2/8; 8 r4 r2.");
+    EXPECT_EQ(both({6, 8}, {80, 160, 480, 720}), "3:2/16; 16 8 4 4.");
+    EXPECT_EQ(both({7, 8}, {480, 480, 240, 160, 80, 240}), "3:2/16; 4 4 8 8 16 8");
+    EXPECT_EQ(both({4, 4}, {480, 480, 480, 480}), "; 4 4 4 4");
+    // Runs of whole units in any meter stay where they are.
+    for (const std::int64_t unit : {160, 320, 80, 96, 192, 40, 48}) {
+        for (const Meter meter : {Meter{4, 4}, {3, 4}, {2, 2}, {7, 8}, {6, 8}, {5, 4}, {7, 8, {3, 2, 2}}}) {
+            for (unsigned seed = 0; seed < 20; ++seed) {
+                std::mt19937 random(seed);
+                std::vector<std::int64_t> lengths;
+                for (int i = 0; i < 40; ++i) lengths.push_back(unit * (1 + static_cast<std::int64_t>(random() % 5)));
+                both(meter, lengths);
+            }
+        }
+    }
+}
+
+TEST(Notation, BeamsFollowTheGroups) {
+    // `[` begins a beam of eighths, `]` ends one.
+    const auto beams = [](const Meter& meter, const std::vector<std::int64_t>& lengths) {
+        std::string text;
+        const Notation notation = notate(line(meter, lengths));
+        for (const NotatedSymbol& symbol : notation.parts[0].staves[0].voices[0].symbols) {
+            if (symbol.kind != SymbolKind::note) continue;
+            text += std::string_view(".[-]fb")[static_cast<std::size_t>(symbol.beams[0])];
+        }
+        return text;
+    };
+    const auto eighths = [](std::size_t count) { return std::vector<std::int64_t>(count, eighth); };
+    EXPECT_EQ(beams({4, 4}, eighths(8)), "[--][--]");
+    EXPECT_EQ(beams({3, 4}, eighths(6)), "[----]");
+    EXPECT_EQ(beams({6, 8}, eighths(6)), "[-][-]");
+    EXPECT_EQ(beams({7, 8}, eighths(7)), "[][][-]");
+    EXPECT_EQ(beams({7, 8, {3, 2, 2}}, eighths(7)), "[-][][]");
+    EXPECT_EQ(beams({4, 4}, {120, 120, 240, 240, 240, 480, -480}), "[-][].");
+    EXPECT_EQ(beams({4, 4}, {240, 480, 240, 960}), "....");
+    EXPECT_EQ(beams({4, 4}, {160, 160, 160, 160, 320, 960}), "[-]...");
+}
+
+TEST(Notation, HooksPointToTheNoteTheyBelongTo) {
+    const auto second_beams = [](const std::vector<std::int64_t>& lengths) {
+        std::string text;
+        const Notation notation = notate(line({4, 4}, lengths));
+        for (const NotatedSymbol& symbol : notation.parts[0].staves[0].voices[0].symbols) {
+            if (symbol.kind == SymbolKind::note)
+                text += std::string_view(".[-]fb")[static_cast<std::size_t>(symbol.beams[1])];
+        }
+        return text;
+    };
+    EXPECT_EQ(second_beams({360, 120, 1440}), ".b.");
+    EXPECT_EQ(second_beams({120, 360, 1440}), "f..");
+    EXPECT_EQ(second_beams({120, 240, 120, 1440}), "f.b.");
+    EXPECT_EQ(second_beams({120, 120, 120, 120, 1440}), "[--].");
+}
+
+TEST(Notation, WhatFallsOnNoGridIsMovedAndCounted) {
+    // Sevenths of a beat.
+    const Notation sevenths = notate(line({4, 4}, {69, 68, 69, 274}));
+    EXPECT_EQ(sevenths.moved, 4u);
+    EXPECT_EQ(joined(sevenths), (std::vector<PlainNote>{{0, 60, 72}, {60, 90, 72}, {150, 60, 72}, {210, 270, 72}}));
     // Too short for any sign: one 64th each, in order.
     const Notation crumbs = notate(line({4, 4}, {1, 1, 1, 477}));
     EXPECT_EQ(crumbs.moved, 4u);
@@ -181,65 +288,157 @@ TEST(Notation, WhatFallsBetween64thsIsMovedAndCounted) {
     EXPECT_EQ(notate(line({4, 4}, {480, 30, 450})).moved, 0u);
 }
 
-TEST(Notation, StavesAndClefs) {
-    const auto staves_of = [](const std::vector<double>& keys) {
-        TestScore score = line({4, 4}, std::vector<std::int64_t>(keys.size(), 480));
-        for (std::size_t i = 0; i < keys.size(); ++i) score.notes[i].key = keys[i];
-        return notate(score).parts.front().staves;
-    };
-    EXPECT_EQ(staves_of({60, 62, 64}).front().clef, Clef::treble);
-    EXPECT_EQ(staves_of({59, 58, 64}).front().clef, Clef::bass);
-    EXPECT_EQ(staves_of({}).front().clef, Clef::treble);
-    EXPECT_EQ(staves_of({48, 72}).size(), 1u);  // two octaves, not over them
-    EXPECT_EQ(staves_of({60, 100}).size(), 1u);
-    EXPECT_EQ(staves_of({20, 59}).size(), 1u);
-    const auto grand = staves_of({48, 73, 59, 60});
-    ASSERT_EQ(grand.size(), 2u);
-    EXPECT_EQ(grand[0].clef, Clef::treble);
-    EXPECT_EQ(grand[1].clef, Clef::bass);
-    const auto keys_of = [](const Staff& staff) {
-        std::vector<double> keys;
-        for (const NotatedSymbol& symbol : staff.voices.front().symbols) {
-            if (symbol.kind == SymbolKind::note) keys.push_back(symbol.pitch.key());
-        }
-        return keys;
-    };
-    EXPECT_EQ(keys_of(grand[0]), (std::vector<double>{73, 60}));
-    EXPECT_EQ(keys_of(grand[1]), (std::vector<double>{48, 59}));
+/// A staff in words: `treble`, `bass+1`, … for each change, with its onset in quarters.
+std::string changes(const Staff& staff) {
+    static const std::map<Clef, std::string> names = {{Clef::treble, "treble"},     {Clef::bass, "bass"},
+                                                      {Clef::alto, "alto"},         {Clef::tenor, "tenor"},
+                                                      {Clef::treble_8, "treble_8"}, {Clef::bass_8, "bass_8"}};
+    std::string text;
+    for (const StaffChange& change : staff.changes) {
+        text += (text.empty() ? "" : ", ") + std::to_string(change.onset / 480) + " " + names.at(change.clef);
+        if (change.octaves != 0) text += (change.octaves > 0 ? "+" : "") + std::to_string(change.octaves);
+    }
+    return text;
 }
 
-TEST(Notation, ManyVoicesHaveAStaffForEveryFour) {
+std::vector<Staff> staves_of(int program, const std::vector<double>& keys) {
+    TestScore score = line({4, 4}, std::vector<std::int64_t>(keys.size(), 480));
+    score.head.parts[0].program = program;
+    for (std::size_t i = 0; i < keys.size(); ++i) score.notes[i].key = keys[i];
+    return notate(score).parts.front().staves;
+}
+
+std::vector<double> keys_of(const Staff& staff) {
+    std::vector<double> keys;
+    for (const NotatedVoice& voice : staff.voices) {
+        for (const NotatedSymbol& symbol : voice.symbols) {
+            if (symbol.kind == SymbolKind::note && !symbol.tied_back) keys.push_back(symbol.pitch.key());
+        }
+    }
+    return keys;
+}
+
+constexpr int piano = 0;
+constexpr int vibraphone = 11;
+
+TEST(Notation, AMelodyHasOneStaff) {
+    // Around middle C, over three octaves: never torn.
+    for (const int program : {vibraphone, 40, 42, 73}) {
+        EXPECT_EQ(staves_of(program, {48, 62, 55, 72, 59, 60, 84, 61}).size(), 1u) << program;
+    }
+    EXPECT_EQ(changes(staves_of(vibraphone, {60, 62, 64, 72}).front()), "0 treble");
+    EXPECT_EQ(changes(staves_of(vibraphone, {48, 50, 52, 53}).front()), "0 bass");
+    EXPECT_EQ(changes(staves_of(vibraphone, {}).front()), "0 treble");
+    EXPECT_EQ(changes(staves_of(41, {60, 55, 62, 64}).front()), "0 alto");
+    EXPECT_EQ(changes(staves_of(24, {52, 60, 64, 55}).front()), "0 treble_8");
+    EXPECT_EQ(changes(staves_of(33, {31, 28, 36, 40}).front()), "0 bass_8");
+    EXPECT_EQ(changes(staves_of(70, {40, 43, 50, 36}).front()), "0 bass");
+}
+
+TEST(Notation, ClefsChangeByPhrase) {
+    std::vector<double> keys(8, 74);
+    keys.insert(keys.end(), 8, 43);
+    keys.insert(keys.end(), 8, 74);
+    EXPECT_EQ(changes(staves_of(vibraphone, keys).front()), "0 treble, 8 bass, 16 treble");
+    // A single low note is no phrase.
+    std::vector<double> single(16, 67);
+    single[7] = 55;
+    EXPECT_EQ(changes(staves_of(vibraphone, single).front()), "0 treble");
+}
+
+TEST(Notation, ManyLedgerLinesBecomeALineOf8va) {
+    std::vector<double> keys(8, 76);
+    keys.insert(keys.end(), 8, 96);
+    keys.insert(keys.end(), 8, 76);
+    EXPECT_EQ(changes(staves_of(73, keys).front()), "0 treble, 8 treble+1, 16 treble");
+    EXPECT_EQ(changes(staves_of(73, std::vector<double>(8, 108)).front()), "0 treble+2");
+    EXPECT_EQ(changes(staves_of(58, std::vector<double>(8, 24)).front()), "0 bass-1");
+}
+
+TEST(Notation, KeyboardsHaveTwoHands) {
+    EXPECT_EQ(staves_of(piano, {60, 62, 64, 72, 74, 79}).size(), 1u);
+    EXPECT_EQ(staves_of(piano, {40, 43, 45, 48, 52, 55}).size(), 1u);
+    std::vector<double> keys(8, 76);
+    keys.insert(keys.end(), 8, 43);
+    keys[3] = 59;   // stays in the right hand
+    keys[12] = 60;  // stays in the left hand
+    const std::vector<Staff> staves = staves_of(piano, keys);
+    ASSERT_EQ(staves.size(), 2u);
+    EXPECT_EQ(changes(staves[0]), "0 treble");
+    EXPECT_EQ(changes(staves[1]), "0 bass");
+    EXPECT_EQ(keys_of(staves[0]), std::vector<double>(keys.begin(), keys.begin() + 8));
+    EXPECT_EQ(keys_of(staves[1]), std::vector<double>(keys.begin() + 8, keys.end()));
+}
+
+TEST(Notation, VoicesOfAKeyboardAreSharedBetweenTheHands) {
     TestScore score;
-    score.head.parts = {plain_part("Many", 12), plain_part("Silent", 2)};
-    for (std::int16_t voice = 0; voice < 12; ++voice) {
-        if (voice == 3) continue;  // never sounds
+    score.head.parts = {plain_part("Piano", 3)};
+    const std::array<double, 3> voice_keys = {48, 67, 72};
+    for (std::int16_t voice = 0; voice < 3; ++voice) {
         Note note;
         note.duration = 1920;
-        note.key = 70 - 2 * voice;
+        note.key = voice_keys[static_cast<std::size_t>(voice)];
         note.voice = voice;
         score.notes.push_back(note);
     }
     const Notation notation = notate(score);
-    ASSERT_EQ(notation.parts[0].staves.size(), 3u);
-    EXPECT_EQ(notation.parts[0].staves[0].voices.size(), 4u);
-    EXPECT_EQ(notation.parts[0].staves[2].voices.size(), 3u);
-    EXPECT_EQ(notation.parts[0].staves[0].voices[3].voice, 4);
-    EXPECT_EQ(notation.parts[0].staves[2].clef, Clef::bass);
+    EXPECT_EQ(notation.parts[0].bracket, Bracket::brace);
+    ASSERT_EQ(notation.parts[0].staves.size(), 2u);
+    EXPECT_EQ(keys_of(notation.parts[0].staves[0]), (std::vector<double>{72, 67}));
+    EXPECT_EQ(keys_of(notation.parts[0].staves[1]), (std::vector<double>{48}));
+}
+
+/// `voices` voices, of which the fourth never sounds.
+TestScore many_voices(int voices) {
+    TestScore score;
+    score.head.parts = {plain_part("Many", voices), plain_part("Silent", 2)};
+    for (std::int16_t voice = 0; voice < voices; ++voice) {
+        if (voice == 3) continue;
+        Note note;
+        note.duration = 1920;
+        note.key = 90 - 2 * voice;
+        note.voice = voice;
+        score.notes.push_back(note);
+    }
+    return score;
+}
+
+TEST(Notation, EveryVoiceHasAStaff) {
+    const TestScore score = many_voices(12);
+    const Notation notation = notate(score);
+    ASSERT_EQ(notation.parts[0].staves.size(), 11u);
+    EXPECT_EQ(notation.parts[0].bracket, Bracket::bracket);
+    for (const Staff& staff : notation.parts[0].staves) EXPECT_EQ(staff.voices.size(), 1u);
+    EXPECT_EQ(notation.parts[0].staves[3].voices[0].voice, 4);
     ASSERT_EQ(notation.parts[1].staves.size(), 1u);
     EXPECT_EQ(notation.parts[1].staves[0].voices[0].symbols.front().kind, SymbolKind::bar_rest);
     EXPECT_EQ(joined(notation), plain(score.notes));
 }
 
+TEST(Notation, VeryManyVoicesShareStavesAndMergeUnisons) {
+    TestScore score = many_voices(21);
+    const Notation notation = notate(score);
+    ASSERT_EQ(notation.parts[0].staves.size(), 10u);
+    for (const Staff& staff : notation.parts[0].staves) EXPECT_EQ(staff.voices.size(), 2u);
+    EXPECT_EQ(joined(notation), plain(score.notes));
+    for (Note& note : score.notes) note.key = note.voice < 10 ? 60 : 64;
+    const Notation merged = notate(score);
+    EXPECT_EQ(merged.merged, 18u);
+    ASSERT_EQ(merged.parts[0].staves.size(), 1u);
+    EXPECT_EQ(keys_of(merged.parts[0].staves[0]), (std::vector<double>{64, 60}));
+}
+
 TEST(Notation, OneRestOfABarIsEnough) {
     TestScore score;
-    score.head.parts = {plain_part("Two", 2)};
+    score.head.parts = {plain_part("Four", 4)};
     Note note;
-    note.duration = 1920;
-    note.onset = 1920;
-    score.notes.push_back(note);
-    note.voice = 1;
-    note.onset = 2 * 1920;
-    score.notes.push_back(note);
+    for (std::int16_t voice = 0; voice < 4; ++voice) {
+        note.voice = voice;
+        note.key = 80 - 10 * voice;
+        note.duration = 1920;
+        note.onset = 1920 * (1 + voice % 2);
+        score.notes.push_back(note);
+    }
     score.end = 4 * 1920;
     const Notation notation = notate(score);
     const auto kinds = [&](std::size_t voice) {
@@ -250,6 +449,40 @@ TEST(Notation, OneRestOfABarIsEnough) {
     };
     EXPECT_EQ(kinds(0), (std::vector{SymbolKind::bar_rest, SymbolKind::note, SymbolKind::gap, SymbolKind::bar_rest}));
     EXPECT_EQ(kinds(1), (std::vector{SymbolKind::gap, SymbolKind::gap, SymbolKind::note, SymbolKind::gap}));
+}
+
+TEST(Notation, DynamicsFollowTheVelocities) {
+    using Kind = DynamicMark::Kind;
+    const auto marks = [](const std::vector<int>& velocities) {
+        TestScore score = line({4, 4}, std::vector<std::int64_t>(velocities.size(), 1920));
+        for (std::size_t i = 0; i < velocities.size(); ++i) {
+            score.notes[i].velocity = static_cast<std::uint8_t>(velocities[i]);
+        }
+        return notate(score).parts[0].staves[0].dynamics;
+    };
+    EXPECT_EQ(marks({80, 78, 84, 75}), (std::vector<DynamicMark>{{0, Kind::level, 4}}));
+    EXPECT_EQ(marks({33, 112}),
+              (std::vector<DynamicMark>{{0, Kind::level, 1}, {0, Kind::crescendo, 1}, {1920, Kind::level, 6}}));
+    // The border between two levels is not crossed by a step.
+    EXPECT_EQ(marks({80, 71, 73, 71, 89}), (std::vector<DynamicMark>{{0, Kind::level, 4}}));
+    // From bar 2 on it rises, until it is forte in bar 4.
+    EXPECT_EQ(
+        marks({80, 78, 84, 94, 95}),
+        (std::vector<DynamicMark>{{0, Kind::level, 4}, {1920, Kind::crescendo, 4}, {3 * 1920, Kind::level, 5}}));
+    EXPECT_EQ(marks({1, 127}).front().level, 0);
+    EXPECT_EQ(marks({1, 127}).back().level, 7);
+}
+
+TEST(Notation, LoudNotesHaveAccents) {
+    TestScore score = line({4, 4}, std::vector<std::int64_t>(8, 480));
+    score.notes[2].velocity = 110;
+    const Notation notation = notate(score);
+    const auto& symbols = notation.parts[0].staves[0].voices[0].symbols;
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(symbols[i].is_accented, i == 2) << i;
+    score.notes[2].velocity = 80;
+    for (std::size_t i = 1; i < 8; i += 2) score.notes[i].velocity = 110;
+    const Notation many = notate(score);
+    for (const NotatedSymbol& symbol : many.parts[0].staves[0].voices[0].symbols) EXPECT_FALSE(symbol.is_accented);
 }
 
 TEST(Notation, SignsHoldToTheEndOfTheBar) {
@@ -320,6 +553,10 @@ TEST(Notation, WhatIsNoQuarterToneIsCounted) {
     const auto& symbols = notation.parts[0].staves[0].voices[0].symbols;
     EXPECT_EQ(symbols[1].pitch.key(), 64);
     EXPECT_EQ(symbols[3].pitch.key(), 60.5);
+    EXPECT_EQ(symbols[0].cents, 0);
+    EXPECT_EQ(symbols[1].cents, -14);
+    EXPECT_EQ(symbols[2].cents, 0);
+    EXPECT_EQ(symbols[3].cents, -20);
 }
 
 TEST(Notation, RefusesWhatNobodyPrints) {

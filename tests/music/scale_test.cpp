@@ -475,6 +475,23 @@ TEST(ScaleNames, LeadToOneScaleEach) {
     }
 }
 
+TEST(ScaleNames, EqualDivisionsOfTheOctave) {
+    for (const char* name : {"31-edo", "31-equal", "31 EDO", "31tet"}) {
+        const Scale* scale = find_scale(name);
+        ASSERT_TRUE(scale) << name;
+        EXPECT_EQ(scale->size(), 31u);
+        EXPECT_NEAR(scale->cents(18, false), 1200.0 * 18 / 31, 1e-9);
+        EXPECT_NEAR(scale->cents(-31, true), -1200.0, 1e-9);
+        EXPECT_EQ(find_scale("31-edo"), scale);
+    }
+    EXPECT_EQ(id_of("19-edo"), "19-equal");  // as listed
+    EXPECT_EQ(find_scale("1200-edo")->size(), 1200u);
+    EXPECT_EQ(find_scale("1-edo")->size(), 1u);
+    for (const char* name : {"0-edo", "1201-edo", "-edo", "3.5-edo", "99999999999-edo", "31-edo-x"}) {
+        EXPECT_FALSE(find_scale(name)) << name;
+    }
+}
+
 TEST(ScaleNames, DoNotMindCaseBlanksAndAccents) {
     for (const char* name : {"harmonic-minor", "harmonicMinor", "harmonic_minor", "Harmonic Minor",
                              " harmonic  minor ", "HARMONIC-MINOR", "hármônic mïnör", "h\u0061\u0301rmonic minor"}) {

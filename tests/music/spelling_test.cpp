@@ -224,5 +224,25 @@ TEST(Notes, AreNothingElse) {
     }
 }
 
+TEST(Spelling, PrintHasSignaturesForMoreScales) {
+    const auto signature = [](const std::string& id, const std::string& tonic) {
+        const auto found = print_signature(*find_scale(id), parse_note(tonic)->spelling);
+        return found ? std::to_string(found->fifths) + " " + std::to_string(static_cast<int>(found->mode)) : "none";
+    };
+    EXPECT_EQ(signature("major", "D"), "2 1");
+    EXPECT_EQ(signature("dorian", "D"), "0 3");
+    EXPECT_EQ(signature("minor", "A"), "0 4");
+    EXPECT_EQ(signature("harmonic-minor", "D"), "-1 4");
+    EXPECT_EQ(signature("major-pentatonic", "G"), "1 1");
+    EXPECT_EQ(signature("minor-pentatonic", "D"), "-1 4");
+    EXPECT_EQ(signature("blues", "C"), "-3 4");
+    EXPECT_EQ(signature("raga-bilahari", "D"), "2 1");
+    EXPECT_EQ(signature("raga-hamsadhwani", "D"), "2 1");
+    EXPECT_EQ(signature("todi-that", "C"), "-4 5");
+    EXPECT_EQ(signature("whole-tone", "C"), "none");
+    EXPECT_EQ(signature("chromatic", "C"), "none");
+    EXPECT_EQ(signature("shruti", "C"), "none");
+}
+
 }  // namespace
 }  // namespace sikku

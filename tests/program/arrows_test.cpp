@@ -58,12 +58,14 @@ struct Room {
 /// All permitted includes. Each room includes only from rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "boost fast_float tbb posix"},
+        {"engine/base", "", "boost fast_float tbb posix toml"},
         {"engine/language", "engine/base", ""},
         {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
-        {"engine/geometry", "engine/base engine/language engine/derivation", ""},
+        {"engine/map", "engine/base engine/language engine/derivation", ""},
+        {"engine/geometry", "engine/base engine/language engine/derivation", "boost"},
         {"engine/measure", "engine/base engine/language engine/derivation engine/geometry", "boost"},
+        {"engine/tiling", "engine/base engine/language engine/derivation engine/geometry", "boost"},
         {"engine", "engine/*", ""},
         {"art/style", "engine/*", ""},
         {"art/print", "engine/* art/style", ""},
@@ -74,19 +76,21 @@ const std::vector<Room>& rooms() {
         {"art/raster", "engine/* art/style art/print", "tbb"},
         {"art/plotter", "engine/* art/style art/print", ""},
         {"art/space", "engine/* art/style art/print art/raster", "tbb"},
-        {"art/image", "engine/*", "oiio lcms posix"},
+        {"art/image", "engine/*", "oiio lcms posix zlib"},
         {"art/drawing",
          "engine/* art/style art/print art/kolam art/hand art/vector art/raster art/plotter art/space art/image",
          "tbb"},
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing", "tbb"},
         {"art", "engine engine/* art/*", ""},
-        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet", "tbb json toml posix"},
+        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet", "tbb json posix"},
         {"art/link", "engine/* art/gallery", "zlib json"},
         {"art/reading", "engine/* art art/kolam art/image art/gallery", "json pugixml"},
         {"music/scale", "engine/*", ""},
-        {"music/score", "engine/* music/scale", "posix"},
+        {"music/score", "engine/* music/scale", "posix zlib"},
         {"music/melody", "engine/* music/scale music/score", ""},
+        {"music/form", "engine/* music/scale music/score music/melody", ""},
         {"music", "engine engine/* music/*", ""},
+        {"music/live", "engine/* music music/score", "alsa posix"},
         {"cli", "engine engine/* art art/* music music/*", "cli11 tbb json toml posix"},
         {"python", "engine engine/* art art/kolam music music/score", "pybind11 posix"},
         {"studio", "engine engine/* art art/* music music/*", "json"},
@@ -106,24 +110,18 @@ bool allows(const std::string& rooms, const std::string& room) {
 
 /// The library that a header in angle brackets belongs to; empty for the standard library.
 std::string library_of(const std::string& name) {
-    static const std::map<std::string, std::string> folders = {{"boost", "boost"},
-                                                               {"fmt", "fmt"},
-                                                               {"glm", "glm"},
-                                                               {"oneapi", "tbb"},
-                                                               {"tbb", "tbb"},
-                                                               {"OpenImageIO", "oiio"},
-                                                               {"CLI", "cli11"},
-                                                               {"toml++", "toml"},
-                                                               {"nlohmann", "json"},
-                                                               {"sys", "posix"},
-                                                               {"fast_float", "fast_float"},
-                                                               {"embedded", ""},
-                                                               {"pybind11", "pybind11"}};
+    static const std::map<std::string, std::string> folders = {
+        {"alsa", "alsa"},   {"boost", "boost"},      {"fmt", "fmt"},          {"glm", "glm"},
+        {"oneapi", "tbb"},  {"tbb", "tbb"},          {"OpenImageIO", "oiio"}, {"CLI", "cli11"},
+        {"toml++", "toml"}, {"nlohmann", "json"},    {"sys", "posix"},        {"fast_float", "fast_float"},
+        {"embedded", ""},   {"pybind11", "pybind11"}};
     static const std::map<std::string, std::string> files = {
-        {"zlib.h", "zlib"},   {"lcms2.h", "lcms"},        {"fcntl.h", "posix"},   {"unistd.h", "posix"},
-        {"dlfcn.h", "posix"}, {"pugixml.hpp", "pugixml"}, {"link.h", "posix"},    {"signal.h", "posix"},
-        {"spawn.h", "posix"}, {"poll.h", "posix"},        {"termios.h", "posix"}, {"immintrin.h", ""},
-        {"emmintrin.h", ""},  {"lcms2_plugin.h", "lcms"}, {"dirent.h", "posix"},  {"emscripten.h", "emscripten"}};
+        {"zlib.h", "zlib"},    {"lcms2.h", "lcms"},           {"fcntl.h", "posix"},
+        {"unistd.h", "posix"}, {"dlfcn.h", "posix"},          {"pugixml.hpp", "pugixml"},
+        {"link.h", "posix"},   {"signal.h", "posix"},         {"spawn.h", "posix"},
+        {"sched.h", "posix"},  {"poll.h", "posix"},           {"termios.h", "posix"},
+        {"immintrin.h", ""},   {"emmintrin.h", ""},           {"lcms2_plugin.h", "lcms"},
+        {"dirent.h", "posix"}, {"emscripten.h", "emscripten"}};
     if (const auto file = files.find(name); file != files.end()) return file->second;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return name.find('.') == std::string::npos ? "" : name;

@@ -1,4 +1,5 @@
 // tests/program/bad_input_test.cpp: the program accepts or refuses any input quickly and in little memory.
+#include "tests/files.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -85,9 +86,9 @@ Outcome drawn(std::string text, std::vector<std::string> arguments = {}, const c
 // --- files that are no patterns -----------------------------------------------------------------------------------
 
 TEST(BadInput, Empty) {
-    expect_mistake("", "-:1:1: there is no 'axiom:'");
-    expect_mistake("\n\n", "there is no 'axiom:'");
-    expect_mistake("F --> FF\n", "there is no 'axiom:'");
+    expect_mistake("", "-:1:1: 'axiom:' is missing");
+    expect_mistake("\n\n", "'axiom:' is missing");
+    expect_mistake("F --> FF\n", "'axiom:' is missing");
     expect_mistake("axiom:\n", "-:1:1: ");
 }
 
@@ -262,6 +263,97 @@ TEST(BadInput, Brackets) {
     expect_refused(drawn("axiom: F{F"), 2, "symbol 2 of the word");
 }
 
+const std::string leaf_patch =
+    "patch leaf:\n0 0 0, .3 0 0, .6 0 0, 1 0 0\n-.5 1 .3, 0 1 0, .5 1 0, 1.5 1 .3\n"
+    "-.5 2 .3, 0 2 0, .5 2 0, 1.5 2 .3\n0 3 0, .3 3 0, .6 3 0, 1 3 0\n";
+
+TEST(BadInput, InsertedEdges) {
+    for (const char* json : {"--json", "--quiet"}) {
+        expect_mistake("edges: ? #\naxiom: F?F", "symbol 2 of the word: this inserted edge has no end", {json});
+        expect_mistake("edges: ? #\naxiom: F#F?", "symbol 2 of the word: the end of an inserted edge without its",
+                       {json});
+        expect_mistake("edges: ? #\naxiom: &F#F?", "symbol 3 of the word: the end of an inserted edge", {json});
+    }
+    expect_refused(drawn("edges: ? #\naxiom: F?F"), 2, "symbol 2 of the word");
+    // As many as there can be: nested, one after the other, and around long axes.
+    expect_refused(piped("edges: ? #\naxiom: A\nA --> AA\nderivation length: 21\ninterpret:\nA --> ?\n"), 2,
+                   "nest deeper than 1,048,576");
+    expect_answer("edges: ? #\naxiom: A\nA --> AA\nderivation length: 20\ninterpret:\nA --> [F?]F#\n",
+                  "\"polygons\": 1048576");
+    expect_refused(drawn("edges: ? #\naxiom: [B?]A\nA --> AA\nB --> BB\nderivation length: 14\ninterpret:\n"
+                         "A --> F#?\nB --> F\n"),
+                   2, "symbol");
+}
+
+TEST(BadInput, Surfaces) {
+    // Numbers that are not finite, in patches and where they are used.
+    for (const char* wrong : {"nan", "inf", "-inf", "1e400", "1e10", "x"}) {
+        expect_mistake("axiom: ~leaf\npatch leaf:\n1 2 " + std::string(wrong) + "\n",
+                       "-:3:5: expected a coordinate, a number up to 10^9");
+    }
+    expect_mistake("axiom: ~leaf\npatch leaf:\nnan 0 0\n", "-:3:1: expected a coordinate");
+    expect_mistake("axiom: A(0)\nA(x) --> ~leaf(1/x)\nderivation length: 1\n" + leaf_patch, "finite");
+    expect_sane(drawn("axiom: ~leaf(0)F\n" + leaf_patch));
+    expect_sane(drawn("axiom: ~leaf(1,-1,1)~leaf(-2)~leaf(1e-300)F\n" + leaf_patch));
+    expect_refused(drawn("axiom: ~leaf(1e300)F\n" + leaf_patch), 1, "larger than 10^18 steps");
+    // Too many patches: in the pattern, and in the word.
+    expect_refused(run({"measure", "-"}, {.feed =
+                                              [](const Feed& feed) {
+                                                  feed("axiom: F\n");
+                                                  feed_repeated(feed, leaf_patch, 400'000);
+                                              }}),
+                   2, "a pattern has at most 4096");
+    const std::string leaves = "axiom: A\nA --> AA\ninterpret:\nA --> ~leaf+(10)\n" + leaf_patch;
+    for (const char* format : {"x.svg", "x.png", "x.glb", "x.hpgl"}) {
+        SCOPED_TRACE(format);
+        expect_refused(drawn(leaves, {"-n", "21"}, format), 1, "the budget allows");
+    }
+    expect_answer("derivation length: 21\n" + leaves, "\"moves\": 0");
+}
+
+TEST(BadInput, SurfaceFiles) {
+    const ScratchFolder folder;
+    const auto drawn_with = [&](const std::string& file) {
+        folder.write("p.lsys", "axiom: ~leaf\nsurface: leaf = " + file + "\n");
+        return run({"draw", folder.file("p.lsys"), "-o", folder.file("p.svg")});
+    };
+    folder.write("secret.txt", "the first line\n");
+    std::filesystem::create_directory(folder / "folder.s");
+    expect_refused(drawn_with("missing.s"), 2, "p.lsys:2:17: 'missing.s' cannot be read: No such file");
+    expect_refused(drawn_with("folder.s"), 2, "'folder.s' cannot be read: this is not a regular file");
+    // Other files are not opened, and nothing of them is shown.
+    for (const std::string file : {"secret.txt", "/etc/passwd", "../../etc/passwd", "/dev/zero", "."}) {
+        const Outcome outcome = drawn_with(file);
+        expect_refused(outcome, 2, "expected a surface file, whose name ends in .s");
+        EXPECT_EQ(outcome.errors.find("the first line"), std::string::npos);
+        EXPECT_EQ(outcome.errors.find("root:"), std::string::npos);
+    }
+    std::filesystem::create_symlink("/dev/zero", folder / "zero.s");
+    expect_refused(drawn_with("zero.s"), 2, "this is not a regular file");
+    folder.write("binary.s", std::string(1000, '\0') + "\xff\xfe\x1b[31m");
+    expect_refused(drawn_with("binary.s"), 2, "binary.s:1:");
+    folder.write("large.s", std::string((4 << 20) + 1, ' '));
+    expect_refused(drawn_with("large.s"), 2, "at most 4 MB in all");
+    // Neighbours in a circle, a patch that is its own, and one that names itself first.
+    std::string text = "0 1 0 1 0 1\n", many = text;
+    const auto patch = [](const std::string& name, const std::string& around) {
+        return name + "\nTOP COLOR: 0 DIFFUSE: 0.5 BOTTOM COLOR: 0 DIFFUSE: 0.5\nAL: " + around + " A: " + around +
+               " AR: ~\nL: " + around + " R: " + around + "\nBL: ~ B: " + around + " BR: ~\n" +
+               "0 0 0 1 0 1 2 0 1 3 0 0\n0 1 1 1 1 3 2 1 3 3 1 1\n0 2 1 1 2 3 2 2 3 3 2 1\n" +
+               "0 3 0 1 3 1 2 3 1 3 3 0\n";
+    };
+    folder.write("circle.s", text + patch("a", "b") + patch("b", "c") + patch("c", "a") + patch("d", "d"));
+    expect_sane(drawn_with("circle.s"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "p.svg"));
+    for (int i = 0; i < 4096; ++i) many += patch("p" + std::to_string(i), "p" + std::to_string(i * 7 % 4096));
+    folder.write("full.s", many);
+    expect_refused(drawn_with("full.s, more = circle.s"), 2, "a pattern has at most 4096 patches in all");
+    folder.write("more.s", many + patch("more", "~"));
+    expect_refused(drawn_with("more.s"), 2, "more.s:36866:1: a surface has at most 4096 patches");
+    // From a pipe a name is relative to the working directory.
+    expect_refused(piped("axiom: ~leaf\nsurface: leaf = missing.s\n"), 2, "-:2:17: 'missing.s' cannot be read");
+}
+
 TEST(BadInput, DeepBrackets) {
     const std::size_t millions = 3'000'000;
     expect_sane(piped("axiom: " + std::string(millions, '[') + std::string(millions, ']')));
@@ -336,7 +428,7 @@ TEST(BadInput, WhatTablesRepeat) {
         own += "table t" + number + ":\na" + number + " --> F\n";
     }
     const std::string head = "axiom: X\n" + names + "\n" + schedule;
-    expect_mistake(head + rules + tables, "too much before the first table");
+    expect_mistake(head + rules + tables, "the productions before the first table are too many");
     expect_mistake(head + own, "3000 tables of 3002 symbols are too many");
     std::string word = "axiom: ";
     for (int i = 0; i < 600'000; ++i) word += "F(" + std::to_string(i) + ")";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <sstream>
 
 namespace sikku {
 namespace {
@@ -221,7 +222,7 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"patterns", "plant"}), 2, "unknown kind of patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");
     expect_failure(run({"patterns", "qqqqqqqqqqqq"}), 2,
-                   "there are: curves, kolam-library, kolams, melodies, plants, tilings, words");
+                   "there are: arrangements, curves, kolam-library, kolams, maps, melodies, plants, tilings, words");
 }
 
 TEST(Program, MistakesAreToldWithPlaceLineAndCaret) {
@@ -256,6 +257,18 @@ TEST(Program, EveryPatternThatComesAlongPassesItsCheck) {
     for (const char* kind : {"kolams", "tilings", "curves", "plants", "words"}) {
         EXPECT_TRUE(has(run({"patterns"}).output, std::string(kind) + "\n"));
         EXPECT_EQ(run({"patterns", kind}).status, 0);
+    }
+}
+
+/// Names and titles of any length leave the columns straight.
+TEST(Program, PatternsAreListedInColumns) {
+    for (const char* kind : {"kolams", "tilings", "curves", "plants", "words", "melodies"}) {
+        std::istringstream lines(run({"patterns", kind}).output);
+        std::string line;
+        std::getline(lines, line);
+        std::set<std::size_t> titles;
+        while (std::getline(lines, line)) titles.insert(line.find_first_not_of(' ', line.find(' ', 2)));
+        EXPECT_EQ(titles.size(), 1u) << kind;
     }
 }
 
@@ -346,7 +359,7 @@ TEST(Program, FileIsOverriddenByVariantBySetByN) {
     EXPECT_EQ(n_and_length({"--variant", "v", "--set", "derivation length=3"}), "3 2.0");
     EXPECT_EQ(n_and_length({"--variant", "v", "--set", "r=5", "--set", "Derivation  Length=3"}), "3 5.0");
     EXPECT_EQ(n_and_length({"-n", "4", "--variant", "v", "--set", "derivation length=3"}), "4 2.0");
-    expect_failure(run({"measure", "-", "--variant", "w"}, {.input = text}), 2, "--variant w: no such variant");
+    expect_failure(run({"measure", "-", "--variant", "w"}, {.input = text}), 2, "--variant w: unknown variant");
     EXPECT_EQ(measured({"hilbert", "-n", "2", "--set", "axiom=F=F", "--set", "ignore=="})["n"].text, "2");
 }
 
@@ -356,13 +369,14 @@ TEST(Program, MeasureKeepsItsContract) {
     const Outcome outcome = run({"measure", "snake-kolam", "--json"});
     ASSERT_EQ(outcome.status, 0);
     const Json json = JsonReader(outcome.output).read();
-    const std::vector<std::string> keys = {"title", "n",   "symbols", "counts",  "drawn",  "moves", "length",
-                                           "box",   "ink", "end",     "heading", "closed", "depth", "derived"};
+    const std::vector<std::string> keys = {"title", "n",       "symbols",  "counts", "drawn",
+                                           "moves", "length",  "polygons", "box",    "ink",
+                                           "end",   "heading", "closed",   "depth",  "derived"};
     ASSERT_EQ(json.members.size(), keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) EXPECT_EQ(json.members[i].first, keys[i]);
     EXPECT_EQ(outcome.output.substr(0, outcome.output.find("\"box\"")),
               "{\"title\": \"Snake kolam\", \"n\": 4, \"symbols\": 3239, \"counts\": {\"+\": 683, \"-\": 680, "
-              "\"X\": 512, \"f\": 1364}, \"drawn\": 0, \"moves\": 1364, \"length\": 0.0, ");
+              "\"X\": 512, \"f\": 1364}, \"drawn\": 0, \"moves\": 1364, \"length\": 0.0, \"polygons\": 0, ");
     EXPECT_TRUE(has(outcome.output, "\"box\": [0, 0, 31, 31], \"ink\": null, \"end\": [0, 0], \"heading\": "));
     EXPECT_TRUE(has(outcome.output, "\"closed\": true, \"depth\": 0, \"derived\": false}\n"));
     using Type = Json::Type;
@@ -746,8 +760,8 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
     EXPECT_EQ(completed({"sikku", "draw", "--s"}),
-              (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--stroke", "--split", "--spot",
-                                     "--step", "--steps"}));
+              (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--sway", "--stroke", "--split",
+                                     "--spot", "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));

@@ -4,6 +4,7 @@
 #include "tests/fuzz/grid_targets.h"
 #include "tests/fuzz/reading_targets.h"
 #include "tests/fuzz/scale_targets.h"
+#include "tests/fuzz/surface_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
 
@@ -20,6 +21,10 @@ bool is_good(const std::string& text) {
     const Compiled compiled = compile_bytes(text);
     if (!compiled.grammar) return false;
     try {
+        if (compiled.grammar->map()) {
+            derive_map(*compiled.grammar, {1e6});
+            return true;
+        }
         measure(*compiled.grammar, 1e6);
         return true;
     } catch (const WordError&) {
@@ -135,6 +140,15 @@ TEST(Corpus, EveryFileOfScalesGoesThroughTheFuzzTargets) {
         const std::string text = contents(entry.path());
         EXPECT_NO_THROW(try_scl(text));
         EXPECT_NO_THROW(try_kbm(text));
+    }
+}
+
+TEST(Corpus, SurfaceFilesAreReadOrRefused) {
+    for (const auto& file : files_of("tests/corpus/surfaces")) {
+        SCOPED_TRACE(file.string());
+        EXPECT_NO_THROW(try_surface(contents(file)));
+        mutate(
+            contents(file), [&](const std::string& changed) { EXPECT_NO_THROW(try_surface(changed)); }, 2000);
     }
 }
 

@@ -13,7 +13,9 @@
 #include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -63,6 +65,89 @@ TEST(Docs, EachRoomIsDescribed) {
             EXPECT_NE(text.find("| `" + room + "` |"), std::string::npos) << room;
         }
     }
+}
+
+/// An indented block of a page: a file that the text before it says to write, or commands and what they print.
+struct Block {
+    std::string before;  ///< the paragraph before
+    std::vector<std::string> lines;
+};
+
+std::vector<Block> blocks_of(const std::string& page) {
+    std::vector<Block> blocks;
+    std::string line, paragraph;
+    bool is_inside = false, ends = true;
+    std::istringstream text(page);
+    while (std::getline(text, line)) {
+        const bool is_indented = line.starts_with("    ");
+        if (is_indented && !is_inside) blocks.push_back({paragraph, {}});
+        if (is_indented) {
+            blocks.back().lines.push_back(line.substr(4));
+        } else if (line.empty() && is_inside) {
+            blocks.back().lines.emplace_back();
+        } else if (!line.empty()) {
+            paragraph = ends ? line : paragraph + ' ' + line;
+        }
+        ends = line.empty() || is_indented;
+        is_inside = is_indented || (line.empty() && is_inside);
+    }
+    for (Block& block : blocks) {
+        while (block.lines.back().empty()) block.lines.pop_back();
+    }
+    return blocks;
+}
+
+/// What takes longer on one machine than on another is not compared, nor what `…` stands for.
+std::regex pattern_of(const std::vector<std::string>& lines) {
+    static const std::regex special(R"([.^$|()\[\]{}*+?\\])"), times(R"([0-9]+\\\.[0-9]+ (s:|a second))");
+    std::string all;
+    for (const std::string& line : lines) {
+        if (line == "…") {
+            all += "(?:.*\n)*";
+            continue;
+        }
+        all += std::regex_replace(std::regex_replace(line, special, R"(\$&)"), times, "[0-9.]+ m?$1") + "\n";
+    }
+    return std::regex(all);
+}
+
+/// Does what the tutorial says, in one folder for each of its parts, and compares what it shows.
+TEST(Docs, TheTutorialShowsWhatItsCommandsPrint) {
+    const std::string path = std::filesystem::path(SIKKU_PROGRAM).parent_path().string() + ":/usr/bin:/bin";
+    const std::string text = contents(root / "docs" / "tutorial.md");
+    static const std::regex writes("(?:Write|write) .*into `([a-z.]+)`");
+    int compared = 0;
+    for (std::size_t at = text.find("\n## "), next = 0; at != std::string::npos; at = next) {
+        next = text.find("\n## ", at + 1);
+        const ScratchFolder folder;
+        for (const Block& block : blocks_of(text.substr(at, next == std::string::npos ? next : next - at))) {
+            std::smatch file;
+            if (std::regex_search(block.before, file, writes)) {
+                std::string whole;
+                for (const std::string& line : block.lines) whole += line + '\n';
+                folder.write(file[1].str(), whole);
+                continue;
+            }
+            for (std::size_t i = 0; i < block.lines.size();) {
+                const std::string command = block.lines[i++].substr(2);
+                std::vector<std::string> shown;
+                while (i < block.lines.size() && !block.lines[i].starts_with("$ ")) shown.push_back(block.lines[i++]);
+                // Neither LilyPond nor Slurm is needed for the tests.
+                if (command.find("lilypond") != std::string::npos || command.find("--slurm") != std::string::npos) {
+                    continue;
+                }
+                const Outcome outcome =
+                    run({"-c", command},
+                        {.folder = folder.path(), .environment = {{"PATH", path}}, .program = "/bin/sh"});
+                EXPECT_EQ(outcome.status, 0) << command << '\n' << outcome.errors;
+                if (shown.empty()) continue;
+                const std::string printed = outcome.output + outcome.errors;
+                EXPECT_TRUE(std::regex_match(printed, pattern_of(shown))) << command << '\n' << printed;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GE(compared, 8);
 }
 
 TEST(Docs, TheReadmeIsShort) {

@@ -341,8 +341,8 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
 }
 
 TEST_F(GalleryTest, PostersThatComeAlong) {
-    for (const char* name :
-         {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-6.7", "figure-6.8"}) {
+    for (const char* name : {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-4.4",
+                             "figure-4.5", "figure-6.7", "figure-6.8"}) {
         const Outcome outcome = gallery({"--file", name, "-o", name});
         ASSERT_EQ(outcome.status, 0) << outcome.errors;
         EXPECT_TRUE(tree(folder.file(name)).contains("poster.pdf"));

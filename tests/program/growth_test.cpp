@@ -165,7 +165,7 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
     }
     expect_refused(draw({"bush.lsys", "--view", "90"}, "x.svg"), 2, "expected AZIMUTH,ELEVATION in degrees");
     expect_refused(draw({"bush.lsys", "--set", "line=spline"}, "x.svg"), 2,
-                   "--set:1:6: drawings that pitch, roll or bend have straight lines");
+                   "--set:1:6: drawings in space have straight lines");
     expect_refused(draw({"bush.lsys", "--window", "0,0,1,1"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--dots"}, "x.svg"), 2, "drawings in the plane");
     expect_refused(draw({"bush.lsys", "--spot", "Leaf=#2f7d32"}, "x.pdf"), 2,
@@ -198,7 +198,7 @@ TEST_F(Growth, ModelsAreMade) {
 }
 
 TEST_F(Growth, BadGenerationsAreRefused) {
-    expect_refused(draw({"dragon"}, "d.gif"), 2, "--generations: needed for a .gif");
+    expect_refused(draw({"dragon"}, "d.gif"), 2, "--generations: required for a .gif");
     expect_refused(draw({"dragon", "--frames"}, "d.png"), 2, "needs --generations");
     expect_refused(draw({"dragon", "--generations", "4:1"}, "d.gif"), 2, "the lowest first");
     expect_refused(draw({"dragon", "--generations", "1:x"}, "d.gif"), 2, "expected two derivation lengths");

@@ -23,7 +23,7 @@ TEST(ImportProgram, CollectionsBecomeFolders) {
     EXPECT_EQ(outcome.status, 2) << "one entry is bad";
     EXPECT_TRUE(has(outcome.errors, "some.l:14:1: the entry 'Bad' has no axiom\n"));
     EXPECT_TRUE(
-        has(outcome.errors, "kites-darts.lsys exists already: 'kites-DARTS' of line 10 becomes kites-darts-2.lsys"));
+        has(outcome.errors, "kites-darts.lsys already exists: 'kites-DARTS' on line 10 becomes kites-darts-2.lsys"));
     EXPECT_TRUE(has(outcome.errors, "3 patterns in "));
     EXPECT_TRUE(has(outcome.errors, "some.l:12:9: warning: not supported: cycles of colours"));
     const std::vector<std::string> files = {"kites-darts-2.lsys", "kites-darts.lsys", "koch.lsys"};
@@ -101,7 +101,7 @@ TEST(ImportProgram, BadInput) {
                        }
                    }});
     };
-    refused(run({"import", "-"}), "neither a file of cpfg");
+    refused(run({"import", "-"}), "neither a cpfg file");
     refused(run({"import", "/nowhere/at.all"}), "/nowhere/at.all: No such file or directory");
     refused(run({"import", "/tmp"}), "is a folder");
     refused(fed("Lsystem: 1\n", "a", 65 << 20), "64 MB");

@@ -46,6 +46,15 @@ TEST_F(KolamGrid, TheUsualSymmetryIsTheLargestThatIsPossible) {
     EXPECT_FALSE(has(kolam({"--grid", "6x6", "--symmetry", "none", "-o", "a.lsys"}).errors, "symmetry"));
 }
 
+/// Symmetries that were not requested are tried for a short while only.
+TEST_F(KolamGrid, ASingleLineOnALargeGridTakesSeconds) {
+    const Outcome outcome = kolam({"--grid", "400x400", "--single-line", "-o", "large.lsys"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(has(outcome.errors, "160000 dots")) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, ", 1 line; ")) << outcome.errors;
+    EXPECT_LT(outcome.seconds, sanitized ? 120 : 15);
+}
+
 TEST_F(KolamGrid, JoinedGapsAreMadeReadAndListed) {
     const Outcome made = kolam({"--grid", "5x5", "--density", "0.5", "--joined", "0.6", "-o", "a.lsys"});
     ASSERT_EQ(made.status, 0);
@@ -53,7 +62,7 @@ TEST_F(KolamGrid, JoinedGapsAreMadeReadAndListed) {
     const Outcome given = kolam({"--grid", "1x3", "--crossings", "12", "--json", "-o", "a.lsys"});
     EXPECT_TRUE(has(given.output, "\"crossed\": 1, \"joined\": 1, \"lines\": 1")) << given.output;
     EXPECT_TRUE(
-        has(kolam({"--grid", "2x2", "--enumerate", "--joined", "1"}).output, "81 states, 40 of a single line"));
+        has(kolam({"--grid", "2x2", "--enumerate", "--joined", "1"}).output, "81 states, 40 with a single line"));
 }
 
 TEST_F(KolamGrid, RadialKolamsHaveAsManyLinesAsTheGreatestCommonDivisor) {
@@ -93,17 +102,18 @@ TEST_F(KolamGrid, MakesTheLibraryAgain) {
 }
 
 TEST_F(KolamGrid, RefusesWithTheReason) {
+    folder_.write("mask.txt", ".oo.\noooo\n.oox\n");
     struct Case {
         std::vector<std::string> arguments;
         int status;
         const char* message;
     };
     for (const Case& bad : {Case{{"--grid", "15-8", "--symmetry", "D4"}, 2, "interlaced grids have C2, C3, C6"},
-                            {{"--grid", "7x7", "--symmetry", "C6"}, 2, "square grids have C2, C4, mirrors and D4"},
+                            {{"--grid", "7x7", "--symmetry", "C6"}, 2, "straight grids have C2, C4, mirrors and D4"},
                             {{"--grid", "7-4", "--symmetry", "D6", "--single-line"}, 1, "at its 3 dots"},
                             {{"--grid", "oo//oo", "--single-line"}, 1, "2 groups that no gap connects"},
-                            {{"--grid", "1000x1000000"}, 2, "more than 4000000 dots"},
-                            {{"--grid", "4000000000 to 1"}, 2, "more than 4000000 dots"},
+                            {{"--grid", "1000x1000000"}, 2, "at most 4000000 dots"},
+                            {{"--grid", "4000000000 to 1"}, 2, "at most 4000000 dots"},
                             {{"--grid", "7 foo"}, 2, "unknown word 'foo'"},
                             {{"--grid", "@missing.txt"}, 2, "missing.txt"},
                             {{"--grid", "3x3", "--crossings", "0123"}, 2, "0 turned back, 1 crossed, 2 joined"},
@@ -111,12 +121,22 @@ TEST_F(KolamGrid, RefusesWithTheReason) {
                             {{"--radial", "8x5", "--order", "1-2"}, 2, "each dot of an arm once"},
                             {{"--radial", "8x5", "--grid", "3x3"}, 2, "cannot be combined with"},
                             {{"--radial", "8x5", "--single-line"}, 2, "--single-line needs --grid"},
+                            {{"--radial", "8x5", "-o", "x.kolam.json"}, 2, "a radial kolam has none"},
+                            {{"--radial", "8x5", "-o", "x.csv"}, 2, "a radial kolam has none"},
+                            {{"--radial", "8x5", "-o", "x.foo"}, 2, "unknown extension"},
+                            {{"--grid", "3x3", "-o", "x.foo"}, 2, "unknown extension"},
+                            {{"--grid", "3x3", "--colours", "-o", "x.json"}, 2, "--colours: -o x.json holds dots"},
+                            {{"--grid", "3x3", "--dots", "-o", "x.csv"}, 2, "--dots: -o x.csv holds dots"},
+                            {{"--grid", "oo./oXo/.oo"}, 2, "line 2, column 2: 'X' is not a place"},
+                            {{"--grid", "•o/oä"}, 2, "line 2, column 2: 'ä' is not a place"},
+                            {{"--grid", "@mask.txt"}, 2, "line 3, column 4: 'x' is not a place"},
+                            {{"--grid", "../_."}, 2, "the shape has no dots"},
                             {{"snake-kolam", "--dots"}, 2, "need --grid or --radial"}}) {
         const Outcome refused = kolam(bad.arguments);
         EXPECT_EQ(refused.status, bad.status) << bad.message << refused.errors;
         EXPECT_TRUE(has(refused.errors, bad.message)) << refused.errors;
     }
-    EXPECT_TRUE(folder_.names().empty());
+    EXPECT_EQ(folder_.names().size(), 1U);  // the mask
 }
 
 }  // namespace

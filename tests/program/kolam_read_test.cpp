@@ -112,16 +112,22 @@ TEST_F(KolamRead, MistakesAreNamed) {
         EXPECT_FALSE(std::filesystem::exists(folder_ / "a.lsys"));
     };
     expect({"--read", "none.jpg", "-o", "a.lsys"}, 2, "no such file");
-    expect({"--read", "text.txt", "-o", "a.lsys"}, 1, "text.txt: not a kolam that can be read");
-    expect({"--read", "broken.json", "-o", "a.lsys"}, 1, "broken.json: not a .kolam.json file");
+    expect({"--read", "text.txt", "-o", "a.lsys"}, 1, "text.txt: unknown format");
+    // Damaged beyond its first bytes, and within them.
+    folder_.write("cut.webp", std::string("RIFF\x40\0\0\0WEBPVP8 \x90\0\0\0....", 24));
+    folder_.write("bent.webp", std::string("RIFF\x40\0\0\0WEBXVP8 ", 16));
+    expect({"--read", "cut.webp", "-o", "a.lsys", "--overlay", "b.png"}, 1, "cut.webp: the picture is damaged");
+    expect({"--read", "bent.webp", "-o", "a.lsys", "--overlay", "b.png"}, 1,
+           "bent.webp: not a picture, or a damaged");
+    expect({"--read", "broken.json", "-o", "a.lsys"}, 1, "broken.json: not a valid .kolam.json file");
     expect({"--read", "broken.csv", "-o", "a.lsys"}, 1, "broken.csv: row 3: expected two numbers");
     expect({"--read", "fake.jpg", "-o", "a.lsys"}, 1, "fake.jpg: the picture is damaged");
-    expect({"--read", "ring.json", "-o", "a.svg"}, 2, "a kolam is written as .lsys");
+    expect({"--read", "ring.json", "-o", "a.svg"}, 2, "expected a pattern file, NAME.lsys");
     expect({"--read", "ring.json", "-o", "a.yaml"}, 1, "joined gaps, as in row 1, gap 1");
-    expect({"--read", "ring.json", "--overlay", "a.png"}, 2, "--overlay is for photographs");
-    expect({"--read", "ring.json", "--overlay", "a.jpg"}, 2, "the overlay is a PNG");
+    expect({"--read", "ring.json", "--overlay", "a.png"}, 2, "--overlay applies only to photographs");
+    expect({"--read", "ring.json", "--overlay", "a.jpg"}, 2, "expected a PNG");
     expect({"--read", "ring.json", "--fix", "2,1: cross"}, 2, "numbered 1 to 1");
-    expect({"--read", "ring.json", "--json"}, 2, "give its file with -o");
+    expect({"--read", "ring.json", "--json"}, 2, "--json needs -o FILE");
     expect({"--read", "ring.json", "--grid", "3x3"}, 2, "--read excludes");
     expect({"--fix", "1,1: cross", "snake-kolam"}, 2, "--read");
     expect({"-o", "a.lsys"}, 2, "-o needs PATTERN");

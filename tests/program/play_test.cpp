@@ -2,6 +2,7 @@
 #include "tests/files.h"
 #include "tests/midi_reader.h"
 #include "tests/program.h"
+#include "tests/tools.h"
 
 #include <gtest/gtest.h>
 
@@ -29,11 +30,89 @@ Outcome played(const std::string& pattern, std::vector<std::string> arguments, c
 const std::string hilbert = "axiom: X\nderivation length: 3\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n";
 
 TEST(Play, WritesEveryKindOfScore) {
-    for (const char* name : {"x.mid", "x.MIDI", "x.musicxml", "x.ly", "x.svg", "x.html"}) {
+    for (const char* name : {"x.mid", "x.MIDI", "x.musicxml", "x.mxl", "x.ly", "x.abc", "x.csd", "x.sco", "x.strudel",
+                             "x.svg", "x.html"}) {
         const Outcome outcome = played(hilbert, {}, name);
         EXPECT_EQ(outcome.status, 0) << name << outcome.errors;
         EXPECT_NE(outcome.errors.find("26 notes, 4 bars, 8.0 s"), std::string::npos) << outcome.errors;
     }
+}
+
+TEST(Play, PrintsWithLilyPond) {
+    NEEDS("lilypond");
+    const ScratchFolder folder;
+    const std::string pattern = folder.write("x.lsys", hilbert);
+    const std::string one = folder.file("one.pdf");
+    const std::string two = folder.file("two.pdf");
+    ASSERT_EQ(run({"-q", "play", pattern, "-o", one}).status, 0);
+    ASSERT_EQ(run({"-q", "play", pattern, "-o", two}).status, 0);
+    EXPECT_TRUE(contents(one).starts_with("%PDF-"));
+    EXPECT_EQ(contents(one), contents(two));
+    EXPECT_EQ(run({"show", one}).output, hilbert);
+}
+
+TEST(Play, SaysThatLilyPondIsMissing) {
+    const ScratchFolder folder;
+    const std::string pattern = folder.write("x.lsys", hilbert);
+    const Outcome outcome =
+        run({"play", pattern, "-o", folder.file("x.pdf")}, {.environment = {{"PATH", "/nowhere"}}});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("x.pdf")));
+    EXPECT_NE(outcome.errors.find("needs the program lilypond"), std::string::npos) << outcome.errors;
+}
+
+TEST(Play, ScoresInLinesContainTheirPattern) {
+    const ScratchFolder folder;
+    const std::string pattern = folder.write("x.lsys", hilbert);
+    for (const char* name : {"x.abc", "x.csd", "x.sco", "x.strudel", "x.ly"}) {
+        ASSERT_EQ(run({"-q", "play", pattern, "-o", folder.file(name)}).status, 0);
+        EXPECT_EQ(run({"show", folder.file(name)}).output, hilbert) << name;
+    }
+}
+
+TEST(Play, PartsHaveKeysOfTheirOwn) {
+    const ScratchFolder folder;
+    const std::string file = folder.file("canon.mid");
+    const Outcome canon =
+        run({"play", "hilbert-in-c", "hilbert-in-c@start=2,transposition=-12,rhythm=curve", "-o", file});
+    EXPECT_EQ(canon.status, 0) << canon.errors;
+    EXPECT_NE(canon.errors.find("206 notes, 18 bars"), std::string::npos) << canon.errors;
+    EXPECT_EQ(run({"check", file}).output, "");
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"hilbert-in-c@start", "expected KEY=VALUE"},
+        {"hilbert-in-c@=2", "expected KEY=VALUE"},
+        {"hilbert-in-c@strat=2", "unknown key 'strat'"},
+        {"hilbert-in-c@start=-1", "expected bars of rest"},
+        {"hilbert-in-c@transposition=x", "expected semitones"},
+        {"hilbert-in-c@rhythm=E(0,8)", "expected 1 to 256 notes"},
+        {"hilbert-in-c@start=1000000", "expected bars"},
+        {"hilbert-in-c@inversion=maybe", "expected no or yes"}};
+    for (const auto& [name, message] : bad) {
+        const Outcome outcome = run({"play", name, "-o", folder.file("x.mid")});
+        EXPECT_EQ(outcome.status, 2) << name;
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    }
+}
+
+TEST(Play, FormRhythmAndHarmonyRefuseWhatTheyCannotRead) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
+        {{"--rhythm", "0+2"}, "groups of a tala"},
+        {{"--rhythm", "..x"}, "begins with x"},
+        {{"--swing", "90"}, "from 50 to 80"},
+        {{"--phrases", "0"}, "1 or more"},
+        {{"--phrases", "2", "--breath", "x"}, "expected a note value"},
+        {{"--cadence", "tonc"}, "did you mean 'tonic'"},
+        {{"--articulation", "0%"}, "from 5 to 100"},
+        {{"--harmony", "progression I-X"}, "expected chords from I to VII"},
+        {{"--harmony", "bass 0"}, "from 1 to 30"},
+        {{"--brackets", "sequential"}, "expected voices, sequence or shares"},
+        {{"--ending", "bang"}, "expected none or ritardando"}};
+    for (const auto& [options, message] : bad) {
+        const Outcome outcome = played(hilbert, options);
+        EXPECT_EQ(outcome.status, 2) << options[1];
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+    }
+    EXPECT_EQ(played(hilbert, {"--harmony", "bass 3"}).status, 2);
 }
 
 TEST(Play, WhatItWritesIsCleanAndTheSameEveryTime) {
@@ -43,9 +122,10 @@ TEST(Play, WhatItWritesIsCleanAndTheSameEveryTime) {
          std::filesystem::directory_iterator(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/melodies")) {
         names.push_back(entry.path().stem().string());
     }
-    ASSERT_EQ(names.size(), 9u);
+    ASSERT_EQ(names.size(), 13u);
     for (const std::string& name : names) {
-        for (const char* ending : {".mid", ".musicxml", ".ly", ".svg", ".html"}) {
+        for (const char* ending :
+             {".mid", ".musicxml", ".mxl", ".ly", ".abc", ".csd", ".sco", ".strudel", ".svg", ".html"}) {
             const std::string one = folder.file(name + ending);
             const std::string two = folder.file(name + "-2" + ending);
             ASSERT_EQ(run({"-q", "play", name, "-o", one}).status, 0) << name << ending;
@@ -86,8 +166,8 @@ TEST(Play, WhatIsLostOnTheWayIsTold) {
         EXPECT_EQ(outcome.status, 0) << outcome.errors;
         EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
     };
-    told({"--unit", "1/12"}, "x.musicxml", "at a 64th");
-    told({"--scale", "22-shruti"}, "x.ly", "nearest quarter tone");
+    told({"--unit", "1/128"}, "x.musicxml", "at a 64th");
+    told({"--scale", "22-shruti"}, "x.ly", "nearest quarter tone, with the difference in cents");
     told({"-n", "8"}, "x.mid", "beyond C-1 to G9");
     told({"--mapping", "counterpoint", "--vertical", "rest"}, "x.mid", "'vertical:' has no meaning");
 }
@@ -160,6 +240,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--unit", "1/7"}, 2, "expected a note value");
     refused(hilbert, {"--tonic", "H9"}, 2, "expected a note such as C4");
     refused(hilbert, {"--tonic", "C12"}, 2, "expected a note such as C4");
+    refused(hilbert, {"--tonic", "60"}, 2, "expected C4 for key 60 of MIDI, or 60 Hz");
     refused(hilbert, {"--tonic", "99999 Hz"}, 2, "beyond what MIDI can write");
     refused(hilbert, {"--instrument", "kazooo"}, 2, "instrument");
     refused(hilbert, {"--instrument", "129"}, 2, "1 to 128");
@@ -169,7 +250,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"-n", "40"}, 1, "4 GiB");
     refused(hilbert, {"-n", "40"}, 1, "above the budget", "x.musicxml");
     refused(hilbert, {"-n", "11"}, 2, "limit the bars", "x.musicxml");
-    refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "--from-bar");
+    refused(hilbert, {"--from-bar", "9223372036854775807"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--from-bar", "1000"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--range", "fold C5-C4"}, 2, "the lowest and the highest note");
     refused(hilbert, {"--scale", ""}, 2, "unknown scale ''");
@@ -180,8 +261,29 @@ TEST(Play, Mistakes) {
     refused("axiom: F]\n", {"--set", "heading=0"}, 2, "']' without '['");
     std::string branches = "heading: 0\naxiom: ";
     for (int i = 0; i < 20; ++i) branches += "[FFFF]";
-    refused(branches + "\n", {}, 2, "too many voices");
+    refused("scale: shruti\n" + branches + "\n", {}, 2, "too many voices");
+    EXPECT_EQ(played(branches + "\n", {}, "x.mid").status, 0);  // on one channel
     refused("axiom: F\nscale: nothing-such\n", {}, 2, "-:2:8: unknown scale");
+}
+
+TEST(Play, GuessedInstrumentsAreReported) {
+    const Outcome strings = played(hilbert, {"--instrument", "strings"});
+    EXPECT_NE(strings.errors.find("'strings' is taken to be Tremolo Strings (45), the first of "), std::string::npos)
+        << strings.errors;
+    const Outcome drums = played(hilbert, {"--instrument", "drums"});
+    EXPECT_NE(drums.errors.find("taken to be Steel Drums (115)"), std::string::npos) << drums.errors;
+    for (const char* name : {"flute", "piano", "Violin"}) {
+        EXPECT_EQ(played(hilbert, {"--instrument", name}).errors.find("taken"), std::string::npos) << name;
+    }
+}
+
+TEST(Play, FarBarsAndKolams) {
+    const Outcome far = played(hilbert, {"-n", "60", "--from-bar", "1000000000000000000", "--bars", "2"});
+    EXPECT_EQ(far.status, 0) << far.errors;
+    const std::vector<std::string> arguments = {"play", "snake-kolam"};
+    const Outcome kolam = run(arguments);
+    EXPECT_EQ(kolam.status, 0) << kolam.errors;
+    EXPECT_EQ(kolam.output.find("no notes"), std::string::npos) << kolam.output;
 }
 
 TEST(Play, ScalesOfFiles) {

@@ -39,9 +39,57 @@ TEST(Plotters, AFileIsAsGoodAsAName) {
     const Outcome wrong = run({"-q", "draw", "hilbert", "-n", "3", "--profile", file, "-o", own});
     EXPECT_EQ(wrong.status, 2);
     EXPECT_TRUE(has(wrong.errors, "mine.plotter:2:9: unknown placeholder {hight}")) << wrong.errors;
-    const Outcome missing = run({"-q", "draw", "hilbert", "-n", "3", "--profile", folder.file("none.x"), "-o", own});
-    EXPECT_EQ(missing.status, 1);
-    EXPECT_TRUE(has(missing.errors, "none.x")) << missing.errors;
+}
+
+/// A profile is a user's text, like a pattern: everything that is wrong with it has status 2.
+TEST(Plotters, FilesThatCannotBeUsedAreUsageErrors) {
+    const ScratchFolder folder;
+    const std::string own = folder.file("own.gcode");
+    const auto refusal = [&](const std::string& file) {
+        const Outcome outcome = run({"-q", "draw", "hilbert", "-n", "3", "--profile", file, "-o", own});
+        EXPECT_EQ(outcome.status, 2) << file;
+        return outcome.errors;
+    };
+    EXPECT_TRUE(has(refusal(folder.file("none.x")), "No such file"));
+    EXPECT_TRUE(has(refusal(folder.path().string() + "/"), "is a folder"));
+    EXPECT_TRUE(has(refusal(folder.write("big.plotter", std::string(70'000, 'a'))), "larger than 64 kB"));
+    const std::string file = folder.write("far.plotter", "language: G-code\nend: G0 X0 Y1e300\nstart: G0 Xnan\n");
+    const std::string errors = refusal(file);
+    EXPECT_TRUE(has(errors, "far.plotter:2:12: expected a place within 10 m of the origin")) << errors;
+    EXPECT_TRUE(has(errors, "far.plotter:3:11: expected a place within 10 m of the origin")) << errors;
+}
+
+TEST(Plotters, AProfileForSvgMakesAPlot) {
+    const ScratchFolder folder;
+    const auto made = [&](const std::vector<std::string>& more, const std::string& name) {
+        std::vector<std::string> words = {"-q", "draw", "hilbert", "-n", "3", "-o", folder.file(name)};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    ASSERT_EQ(made({"--profile", "axidraw"}, "own.svg").status, 0);
+    ASSERT_EQ(made({"--profile", "axidraw", "--plotter"}, "both.svg").status, 0);
+    EXPECT_EQ(contents(folder.file("own.svg")), contents(folder.file("both.svg")));
+    const Outcome pdf = made({"--profile", "axidraw"}, "own.pdf");
+    EXPECT_EQ(pdf.status, 2);
+    EXPECT_TRUE(has(pdf.errors, "--profile axidraw: this plotter reads SVG, not PDF")) << pdf.errors;
+}
+
+TEST(Plotters, PensThatDrawNothingAreReported) {
+    const ScratchFolder folder;
+    const auto errors = [&](const std::string& pen) {
+        return run({"draw", "hilbert", "-n", "3", "--pen", pen, "-o", folder.file("a.gcode")}).errors;
+    };
+    EXPECT_TRUE(has(errors("7 speed=10"), "warning: --pen 7 has no effect: the plot uses 1 pen\n"));
+    EXPECT_TRUE(has(errors("navy speed=10"), "warning: --pen navy has no effect: no pen has this colour\n"));
+    EXPECT_EQ(errors("1 speed=10").find("warning"), std::string::npos);
+}
+
+TEST(Plotters, APlotIsResumedInMetres) {
+    const ScratchFolder folder;
+    const Outcome outcome = run({"draw", "hilbert", "-n", "3", "--resume", "900m", "-o", folder.file("a.gcode")});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(has(outcome.errors, "--resume 900m: the whole plot draws only ")) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("mm"), std::string::npos) << outcome.errors;
 }
 
 TEST(Plotters, AFileBelongsToTheJobsOfAGallery) {

@@ -51,7 +51,7 @@ TEST_F(SheetProgram, ReportsMistakes) {
     expect_mistake({"a.lsys", "--repeat", "p5", "-o", "x.svg"}, "p31m");
     expect_mistake({"a.lsys", "--columns", "0", "-o", "x.svg"}, "--columns");
     expect_mistake({"a.lsys", "-o", "x.gif"}, "a sheet is SVG");
-    expect_mistake({"a.lsys", "-o", "x.txt"}, "expected a file of SVG");
+    expect_mistake({"a.lsys", "-o", "x.txt"}, "expected an SVG");
     expect_mistake({"no-such-pattern", "-o", "x.svg"}, "no-such-pattern");
 }
 
@@ -73,6 +73,52 @@ TEST_F(SheetProgram, BordersAndLinesOfTextComeFromThePattern) {
     EXPECT_GT(draw({"--border", "none", "--edition", "3/50"}).size(), plain.size() + 200);
     EXPECT_EQ(run({"draw", "b.lsys", "-o", "b.glb"}, here_).status, 0);
     EXPECT_EQ(run({"draw", "b.lsys", "-o", "b.svg", "--border", "pipe.lsys"}, here_).status, 2);
+}
+
+TEST_F(SheetProgram, ReportsWhatDrawReportsOnceWithTheNamesOfTheDrawings) {
+    folder_.write("line.lsys", "title: Line\naxiom: FF\n");
+    const Outcome dots = sheet({"line.lsys", "snake-kolam", "line.lsys@title=Second", "--dots", "-o", "x.svg"});
+    EXPECT_EQ(dots.status, 0) << dots.errors;
+    EXPECT_TRUE(has(dots.errors, "'Line', 'Second': no dots were drawn")) << dots.errors;
+    const Outcome plot = sheet({"line.lsys", "snake-kolam@fields=kind", "a.lsys@fields=kind", "-o", "x.gcode"});
+    EXPECT_TRUE(has(plot.errors, "plots fill fields only by hatching")) << plot.errors;
+    const Outcome pale = sheet({"line.lsys@fields=kind", "a.lsys", "--hatch=1mm", "-o", "x.hpgl"});
+    EXPECT_TRUE(has(pale.errors, "'Line': no fields were filled")) << pale.errors;
+    EXPECT_TRUE(has(pale.errors, "--hatch has no effect")) << pale.errors;
+    EXPECT_TRUE(has(sheet({"a.lsys", "--compression", "9", "-o", "x.svg"}).errors, "--compression has no effect"));
+}
+
+TEST_F(SheetProgram, CaptionsOfKolamsStateTheirGrid) {
+    ASSERT_EQ(run({"kolam", "--grid", "3x3", "--crossings", "all", "-o", "k.lsys"}, here_).status, 0);
+    const auto svg = [&](const std::string& titles) {
+        EXPECT_EQ(sheet({"k.lsys@title=K", "--titles", titles, "-o", "x.svg"}).status, 0);
+        return contents(folder_ / "x.svg");
+    };
+    // The grid and the description are two more lines of many strokes; productions would be none.
+    EXPECT_GT(svg("caption").size(), svg("title").size() + 2000);
+}
+
+TEST_F(SheetProgram, PlacesThatAreMissingOrOverlapAreMistakesOfUse) {
+    expect_mistake({"a.lsys@x=1mm,y=1mm", "with@sign.lsys", "-o", "x.svg"}, "'with@sign' has no place on the sheet");
+    const Outcome overlap = sheet({"a.lsys@x=20mm,y=20mm", "with@sign.lsys@x=30mm,y=30mm", "-o", "x.png"});
+    EXPECT_EQ(overlap.status, 2) << overlap.errors;
+    expect_mistake({"a.lsys", "with@sign.lsys@width=3mm", "-o", "x.svg"}, "(drawing 'with@sign.lsys')");
+    const Outcome gif = sheet({"a.lsys", "-o", "x.gif"});
+    EXPECT_FALSE(has(gif.errors, "--format")) << gif.errors;
+}
+
+TEST_F(SheetProgram, BordersOfPatternsThatAreNotDrawnAreReported) {
+    folder_.write("b.lsys", "title: Framed\naxiom: F+F+F+F\nborder: rope\nstroke: 1mm navy\n");
+    const auto errors = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"draw", "b.lsys"});
+        const Outcome outcome = run(more, here_);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return outcome.errors;
+    };
+    EXPECT_TRUE(has(errors({"--window", "0,0,1,1", "-o", "w.svg"}), "a window shows only part"));
+    EXPECT_TRUE(has(errors({"--lesson", "-o", "l.pdf"}), "a lesson teaches the lines"));
+    EXPECT_FALSE(has(errors({"-o", "b.svg"}), "border"));
+    EXPECT_FALSE(has(errors({"--window", "0,0,1,1", "--border", "none", "-o", "w.svg"}), "border"));
 }
 
 }  // namespace

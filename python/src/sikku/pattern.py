@@ -86,7 +86,7 @@ class PatternInfo(NamedTuple):
 
     name: str
     kind: str
-    """Name of its folder: kolams, tilings, curves, plants, words or melodies."""
+    """Name of its folder: kolams, kolam-library, tilings, curves, plants, words or melodies."""
     title: str
     source: str
     """Source of the pattern in the literature."""
@@ -126,8 +126,9 @@ def _format_of(path: str) -> tuple[str, str]:
     """The interpreter and the format of a file by its extension. Raises SettingError."""
     name = os.path.basename(path).lower()
     extension = os.path.splitext(name)[1][1:]
-    if name.endswith(".notes.svg"):
-        return "scores", "notes.svg"
+    for score in ("notes.svg", "score.pdf"):
+        if name.endswith("." + score):
+            return "scores", score
     known = []
     for interpreter in ("prints", "scores"):
         for format, alias, _ in _core.formats(interpreter):
@@ -197,7 +198,7 @@ class Pattern:
     def draw(self, format: str = "svg", **options: Value) -> Union[str, bytes]:
         """Draws a print or a model and returns it: text for SVG, HP-GL and G-code, otherwise bytes.
 
-        format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode or glb.
+        format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode, dxf, obj or glb.
         options: `size="A3"`, `stroke="0.3mm navy"`, `dots=True`, … (docs/commands.md).
 
         Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, and Error if
@@ -208,7 +209,8 @@ class Pattern:
     def play(self, format: str = "mid", **options: Value) -> Union[str, bytes]:
         """Plays the pattern and returns the score: text for MusicXML, LilyPond, SVG and HTML, otherwise bytes.
 
-        format: mid, musicxml, ly, wav, flac, svg (curve and piano roll) or html (a page that plays).
+        format: mid, musicxml, mxl, ly, pdf (printed by LilyPond), abc, wav, flac, csd, sco, strudel, svg (curve and piano
+        roll) or html (a page that plays).
         options: `scale="dorian"`, `bars=16`, `tempo=96`, … (docs/commands.md).
 
         Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
@@ -220,7 +222,7 @@ class Pattern:
 
         Each file appears whole or not at all, because it is written to a temporary name and renamed. Some outputs have
         several files, such as models (.obj and .mtl) and tiled prints (`tile="A4"`). The extension `.notes.svg` selects
-        the curve and the piano roll of a melody.
+        the curve and the piano roll of a melody, `.score.pdf` its printed score.
 
         Returns facts about the output, such as the length that a plotter draws. Options, warnings and errors are those
         of draw() and play(). Raises Error if a file cannot be written.
@@ -269,8 +271,8 @@ class Pattern:
     def path(self, n: Optional[int] = None, *, budget: float = 2e8) -> Path:
         """Returns the lines that the turtle draws, as NumPy arrays.
 
-        Splines (`line: spline`) are given as control polygons; polygons and discs are left out. Cost: about 20 ns
-        and 16 bytes per point.
+        Splines (`line: spline`) are given as control polygons; polygons, discs and surfaces are left out. Cost:
+        about 20 ns and 16 bytes per point.
 
         n: derivation length, instead of the pattern's.
         budget: maximum number of derivation nodes visited.
@@ -386,5 +388,5 @@ def load(
 
 
 def patterns() -> list[PatternInfo]:
-    """Lists the bundled patterns, sorted by kind and name. Takes about 10 ms."""
+    """Lists the bundled patterns, sorted by kind and name, without arrangements. Takes about 10 ms."""
     return [PatternInfo(*one) for one in _core.patterns()]

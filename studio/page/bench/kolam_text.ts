@@ -1,10 +1,12 @@
 // Reads the kolam of the bench from the text of a pattern, and keeps what the user edited there.
 
 const dots_line = "dots: 0.2 step #fffaf0";
+const fields_line = "fields: chessboard";
 
-/// The text with dots added if wanted.
-export function withDots(text: string, hasDots: boolean): string {
-    return hasDots ? `${text.trimEnd()}\n${dots_line}\n` : text;
+/// The text with keys for the dots and the filled fields that are wanted.
+export function withLook(text: string, look: { hasDots: boolean; isFilled: boolean }): string {
+    const lines = [...(look.hasDots ? [dots_line] : []), ...(look.isFilled ? [fields_line] : [])];
+    return lines.length > 0 ? [text.trimEnd(), ...lines, ""].join("\n") : text;
 }
 
 export interface ReadKolam {
@@ -12,6 +14,7 @@ export interface ReadKolam {
     gaps: string; // digits
     isColoured: boolean;
     hasDots: boolean;
+    isFilled: boolean;
 }
 
 /// The grid and the states of its gaps, if the libraries made the text.
@@ -20,7 +23,8 @@ export function readKolam(text: string): ReadKolam | null {
     if (!found) return null;
     const palette = /^palette:(.*)$/m.exec(text)?.[1].trim().split(/\s+/) ?? [];
     const hasDots = /^dots:(?!\s*none)/m.test(text);
-    return { ...found, isColoured: palette.length > 2, hasDots };
+    const isFilled = /^fields:\s*chessboard\s*$/m.test(text);
+    return { ...found, isColoured: palette.length > 2, hasDots, isFilled };
 }
 
 type Comments = Pick<ReadKolam, "grid" | "gaps">;
@@ -60,7 +64,7 @@ export function withEditsOf(old: string, made: string, fresh: string): string {
     let text = fresh;
     for (const [key, line] of otherKeys(old)) {
         const own = now.get(key);
-        if (line === was.get(key) || line === own || line === dots_line) continue;
+        if (line === was.get(key) || line === own || line === dots_line || line === fields_line) continue;
         if (key === "palette" && was.get(key) !== own) continue; // the number of lines has changed
         text = own === undefined ? `${text.trimEnd()}\n${line}\n` : text.replace(own, () => line);
     }

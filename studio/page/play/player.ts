@@ -100,7 +100,7 @@ export class Player {
         this.voices = Array.from({ length: melody.voices }, (_, index) => {
             const part = melody.parts[melody.partOfVoice[index]];
             const before = old[index];
-            const instrument = timbreOf(part?.program ?? 0).name;
+            const instrument = part?.drums ? "drums" : timbreOf(part?.program ?? 0).name;
             const name = melody.parts.length > 1 && part ? `${part.name}, ${index + 1}` : `Voice ${index + 1}`;
             return {
                 name,
@@ -116,7 +116,7 @@ export class Player {
 
     instrumentOf(voice: number): string {
         const part = this.melody?.parts[this.melody.partOfVoice[voice]];
-        return timbreOf(part?.program ?? 0).name;
+        return part?.drums ? "drums" : timbreOf(part?.program ?? 0).name;
     }
 
     change(voice: number, change: Partial<Voice>): void {

@@ -1,0 +1,21 @@
+// art/drawing/tile_colours.h: numbers for tiles by their neighbours, as colours.
+#pragma once
+
+#include "art/drawing/united_lines.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Numbers tiles so that neighbours differ, with few numbers: two if there are no odd cycles, often three, four where
+/// exchanging the colours of chains of tiles (Kempe 1879) succeeds. Cost: linear, but for exchanges.
+/// @param neighbours  as of UnitedLines::Result
+std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours);
+
+/// The number of tiles to cross from the border, from 0; tiles that are not connected with it have 0.
+std::vector<std::uint32_t> distances_from_border(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours,
+                                                 std::span<const std::uint32_t> border);
+
+}  // namespace sikku

@@ -1,0 +1,188 @@
+#include "art/drawing/tile_drawing.h"
+
+#include "art/drawing/tile_colours.h"
+#include "art/plotter/plot_join.h"
+#include "art/plotter/plot_layer.h"
+#include "art/print/ornaments.h"
+#include "engine/geometry/polygon_classes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+bool depends_on_neighbours(TileColours colours) {
+    return colours == TileColours::distance || colours == TileColours::neighbours;
+}
+
+/// Collects the straight lines and the polygons of a drawing.
+class TileGatherer : public PathSink {
+public:
+    TileGatherer(UnitedLines& united, const Style& style) : united_(united), style_(style) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        at_ = start;
+        take(pen);
+    }
+    void lines(std::span<const glm::dvec2> ends) override {
+        for (const glm::dvec2 end : ends) {
+            if (draws_) united_.add_line(at_, end, pen_);
+            at_ = end;
+        }
+    }
+    void curves(std::span<const glm::dvec2> controls) override { at_ = controls.back(); }
+    void change_pen(const Pen& pen) override { take(pen); }
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override { united_.add_tile(vertices); }
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    void take(const Pen& pen) {
+        pen_ = pen;
+        pen_.colour = style_.index(pen);
+        draws_ = style_.draws(pen);
+    }
+
+    UnitedLines& united_;
+    const Style& style_;
+    Pen pen_;
+    glm::dvec2 at_{0.0};
+    bool draws_ = false;
+};
+
+/// Hands on polygons in the colours of their numbers and, if edges are drawn afterwards, no straight lines.
+class TilePainter : public PathFilter {
+public:
+    /// @param numbers  of the polygons in their order; absent: by their classes
+    TilePainter(PathSink& sink, const Style& drawn, std::size_t colours, const std::vector<std::uint32_t>* numbers)
+        : Forwarding(sink), drawn_(drawn), colours_(colours), numbers_(numbers) {}
+
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        if (!drawn_.tile_colours) return sink_.polygon(vertices, pen);
+        const std::uint32_t number = numbers_ ? (*numbers_)[next_++] : class_of(vertices);
+        sink_.polygon(vertices, Pen{.colour = static_cast<int>(drawn_.palette.size() + number % colours_)});
+    }
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        if (draws_lines()) sink_.begin_stroke(start, pen);
+    }
+    void lines(std::span<const glm::dvec2> ends) override {
+        if (draws_lines()) sink_.lines(ends);
+    }
+    void change_pen(const Pen& pen) override {
+        if (draws_lines()) sink_.change_pen(pen);
+    }
+    void end_stroke(bool closed) override {
+        if (draws_lines()) sink_.end_stroke(closed);
+    }
+
+private:
+    bool draws_lines() const { return drawn_.tile_edges == TileEdges::each; }
+
+    std::uint32_t class_of(std::span<const glm::dvec2> vertices) {
+        const PolygonClass found = classes_.classify(vertices);
+        return *drawn_.tile_colours == TileColours::shape  ? found.shape
+               : *drawn_.tile_colours == TileColours::hand ? found.hand
+                                                           : found.direction;
+    }
+
+    const Style& drawn_;
+    std::size_t colours_;
+    const std::vector<std::uint32_t>* numbers_;
+    std::size_t next_ = 0;
+    PolygonClasses classes_;
+};
+
+class NoPolygons : public PathFilter {
+public:
+    using Forwarding::Forwarding;
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+};
+
+}  // namespace
+
+bool has_tile_work(const Style& style) {
+    return style.tile_colours || style.tile_edges != TileEdges::each;
+}
+
+TileDrawing::TileDrawing(std::unique_ptr<Drawing> drawing, const DrawOptions& options)
+    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
+    options_.placement.step = drawing_->fixed_step();
+    if (style_.line == Line::spline) {
+        throw std::runtime_error("'tile colours' and 'tile edges' need straight lines; this drawing has splines");
+    }
+    if (!style_.tile_colours) return;
+    std::vector<Colour> others;
+    if (drawn_.stroked) others.push_back(drawn_.line_colour({}));
+    if (drawn_.ground) others.push_back(*drawn_.ground);
+    const std::vector<Colour> powders = fill_powders(style_, others);
+    colours_ = powders.size();
+    style_.palette.insert(style_.palette.end(), powders.begin(), powders.end());
+}
+
+void TileDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    OldColours old(sink, drawn_);
+    const bool needs_neighbours = drawn_.tile_colours && depends_on_neighbours(*drawn_.tile_colours);
+    const bool unites = drawn_.tile_edges != TileEdges::each;
+    if (!unites && !needs_neighbours) {
+        TilePainter painter(sink, drawn_, colours_, nullptr);
+        OldColours inner(painter, drawn_);
+        return drawing_->read(print, window, inner);
+    }
+    UnitedLines united(options_.budget / nodes_of_tile_edge);
+    TileGatherer gatherer(united, drawn_);
+    drawing_->read(print, window, gatherer);
+    const auto kept = drawn_.tile_edges == TileEdges::once     ? UnitedLines::Kept::all
+                      : drawn_.tile_edges == TileEdges::border ? UnitedLines::Kept::border
+                                                               : UnitedLines::Kept::none;
+    const UnitedLines::Result found = united.unite(kept, options_.monitor);
+    const std::vector<std::uint32_t> chosen =
+        needs_neighbours ? numbers(united, found) : std::vector<std::uint32_t>{};
+    TilePainter painter(sink, drawn_, colours_, needs_neighbours ? &chosen : nullptr);
+    OldColours inner(painter, drawn_);
+    // A pen that does not hatch draws only the outlines of polygons, which are among the lines.
+    const bool is_plot = options_.plot || is_for_plotters(options_.format);
+    NoPolygons bare(inner);
+    const bool fills = !is_plot || !unites || (options_.plot && options_.plot->hatch);
+    drawing_->read(print, window, fills ? static_cast<PathSink&>(inner) : bare);
+    if (unites) draw_lines(found.lines, old);
+}
+
+std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const UnitedLines::Result& found) const {
+    return *drawn_.tile_colours == TileColours::distance
+               ? distances_from_border(united.tiles(), found.neighbours, found.border)
+               : colours_of_neighbours(united.tiles(), found.neighbours);
+}
+
+/// Joins the lines of each pen.
+void TileDrawing::draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const {
+    double size = 0;
+    std::vector<Pen> pens;
+    for (const UnitedLines::Line& line : lines) {
+        size = std::max({size, std::fabs(line.from.x), std::fabs(line.from.y)});
+        if (std::find(pens.begin(), pens.end(), line.pen) == pens.end()) pens.push_back(line.pen);
+    }
+    std::vector<glm::dvec2> ends;
+    for (const Pen& pen : pens) {
+        PlotNodes nodes(std::max(1e-9 * size, 1e-300));
+        PlotGraph graph;
+        for (const UnitedLines::Line& line : lines) {
+            if (line.pen == pen) graph.segments.push_back({nodes.at(line.from), nodes.at(line.to)});
+        }
+        graph.points = std::move(nodes.points);
+        const PlotStrokes strokes = join_segments(graph, options_.monitor);
+        for (const PlotStroke& stroke : strokes.strokes) {
+            ends.clear();
+            for (const PlotEnd end : strokes.ends(stroke)) ends.push_back(graph.point(end ^ 1U));
+            sink.begin_stroke(graph.point(strokes.ends(stroke).front()), pen);
+            sink.lines(ends);
+            sink.end_stroke(stroke.closed);
+        }
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,61 @@
+// art/drawing/united_lines.h: lines and the edges of tiles, each piece once, and the tiles on either side of it.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/geometry/path.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Unites straight lines that lie on each other, wholly or in part, and finds the pieces of edges that tiles share.
+/// Lines count as one if they deviate by less than a billionth of the drawing's size.
+class UnitedLines {
+public:
+    /// Pieces that remain: all of them, those that do not lie between two tiles, or none.
+    enum class Kept : std::uint8_t { all, border, none };
+    struct Line {
+        glm::dvec2 from, to;
+        Pen pen;
+    };
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    struct Result {
+        std::vector<Line> lines;  ///< in the order in which they were drawn first, with the pen that drew them first
+        std::vector<Pair> neighbours;  ///< tiles that share a piece, the smaller number first; ascending, each once
+        std::vector<std::uint32_t> border;  ///< tiles with a piece that no other tile shares, ascending
+    };
+
+    /// @param most  edges and lines kept
+    explicit UnitedLines(double most) : most_(most) {}
+
+    /// @throws BudgetError, if there are too many
+    void add_line(glm::dvec2 from, glm::dvec2 to, const Pen& pen);
+    /// Adds the edges of a polygon, whose number is the number of tiles so far. @throws BudgetError
+    void add_tile(std::span<const glm::dvec2> corners);
+    std::uint32_t tiles() const { return tiles_; }
+
+    /// Cost: n log n. Memory: 80 bytes for each line and edge. @throws Stopped
+    Result unite(Kept kept, const Monitor& monitor) const;
+
+private:
+    /// A line, or an edge of a tile with the tile on its left.
+    struct Piece {
+        glm::dvec2 from, to;
+        std::uint32_t owner = 0;  ///< index of the pen, or number of the tile
+        bool is_edge = false;
+    };
+    void add(const Piece& piece);
+
+    double most_;
+    std::uint32_t tiles_ = 0;
+    std::vector<Piece> pieces_;
+    std::vector<Pen> pens_;
+};
+
+}  // namespace sikku

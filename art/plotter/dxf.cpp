@@ -1,0 +1,157 @@
+#include "art/plotter/dxf.h"
+
+#include "art/print/micrometres.h"
+#include "art/print/recipe_comments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+constexpr double chord_tolerance = 0.0099;  // millimetres; the rest is for rounding
+
+/// The number of the nearest standard colour, from 1. Number 7 is black on white, and white on black.
+int standard_colour(Colour colour) {
+    constexpr std::array<std::array<int, 3>, 7> standard = {
+        {{255, 0, 0}, {255, 255, 0}, {0, 255, 0}, {0, 255, 255}, {0, 0, 255}, {255, 0, 255}, {0, 0, 0}}};
+    int nearest = 0, least = std::numeric_limits<int>::max();
+    for (int i = 0; i < static_cast<int>(standard.size()); ++i) {
+        const auto& [red, green, blue] = standard[static_cast<std::size_t>(i)];
+        const int distance = (colour.red - red) * (colour.red - red) +
+                             (colour.green - green) * (colour.green - green) +
+                             (colour.blue - blue) * (colour.blue - blue);
+        if (distance < least) {
+            least = distance;
+            nearest = i + 1;
+        }
+    }
+    return nearest;
+}
+
+glm::dvec2 rounded(glm::dvec2 millimetres) {
+    return {std::round(millimetres.x * 1e4) / 1e4, std::round(millimetres.y * 1e4) / 1e4};
+}
+
+std::string layer_of(int pen) {
+    return fmt::format("PEN-{}", pen);
+}
+
+std::string place(glm::dvec2 at, int first_code = 10) {
+    return fmt::format("{}\n{}\n{}\n{}\n", first_code, decimal(at.x, 4), first_code + 10, decimal(at.y, 4));
+}
+
+class Writer final : public PlotWriter {
+public:
+    Writer(const Print& print, Output& file) : PlotWriter(print), file_(file) {
+        file_.write("999\nSikku, millimetres\n");
+        for (const std::string& piece : recipe_comments(print.pattern, print.made))
+            file_.write("999\n" + piece + "\n");
+        file_.write(
+            fmt::format("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$EXTMIN\n{}9\n$EXTMAX\n{}0\nENDSEC\n",
+                        place({0, 0}), place({print.page.width, print.page.height})));
+    }
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        begin_entities();
+        here_ = start;
+        pen_ = number(pen);
+        points_.clear();
+    }
+    void lines(std::span<const glm::dvec2> ends) override {
+        start();
+        for (const glm::dvec2 end : ends) to(on_page(here_ = end));
+    }
+    void curves(std::span<const glm::dvec2> controls) override {
+        start();
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
+                                   on_page(controls[i + 2])};
+            const int count = chords(bezier, chord_tolerance);
+            for (int k = 1; k < count; ++k) to(at(bezier, static_cast<double>(k) / count));
+            to(bezier[3]);
+            here_ = controls[i + 2];
+        }
+    }
+    void end_stroke(bool closed) override {
+        if (points_.empty()) return;
+        closed = closed && points_.size() > 3 && points_.front() == points_.back();
+        if (closed) points_.pop_back();
+        if (points_.size() == 1) {
+            file_.write(fmt::format("0\nPOINT\n8\n{}\n{}", layer_of(pen_), place(points_.front())));
+        } else if (points_.size() == 2) {
+            file_.write(fmt::format("0\nLINE\n8\n{}\n{}{}", layer_of(pen_), place(points_.front()),
+                                    place(points_.back(), 11)));
+        } else {
+            write_polyline(closed);
+        }
+        points_.clear();
+    }
+    /// A file for machines without pens has nothing to dip.
+    void dip(glm::dvec2, const Pen&) override {}
+    void finish() override {
+        begin_entities();
+        file_.write("0\nENDSEC\n0\nEOF\n");
+    }
+
+private:
+    /// The table of layers contains the pens that have been numbered by now.
+    void begin_entities() {
+        if (begun_) return;
+        begun_ = true;
+        const std::map<int, int>& pens = numbers();
+        file_.write(
+            "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid "
+            "line\n72\n65\n"
+            "73\n0\n40\n0\n0\nENDTAB\n");
+        file_.write(fmt::format("0\nTABLE\n2\nLAYER\n70\n{}\n", pens.size() + 1) + layer("0", 7));
+        for (int pen = 1; pen <= static_cast<int>(pens.size()); ++pen) {
+            const auto found =
+                std::find_if(pens.begin(), pens.end(), [&](const auto& entry) { return entry.second == pen; });
+            const Colour colour = print_.style.line_colour(Pen{.colour = found->first});
+            file_.write(layer(layer_of(pen), standard_colour(colour)));
+        }
+        file_.write("0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+    }
+    static std::string layer(std::string_view name, int colour) {
+        return fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", name, colour);
+    }
+
+    /// Only when something is drawn: a stroke may change its pen before.
+    void start() {
+        if (points_.empty()) put(on_page(here_));
+    }
+    void to(glm::dvec2 millimetres) {
+        if (rounded(millimetres) != points_.back()) put(millimetres);
+    }
+    void put(glm::dvec2 millimetres) {
+        require_on_page(millimetres);
+        points_.push_back(rounded(millimetres));
+    }
+
+    void write_polyline(bool closed) {
+        const std::string name = layer_of(pen_);
+        file_.write(fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n{}70\n{}\n", name, place({0, 0}), closed ? 1 : 0));
+        for (const glm::dvec2 point : points_) file_.write(fmt::format("0\nVERTEX\n8\n{}\n{}", name, place(point)));
+        file_.write(fmt::format("0\nSEQEND\n8\n{}\n", name));
+    }
+
+    Output& file_;
+    bool begun_ = false;
+    int pen_ = 0;
+    std::vector<glm::dvec2> points_;  // of the stroke, in millimetres of the page
+};
+
+}  // namespace
+
+std::unique_ptr<PlotWriter> write_dxf(const Print& print, Output& file) {
+    return std::make_unique<Writer>(print, file);
+}
+
+}  // namespace sikku

@@ -1,0 +1,217 @@
+#include "cli/live.h"
+
+#include "cli/command.h"
+#include "cli/mistakes.h"
+#include "cli/options.h"
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+#include "music/live/ahead.h"
+#include "music/live/device_port.h"
+#include "music/live/performer.h"
+#include "music/live/ports.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr auto polling = std::chrono::milliseconds(150);
+
+/// Date, size and place of a file; all zero if it is missing.
+using Stamp = std::tuple<std::filesystem::file_time_type::duration::rep, std::uintmax_t>;
+
+Stamp stamp_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(file, error);
+    if (error) return {};
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    return {time.time_since_epoch().count(), error ? 0 : size};
+}
+
+/// The message of an error, as the program prints it.
+std::string message_of(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const PatternError& problem) {
+        return pattern_message(problem);
+    } catch (const SettingError& problem) {
+        return option_message(problem);
+    } catch (const std::exception& problem) {
+        return with_dashes(problem.what());
+    }
+}
+
+void report_change(const std::exception_ptr& error) {
+    tell("{}\nsikku: the change has errors; the version before it plays on\n", message_of(error));
+}
+
+/// Looks for changes of files, on a thread, and opens the score again.
+class Reloader {
+public:
+    explicit Reloader(const LiveScore& score) : score_(score), stamps_(stamps()), thread_([this] { watch(); }) {}
+    Reloader(const Reloader&) = delete;
+    Reloader& operator=(const Reloader&) = delete;
+    ~Reloader() {
+        {
+            const std::lock_guard lock(mutex_);
+            is_over_ = true;
+        }
+        over_.notify_one();
+        thread_.join();
+    }
+
+    std::unique_ptr<NoteStream> newer() {
+        if (!has_newer_) return nullptr;
+        const std::lock_guard lock(mutex_);
+        has_newer_ = false;
+        return std::move(stream_);
+    }
+
+private:
+    std::map<std::filesystem::path, Stamp> stamps() const {
+        std::map<std::filesystem::path, Stamp> result;
+        for (const std::filesystem::path& file : score_.files()) result[file] = stamp_of(file);
+        return result;
+    }
+
+    void watch() {
+        std::map<std::filesystem::path, Stamp> last = stamps_;
+        for (;;) {
+            {
+                std::unique_lock lock(mutex_);
+                if (over_.wait_for(lock, polling, [this] { return is_over_; })) return;
+            }
+            auto now = stamps();
+            // Editors write in several steps: the last one is waited for.
+            const bool is_still = now == last;
+            last = now;
+            if (!is_still || now == stamps_) continue;
+            stamps_ = std::move(now);
+            reload();
+        }
+    }
+
+    void reload() {
+        try {
+            auto stream = live::read_ahead(score_.open, stop_monitor());
+            const std::lock_guard lock(mutex_);
+            stream_ = std::move(stream);
+            has_newer_ = true;
+        } catch (const Stopped&) {
+        } catch (...) {
+            report_change(std::current_exception());
+        }
+    }
+
+    const LiveScore& score_;
+    std::map<std::filesystem::path, Stamp> stamps_;  // of the version that was read last
+    std::mutex mutex_;
+    std::condition_variable over_;
+    bool is_over_ = false;
+    std::atomic<bool> has_newer_{false};
+    std::unique_ptr<NoteStream> stream_;
+    std::thread thread_;  // last: it uses the others
+};
+
+std::int64_t times_of(const LiveOptions& options) {
+    if (options.repeat_option->count() == 0) return 1;
+    if (options.repeat.empty() || options.repeat.front().empty()) return 0;
+    std::int64_t times = 0;
+    const std::string& text = options.repeat.front();
+    std::from_chars(text.data(), text.data() + text.size(), times);
+    return times;
+}
+
+std::unique_ptr<live::Port> open_port(const std::string& name, bool has_input) {
+    if (name.find('/') != std::string::npos) return live::open_device(name, has_input);
+    return live::open_alsa_port(name, has_input);
+}
+
+std::string summary(const live::PerformReport& report) {
+    std::string text = counted(report.notes, "note");
+    if (report.passes > 1) text += fmt::format(", played {} times", report.passes);
+    if (report.late > 0) {
+        text += fmt::format("; {} more than 5 ms late, the latest {:.0f} ms", counted(report.late, "note"),
+                            static_cast<double>(report.latest) / 1e6);
+    }
+    return text;
+}
+
+}  // namespace
+
+void add_live_options(CLI::App& command, LiveOptions& options) {
+    command
+        .add_option("--port", options.port,
+                    "play now, to this MIDI port: a name or address from `sikku ports`, or a device such as "
+                    "/dev/snd/midiC1D0; changes of the pattern files are heard from the next bar on")
+        ->type_name("PORT")
+        ->group("Live");
+    options.repeat_option =
+        command.add_option("--repeat", options.repeat, "with --port: how often (until ctrl-C)")
+            ->type_name("[TIMES]")
+            ->expected(0, 1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
+            ->check([](const std::string& text) { return text.empty() ? "" : whole_number(1, 1'000'000'000)(text); })
+            ->group("Live");
+    command
+        .add_option("--clock", options.clock,
+                    "with --port: send a MIDI clock, or follow one, with its start, stop and tempo")
+        ->type_name("send|follow")
+        ->check(one_of({"send", "follow"}))
+        ->group("Live");
+}
+
+bool is_live(const LiveOptions& options, const std::string& output) {
+    if (!options.port.empty()) {
+        if (!output.empty()) throw UsageError("-o and --port cannot be combined: one writes a file, one plays now");
+        return true;
+    }
+    if (options.repeat_option->count() > 0)
+        throw UsageError("--repeat needs --port; --loop repeats a part in a file");
+    if (!options.clock.empty()) throw UsageError("--clock needs --port");
+    return false;
+}
+
+void play_live(const LiveOptions& options, const LiveScore& score, bool quiet) {
+    ignore_closed_pipes();
+    live::PerformOptions perform;
+    perform.times = times_of(options);
+    perform.clock = options.clock == "send"     ? live::ClockMode::send
+                    : options.clock == "follow" ? live::ClockMode::follow
+                                                : live::ClockMode::none;
+    auto stream = live::read_ahead(score.open, stop_monitor());
+    const auto port = open_port(options.port, perform.clock == live::ClockMode::follow);
+    live::MonotonicClock clock;
+    Reloader reloader(score);
+    live::PerformHooks hooks;
+    hooks.monitor = stop_monitor();
+    hooks.newer = [&] { return reloader.newer(); };
+    hooks.changed = [&](std::int64_t bar) { tell_unless(quiet, "changed from bar {} on\n", bar); };
+    hooks.refused = report_change;
+    hooks.report = [&](const std::string& text) { tell_unless(quiet, "{}\n", text); };
+    hooks.is_pause_wanted = pause_wanted;
+    hooks.pause = pause_now;
+    catch_pause();
+    live::prefer_this_thread();
+    tell_unless(quiet, "playing to {}; ctrl-C stops\n", printable(options.port));
+    try {
+        const live::PerformReport report = live::perform(std::move(stream), clock, *port, perform, hooks);
+        tell_unless(quiet, "{}\n", summary(report));
+    } catch (const Stopped&) {
+        throw Interrupted("stopped");
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,389 @@
+#include "engine/tiling/tile_growth.h"
+
+#include "engine/geometry/polygon_classes.h"
+#include "engine/geometry/turtle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_matrix = 400;  // symbols that lead to tiles
+constexpr double accuracy = 1e-9;
+
+/// Angles, sides and area of a polygon.
+TileShape shape_of(std::span<const glm::dvec2> outline) {
+    std::vector<glm::dvec2> corners;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec2 before = outline[i] - outline[(i + outline.size() - 1) % outline.size()];
+        const glm::dvec2 after = outline[(i + 1) % outline.size()] - outline[i];
+        if (std::fabs(determinant(before, after)) > accuracy) corners.push_back(outline[i]);
+    }
+    TileShape shape;
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i) shape.area += determinant(corners[i], corners[(i + 1) % count]) / 2;
+    if (shape.area < 0) {
+        std::reverse(corners.begin(), corners.end());
+        shape.area = -shape.area;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 before = corners[(i + count - 1) % count] - corners[i];
+        const glm::dvec2 after = corners[(i + 1) % count] - corners[i];
+        const double angle =
+            std::atan2(determinant(after, before), scalar_product(after, before)) * 180 / std::numbers::pi;
+        shape.angles.push_back(angle < 0 ? angle + 360 : angle);
+        shape.sides.push_back(std::sqrt(scalar_product(after, after)));
+    }
+    return shape;
+}
+
+/// Classifies the polygons of a turtle.
+class ShapeReader : public PathSink {
+public:
+    struct Kind {
+        std::uint32_t shape = 0;
+        bool is_reflected = false;
+        bool operator<(const Kind& other) const {
+            return std::tie(shape, is_reflected) < std::tie(other.shape, other.is_reflected);
+        }
+    };
+    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+        const PolygonClass found = classes_.classify(vertices);
+        if (found.shape == shapes.size()) shapes.push_back(shape_of(vertices));
+        kinds.push_back({found.shape, found.is_reflected});
+    }
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+    std::vector<TileShape> shapes;
+    std::vector<Kind> kinds;  ///< of the polygons since it was cleared
+
+private:
+    PolygonClasses classes_;
+};
+
+/// How a turtle is moved: first by a vector, then turned.
+struct Move {
+    glm::dvec2 way{0.0};
+    glm::dvec2 turn{1.0, 0.0};
+};
+glm::dvec2 product(glm::dvec2 a, glm::dvec2 b) {
+    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+class GrowthFinder {
+public:
+    explicit GrowthFinder(const Grammar& grammar) : grammar_(grammar) {}
+
+    TileGrowth find() {
+        if (!grammar_.is_plain() || grammar_.whole_word_steps() > 0) {
+            result_.unknown = "productions with parameters, contexts or random choices";
+            return std::move(result_);
+        }
+        find_reachable();
+        if (!read_tiles()) {
+            result_.unknown = "polygons are drawn by several symbols together";
+            return std::move(result_);
+        }
+        if (kinds_.empty()) {
+            result_.unknown = "no symbol draws a tile";
+            return std::move(result_);
+        }
+        count();
+        if (grammar_.tables().size() != 1) {
+            result_.no_limit = result_.no_length = "the schedule has several tables";
+            return std::move(result_);
+        }
+        find_limits();
+        find_length();
+        return std::move(result_);
+    }
+
+private:
+    using Kind = ShapeReader::Kind;
+
+    /// Symbols of words before `interpret:`.
+    void find_reachable() {
+        std::set<Symbol> known(grammar_.axiom().begin(), grammar_.axiom().end());
+        std::vector<Symbol> left(known.begin(), known.end());
+        while (!left.empty()) {
+            const Symbol symbol = left.back();
+            left.pop_back();
+            for (const Table& table : grammar_.tables()) {
+                const Word* successor = table.successor(symbol);
+                if (!successor) continue;
+                for (const Symbol next : *successor) {
+                    if (known.insert(next).second) left.push_back(next);
+                }
+            }
+        }
+        symbols_.assign(known.begin(), known.end());
+    }
+    Word interpreted(Symbol symbol) const {
+        const Word* successor = grammar_.interpretation() ? grammar_.interpretation()->successor(symbol) : nullptr;
+        return successor ? *successor : Word{symbol};
+    }
+
+    /// Draws what each symbol draws by itself; false if braces or brackets of one do not balance.
+    bool read_tiles() {
+        ShapeReader reader;
+        for (const Symbol symbol : symbols_) {
+            const Word word = interpreted(symbol);
+            int braces = 0, tiles = 0;
+            for (const Symbol each : word) {
+                const Action action = grammar_.symbols()[each].command.action;
+                if (action == Action::polygon_begin) ++braces;
+                if (action == Action::polygon_end) ++tiles;
+                if (tiles > braces) return false;
+            }
+            if (tiles != braces) return false;
+            if (tiles == 0) continue;
+            const auto written = grammar_.written_out({word, {}, {}});
+            if (!written) return false;
+            reader.kinds.clear();
+            try {
+                const auto turtle = Turtle::drawing(*written, reader, false);
+                derive(*written, *turtle);
+            } catch (const WordError&) {
+                return false;
+            }
+            for (const Kind kind : reader.kinds) ++kinds_[kind][symbol];
+        }
+        result_.shapes = reader.shapes;
+        return true;
+    }
+
+    void count() {
+        const auto known = forecast(grammar_, false);
+        for (const auto& [kind, symbols] : kinds_) {
+            TileKindCount each{kind.shape, kind.is_reflected, {}, 0};
+            for (const auto& [symbol, times] : symbols) {
+                each.letters += (each.letters.empty() ? "" : " ") + grammar_.symbols()[symbol].letter;
+                if (known && known->counts) each.count += (*known->counts)[symbol] * times;
+            }
+            result_.counts.push_back(std::move(each));
+        }
+        if (!known || !known->counts) result_.unknown = "the numbers have more than 10,000 digits";
+    }
+
+    /// Symbols that draw tiles or become such symbols.
+    std::vector<Symbol> tile_symbols() const {
+        std::set<Symbol> leads;
+        for (const auto& [kind, symbols] : kinds_) {
+            for (const auto& [symbol, times] : symbols) leads.insert(symbol);
+        }
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (const Symbol symbol : symbols_) {
+                const Word* successor = grammar_.tables().front().successor(symbol);
+                if (leads.contains(symbol) || !successor) continue;
+                if (std::none_of(successor->begin(), successor->end(), [&](Symbol s) { return leads.contains(s); })) {
+                    continue;
+                }
+                leads.insert(symbol);
+                grows = true;
+            }
+        }
+        return {leads.begin(), leads.end()};
+    }
+
+    void find_limits() {
+        const std::vector<Symbol> tiles = tile_symbols();
+        if (tiles.size() > most_matrix) {
+            result_.no_limit = fmt::format("more than {} symbols lead to tiles", most_matrix);
+            return;
+        }
+        std::map<Symbol, std::size_t> index;
+        for (std::size_t i = 0; i < tiles.size(); ++i) index[tiles[i]] = i;
+        // Rows: what a symbol becomes.
+        std::vector<std::map<std::size_t, double>> rows(tiles.size());
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const Word* successor = grammar_.tables().front().successor(tiles[i]);
+            if (!successor) {
+                rows[i][i] = 1;
+                continue;
+            }
+            for (const Symbol symbol : *successor) {
+                const auto found = index.find(symbol);
+                if (found != index.end()) ++rows[i][found->second];
+            }
+        }
+        std::vector<double> counts(tiles.size(), 0), next;
+        for (const Symbol symbol : grammar_.axiom()) {
+            const auto found = index.find(symbol);
+            if (found != index.end()) ++counts[found->second];
+        }
+        // The matrix plus 1 has the same eigenvectors, and one eigenvalue of largest size.
+        double factor = 0;
+        bool converges = false;
+        for (int round = 0; round < 20'000 && !converges; ++round) {
+            next = counts;
+            double before = 0, after = 0;
+            for (std::size_t i = 0; i < tiles.size(); ++i) {
+                before += counts[i];
+                for (const auto& [j, times] : rows[i]) next[j] += counts[i] * times;
+            }
+            for (const double each : next) after += each;
+            if (!(after > 0)) break;
+            double change = 0;
+            for (std::size_t i = 0; i < tiles.size(); ++i) {
+                next[i] /= after;
+                change = std::max(change, std::fabs(next[i] - counts[i] / before));
+            }
+            converges = change < 1e-15 && std::fabs(after / before - factor) < 1e-14 * factor;
+            factor = after / before;
+            counts.swap(next);
+        }
+        if (!converges || factor - 1 < 1 + accuracy) {
+            result_.no_limit = "the number of tiles does not grow by a factor";
+            return;
+        }
+        result_.tiles = factor - 1;
+        result_.frequencies.assign(result_.shapes.size(), 0);
+        double sum = 0;
+        for (const auto& [kind, symbols] : kinds_) {
+            for (const auto& [symbol, times] : symbols) {
+                result_.frequencies[kind.shape] += counts[index[symbol]] * times;
+                sum += counts[index[symbol]] * times;
+            }
+        }
+        for (double& frequency : result_.frequencies) frequency /= sum;
+        result_.is_primitive = is_primitive(rows);
+    }
+
+    /// Squares the matrix, as whether entries are 0, until it has s^2 - 2 s + 2 steps (Wielandt 1950).
+    static bool is_primitive(const std::vector<std::map<std::size_t, double>>& rows) {
+        const std::size_t size = rows.size();
+        std::vector<std::vector<char>> matrix(size, std::vector<char>(size, 0));
+        for (std::size_t i = 0; i < size; ++i) {
+            for (const auto& [j, times] : rows[i]) matrix[i][j] = 1;
+        }
+        for (std::size_t steps = 1; steps < size * size + 2; steps *= 2) {
+            std::vector<std::vector<char>> square(size, std::vector<char>(size, 0));
+            for (std::size_t i = 0; i < size; ++i) {
+                for (std::size_t j = 0; j < size; ++j) {
+                    if (!matrix[i][j]) continue;
+                    for (std::size_t k = 0; k < size; ++k) square[i][k] |= matrix[j][k];
+                }
+            }
+            matrix.swap(square);
+        }
+        return std::all_of(matrix.begin(), matrix.end(), [](const std::vector<char>& row) {
+            return std::all_of(row.begin(), row.end(), [](char each) { return each != 0; });
+        });
+    }
+
+    /// The move of a word of symbols of the finished word, branches left out.
+    Move move_of(const Word& word, bool interprets) const {
+        Move result;
+        int depth = 0;
+        for (const Symbol symbol : word) {
+            const Command& command = grammar_.symbols()[symbol].command;
+            if (command.action == Action::push) ++depth;
+            if (command.action == Action::pop) --depth;
+            if (depth > 0 || command.action == Action::pop) continue;
+            Move step;
+            if (interprets) {
+                step = move_of(interpreted(symbol), false);
+            } else if (command.action == Action::draw || command.action == Action::move) {
+                step.way = {command.value, 0};
+            } else if (command.action == Action::turn) {
+                step.turn =
+                    command.angle.exact ? unit_vector(*command.angle.exact) : unit_vector(command.angle.degrees);
+            }
+            result.way += product(result.turn, step.way);
+            result.turn = product(result.turn, step.turn);
+        }
+        return result;
+    }
+
+    void find_length() {
+        const std::vector<Symbol> tiles = tile_symbols();
+        std::optional<glm::dvec2> factor;
+        for (const Symbol symbol : symbols_) {
+            if (std::binary_search(tiles.begin(), tiles.end(), symbol)) continue;
+            const Move own = move_of({symbol}, true);
+            const double square = scalar_product(own.way, own.way);
+            if (square < accuracy) continue;
+            const Word* successor = grammar_.tables().front().successor(symbol);
+            const Move next = successor ? move_of(*successor, true) : own;
+            const glm::dvec2 turned = next.turn - own.turn;
+            const glm::dvec2 ratio = product(next.way, {own.way.x, -own.way.y}) / square;
+            const glm::dvec2 gap = factor ? ratio - *factor : glm::dvec2(0.0);
+            if (std::sqrt(scalar_product(turned, turned)) > accuracy ||
+                std::sqrt(scalar_product(gap, gap)) > accuracy) {
+                result_.no_length = "the moves are not multiplied by one number";
+                return;
+            }
+            factor = ratio;
+        }
+        if (!factor) {
+            result_.no_length = "there are no moves besides tiles";
+            return;
+        }
+        const double square = scalar_product(*factor, *factor);
+        if (result_.tiles && std::fabs(square - *result_.tiles) > 1e-6 * square) {
+            result_.no_length = "the square of the moves' factor is not that of the number of tiles";
+            return;
+        }
+        result_.length = std::sqrt(square);
+        result_.turn = std::atan2(factor->y, factor->x) * 180 / std::numbers::pi;
+    }
+
+    const Grammar& grammar_;
+    TileGrowth result_;
+    std::vector<Symbol> symbols_;                            // reachable, sorted
+    std::map<Kind, std::map<Symbol, std::uint32_t>> kinds_;  // how many of them each symbol draws
+};
+
+/// a + b √d for whole numbers or halves, or empty.
+std::string quadratic_form(double value) {
+    if (std::fabs(value - (1 + std::sqrt(5.0)) / 2) < accuracy) return "τ";
+    if (std::fabs(value - std::round(value)) < accuracy * value) return fmt::format("{:.0f}", value);
+    // A root of x^2 - p x + q.
+    for (int p = 0; p <= 40; ++p) {
+        const double q = value * (p - value);
+        if (std::fabs(q) > 400 || std::fabs(q - std::round(q)) > 1e-8 * (1 + value)) continue;
+        auto under = static_cast<std::int64_t>(p * p - 4 * std::llround(q));
+        if (under <= 0 || value < p / 2.0) continue;
+        std::int64_t outside = 1;
+        for (std::int64_t root = 2; root * root <= under; ++root) {
+            while (under % (root * root) == 0) {
+                under /= root * root;
+                outside *= root;
+            }
+        }
+        if (p % 2 == 0 && outside % 2 == 0) {
+            const std::string root =
+                (outside == 2 ? "√" : fmt::format("{} √", outside / 2)) + fmt::format("{}", under);
+            return p == 0 ? root : fmt::format("{} + {}", p / 2, root);
+        }
+        return fmt::format("({} + {}√{}) / 2", p, outside == 1 ? "" : fmt::format("{} ", outside), under);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string closed_form(double value) {
+    if (std::string form = quadratic_form(value); !form.empty()) return form;
+    const std::string square = quadratic_form(value * value);
+    return square.empty() ? "" : fmt::format("√({})", square);
+}
+
+TileGrowth find_growth(const Grammar& grammar) {
+    return GrowthFinder(grammar).find();
+}
+
+}  // namespace sikku

@@ -1,0 +1,45 @@
+// engine/tiling/tile_growth.h: how the numbers of tiles grow, from the productions alone.
+#pragma once
+
+#include "engine/derivation/forecast.h"
+#include "engine/tiling/tiling.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Number of tiles of a shape and hand after n steps.
+struct TileKindCount {
+    std::uint32_t shape = 0;    ///< index into TileGrowth::shapes
+    bool is_reflected = false;  ///< of the other hand than the first of its shape
+    std::string letters;        ///< the symbols that draw it
+    Integer count = 0;
+};
+
+struct TileGrowth {
+    std::string unknown;            ///< why nothing follows from the productions; else empty
+    std::vector<TileShape> shapes;  ///< with angles, sides and areas only, in the order of the symbols
+    std::vector<TileKindCount> counts;
+
+    /// Without these, and with a reason in `no_limit`, numbers do not grow by a factor.
+    std::optional<double> tiles;      ///< factor of the number of tiles in a step, in the limit
+    std::vector<double> frequencies;  ///< of the shapes, in the limit
+    bool is_primitive = false;        ///< after some steps each tile symbol leads to all tile symbols
+    std::string no_limit;
+
+    std::optional<double> length;  ///< factor of lengths in a step, if it multiplies all moves
+    double turn = 0;               ///< degrees by which it turns them, -180 to 180
+    std::string no_length;         ///< why there is no such factor
+};
+
+/// Counts tiles by kind after grammar.steps() steps, and finds the limits of their numbers. Cost: that of forecast(),
+/// and O(symbols^3) at most.
+TileGrowth find_growth(const Grammar& grammar);
+
+/// `τ`, `2 + √3`, `√7` for a number that is an integer, a sum of an integer or half of one with a square root, or the
+/// root of either; else empty.
+std::string closed_form(double value);
+
+}  // namespace sikku

@@ -1,0 +1,187 @@
+#include "engine/tiling/tile_pieces.h"
+
+#include "engine/derivation/derivation.h"
+#include "engine/tiling/place_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sikku {
+namespace {
+
+constexpr std::uint64_t most_compared = 20'000'000'000;
+
+/// A corner inside an edge.
+struct Cut {
+    std::uint32_t edge = 0;  ///< index of the corner where the edge begins
+    std::uint32_t point = 0;
+    double along = 0;
+};
+
+/// The corners of all tiles, once each.
+std::vector<std::uint32_t> corner_points(const TilePlane& plane, const TileSet& tiles) {
+    std::vector<char> is_corner(plane.points(), 0);
+    for (const std::uint32_t point : tiles.corner) is_corner[point] = 1;
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t point = 0; point < is_corner.size(); ++point) {
+        if (is_corner[point]) points.push_back(point);
+    }
+    return points;
+}
+
+/// Finds all corners that lie on edges between their ends.
+std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const Monitor& monitor) {
+    const std::vector<std::uint32_t> points = corner_points(plane, tiles);
+    std::vector<Cut> cuts;
+    if (points.empty()) return cuts;
+    glm::dvec2 low = plane.at(points.front()), high = low;
+    for (const std::uint32_t point : points) {
+        const glm::dvec2 at = plane.at(point);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+    }
+    const PlaceGrid grid(low, high, points.size());
+    struct Entry {
+        glm::dvec2 at;
+        std::uint32_t point;
+    };
+    CellLists<Entry> lists(grid.cells());
+    for (const std::uint32_t point : points) lists.count(grid.cell(plane.at(point)));
+    lists.start();
+    for (const std::uint32_t point : points) {
+        lists.add(grid.cell(plane.at(point)), {plane.at(point), point});
+    }
+
+    Pulse pulse(monitor);
+    std::uint64_t compared = 0;
+    const auto cut = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t to) {
+        const glm::dvec2 start = plane.at(from), side = plane.at(to) - start;
+        const double square = scalar_product(side, side);
+        const double margin = TilePlane::tolerance;
+        const double most = 4 * margin * margin * square;
+        grid.along(start, plane.at(to), margin, [&](std::size_t cell) {
+            compared += lists.size(cell) + 1;
+            lists.visit(cell, [&](const Entry& entry) {
+                const glm::dvec2 offset = entry.at - start;
+                const double height = determinant(side, offset);
+                if (height * height > most) return;
+                const double along = scalar_product(side, offset);
+                if (along <= 0 || along >= square || entry.point == from || entry.point == to) return;
+                if (plane.side(from, to, entry.point) == 0) cuts.push_back({edge, entry.point, along});
+            });
+        });
+    };
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        pulse();
+        const std::uint32_t end = tiles.begin[tile + 1];
+        for (std::uint32_t i = tiles.begin[tile]; i < end; ++i) {
+            cut(i, tiles.corner[i], tiles.corner[i + 1 < end ? i + 1 : tiles.begin[tile]]);
+        }
+        if (compared > most_compared) {
+            throw BudgetError("the tiles are too many for their very different sizes; use a shorter derivation");
+        }
+    }
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+        return a.edge != b.edge ? a.edge < b.edge : a.along != b.along ? a.along < b.along : a.point < b.point;
+    });
+    return cuts;
+}
+
+/// Lists for each point the sides that begin there, anticlockwise.
+void list_sides(TilePieces& pieces, std::size_t points) {
+    pieces.out_begin.assign(points + 1, 0);
+    for (const std::uint32_t point : pieces.from) ++pieces.out_begin[point + 1];
+    for (std::size_t i = 0; i < points; ++i) pieces.out_begin[i + 1] += pieces.out_begin[i];
+    pieces.out.resize(pieces.from.size());
+    std::vector<std::uint32_t> next(pieces.out_begin.begin(), pieces.out_begin.end() - 1);
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) pieces.out[next[pieces.from[side]]++] = side;
+    for (std::size_t i = 0; i < points; ++i) {
+        const auto begin = pieces.out.begin() + pieces.out_begin[i],
+                   end = pieces.out.begin() + pieces.out_begin[i + 1];
+        std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
+            return pieces.direction[a] != pieces.direction[b] ? pieces.direction[a] < pieces.direction[b] : a < b;
+        });
+    }
+}
+
+}  // namespace
+
+TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor) {
+    plane.sort_directions();
+    const std::vector<Cut> cuts = find_cuts(plane, tiles, monitor);
+    TilePieces pieces;
+    const std::size_t sides = tiles.corner.size() + cuts.size();
+    pieces.from.reserve(sides);
+    pieces.direction.reserve(sides);
+    pieces.angle.reserve(sides);
+    pieces.tile.reserve(sides);
+    pieces.begin.reserve(tiles.begin.size());
+    pieces.begin.push_back(0);
+    std::size_t next_cut = 0;
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        const TileClass& in_class = tiles.class_of(tile);
+        for (std::uint32_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i) {
+            const std::size_t edge = i - tiles.begin[tile];
+            const std::uint32_t direction = plane.direction(in_class.vectors[edge]);
+            const auto add = [&](std::uint32_t from, std::uint32_t angle) {
+                pieces.from.push_back(from);
+                pieces.direction.push_back(direction);
+                pieces.angle.push_back(angle);
+                pieces.tile.push_back(tile);
+            };
+            add(tiles.corner[i], in_class.angles[edge]);
+            if (next_cut < cuts.size() && cuts[next_cut].edge == i) ++pieces.edges_cut;
+            for (; next_cut < cuts.size() && cuts[next_cut].edge == i; ++next_cut) add(cuts[next_cut].point, 0);
+        }
+        pieces.begin.push_back(pieces.sides());
+    }
+    list_sides(pieces, plane.points());
+    pieces.twin.assign(pieces.from.size(), no_number);
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
+        if (pieces.twin[side] != no_number) continue;
+        for (const std::uint32_t other : pieces.out_of(pieces.to(side))) {
+            if (pieces.to(other) != pieces.from[side] || pieces.twin[other] != no_number) continue;
+            pieces.twin[side] = other;
+            pieces.twin[other] = side;
+            break;
+        }
+    }
+    return pieces;
+}
+
+TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
+                            const Monitor& monitor) {
+    TileVertices result;
+    Pulse pulse(monitor);
+    const std::uint32_t turn = plane.directions();
+    TilePairs pairs;
+    for (std::uint32_t point = 0; point < plane.points(); ++point) {
+        pulse();
+        const auto sides = pieces.out_of(point);
+        if (sides.empty()) continue;
+        ++result.points;
+        std::uint64_t ends = 0;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            const std::uint32_t before = pieces.previous(sides[i]);
+            if (pieces.twin[before] == no_number) ++ends;
+            if (sides.size() == 1) continue;
+            const std::uint32_t next = sides[i + 1 < sides.size() ? i + 1 : 0];
+            const std::uint32_t begin = pieces.direction[sides[i]];
+            const std::uint32_t extent = (pieces.direction[before] + turn / 2 + turn - begin) % turn;
+            const std::uint32_t room = (pieces.direction[next] + turn - begin) % turn;
+            if (extent <= room && room > 0) continue;
+            const std::uint32_t first = pieces.tile[sides[i]], second = pieces.tile[next];
+            if (!pairs.insert(first, second)) continue;
+            ++result.overlap_count;
+            if (result.overlaps.size() < TileViolations::most) {
+                result.overlaps.push_back({TileFault::overlap, tiles.number[std::max(first, second)],
+                                           tiles.number[std::min(first, second)], plane.at(point)});
+            }
+        }
+        if (ends == 0) ++result.inner;
+        result.fans += std::max<std::uint64_t>(ends, 1);
+    }
+    return result;
+}
+
+}  // namespace sikku

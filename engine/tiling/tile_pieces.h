@@ -1,0 +1,76 @@
+// engine/tiling/tile_pieces.h: the edges of tiles, cut at every corner that lies on them, and how they meet.
+#pragma once
+
+#include "engine/tiling/tile_set.h"
+
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// The parts of edges between corners, each as one side of its tile, which lies on the left. Sides of a tile follow
+/// each other anticlockwise. Memory: 24 bytes a side.
+struct TilePieces {
+    /// For each tile; one more than there are.
+    std::vector<std::uint32_t> begin;
+    /// For each side:
+    std::vector<std::uint32_t> from;       ///< the point where it begins
+    std::vector<std::uint32_t> direction;  ///< of TilePlane::directions()
+    std::vector<std::uint32_t> angle;      ///< of the tile where the side begins, as index into TileSet::angles
+    std::vector<std::uint32_t> tile;
+    std::vector<std::uint32_t> twin;  ///< the same piece in the opposite direction, or no_number
+    /// Sides that begin at a point, anticlockwise: of point p those from out_begin[p] on.
+    std::vector<std::uint32_t> out_begin;
+    std::vector<std::uint32_t> out;
+
+    std::uint64_t edges_cut = 0;  ///< edges of tiles with a corner inside
+
+    std::uint32_t sides() const { return static_cast<std::uint32_t>(from.size()); }
+    std::uint32_t next(std::uint32_t side) const {
+        const std::uint32_t owner = tile[side];
+        return side + 1 < begin[owner + 1] ? side + 1 : begin[owner];
+    }
+    std::uint32_t previous(std::uint32_t side) const {
+        const std::uint32_t owner = tile[side];
+        return side > begin[owner] ? side - 1 : begin[owner + 1] - 1;
+    }
+    std::uint32_t to(std::uint32_t side) const { return from[next(side)]; }
+    std::span<const std::uint32_t> out_of(std::uint32_t point) const {
+        return std::span(out).subspan(out_begin[point], out_begin[point + 1] - out_begin[point]);
+    }
+};
+
+/// Cuts the edges of tiles and finds the sides of each piece. Sorts the directions of the plane. Cost: linear for
+/// tiles of similar sizes. @throws BudgetError if the tiles are of so different sizes that it would take minutes
+TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor);
+
+/// Pairs of overlapping tiles, each once as far as the first 100,000.
+class TilePairs {
+public:
+    /// False if the pair is known.
+    bool insert(std::uint32_t a, std::uint32_t b) {
+        return pairs_.size() >= 100'000 ? !pairs_.contains(std::minmax(a, b))
+                                        : pairs_.insert(std::minmax(a, b)).second;
+    }
+
+private:
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+};
+
+/// Facts about the points where pieces meet, and places where tiles overlap.
+struct TileVertices {
+    std::vector<TileViolation> overlaps;  ///< the first TileViolations::most
+    std::uint64_t overlap_count = 0;      ///< pairs of tiles that overlap around a point
+    std::uint64_t points = 0;
+    std::uint64_t inner = 0;  ///< points with tiles all around
+    std::uint64_t fans = 0;   ///< groups of tiles around points that are connected by pieces
+};
+
+/// Checks that no piece is used twice in one direction, and that the sectors of tiles around each vertex do not
+/// overlap.
+TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
+                            const Monitor& monitor);
+
+}  // namespace sikku

@@ -1,0 +1,237 @@
+#include "engine/tiling/tile_plane.h"
+
+#include "engine/base/chance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t largest_coordinate = std::int64_t{1} << 26;
+constexpr double same_direction = 1e-6;  // radians, of edges in doubles
+constexpr double cell_in_tolerances = 64;
+/// Relative error of determinants in doubles that counts as certain.
+constexpr double certain = 1e-9;
+
+std::uint64_t hash_of_cell(std::int64_t x, std::int64_t y) {
+    return scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
+}
+std::int64_t cell_of(double value, double width) {
+    return static_cast<std::int64_t>(std::floor(std::clamp(value / width, -9e18, 9e18)));
+}
+
+}  // namespace
+
+PlaceTable::PlaceTable(std::size_t rank, double tolerance) : rank_(rank), tolerance_(tolerance), table_(64) {}
+
+std::uint64_t PlaceTable::hash_of(const std::int32_t* coordinates) const {
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < rank_; i += 2) {
+        const auto low = static_cast<std::uint32_t>(coordinates[i]);
+        const auto high = static_cast<std::uint32_t>(coordinates[i + 1]);
+        hash = scrambled(hash + 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(high) << 32U | low));
+    }
+    return hash;
+}
+
+std::uint64_t PlaceTable::own_hash(std::uint32_t number) const {
+    if (rank_ > 0) return hash_of(coordinates(number));
+    const double width = cell_in_tolerances * tolerance_;
+    return hash_of_cell(cell_of(places_[number].x, width), cell_of(places_[number].y, width));
+}
+
+std::uint32_t PlaceTable::find_exact(const std::int32_t* coordinates, std::uint64_t hash) const {
+    for (std::size_t at = slot(hash);; at = slot(at + 1)) {
+        const Slot& found = table_[at];
+        if (found.number == no_number) return no_number;
+        if (found.tag == tag_of(hash) && equals(found.number, coordinates)) return found.number;
+    }
+}
+
+std::uint32_t PlaceTable::find_near(glm::dvec2 place) const {
+    const double width = cell_in_tolerances * tolerance_;
+    const std::int64_t left = cell_of(place.x - tolerance_, width), right = cell_of(place.x + tolerance_, width);
+    const std::int64_t low = cell_of(place.y - tolerance_, width), high = cell_of(place.y + tolerance_, width);
+    std::uint32_t nearest = no_number;
+    double least = tolerance_;
+    for (std::int64_t x = left; x <= right; ++x) {
+        for (std::int64_t y = low; y <= high; ++y) {
+            const std::uint64_t hash = hash_of_cell(x, y);
+            for (std::size_t at = slot(hash); table_[at].number != no_number; at = slot(at + 1)) {
+                if (table_[at].tag != tag_of(hash)) continue;
+                const glm::dvec2 gap = places_[table_[at].number] - place;
+                const double distance = std::sqrt(scalar_product(gap, gap));
+                if (distance > least || (distance == least && nearest != no_number)) continue;
+                least = distance;
+                nearest = table_[at].number;
+            }
+        }
+    }
+    return nearest;
+}
+
+std::uint32_t PlaceTable::find(const std::int32_t* coordinates, glm::dvec2 place) const {
+    return rank_ > 0 ? find_exact(coordinates, hash_of(coordinates)) : find_near(place);
+}
+
+void PlaceTable::insert(std::uint32_t number, std::uint64_t hash) {
+    std::size_t at = slot(hash);
+    while (table_[at].number != no_number) at = slot(at + 1);
+    table_[at] = {number, tag_of(hash)};
+}
+
+std::uint32_t PlaceTable::add(const std::int32_t* coordinates, glm::dvec2 place) {
+    const std::uint64_t hash = rank_ > 0 ? hash_of(coordinates) : 0;
+    const std::uint32_t known = rank_ > 0 ? find_exact(coordinates, hash) : find_near(place);
+    if (known != no_number) return known;
+    const auto number = static_cast<std::uint32_t>(places_.size());
+    if (rank_ > 0) coordinates_.insert(coordinates_.end(), coordinates, coordinates + rank_);
+    places_.push_back(place);
+    if (2 * places_.size() >= table_.size()) {
+        table_.assign(2 * table_.size(), Slot());
+        for (std::uint32_t each = 0; each < number; ++each) insert(each, own_hash(each));
+    }
+    insert(number, rank_ > 0 ? hash : own_hash(number));
+    return number;
+}
+
+TilePlane::TilePlane(const Lattice& lattice, bool exact)
+    : lattice_(lattice),
+      numbers_(exact && lattice.rank > 0 ? std::optional<Cyclotomic>(lattice) : std::nullopt),
+      rank_(numbers_ ? numbers_->rank() : 0),
+      points_(rank_, tolerance),
+      vectors_(rank_, 4 * tolerance) {}
+
+std::uint32_t TilePlane::point(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
+    std::array<std::int32_t, 8> small{};
+    for (std::size_t i = 0; i < rank_; ++i) {
+        if (coordinates[i] > largest_coordinate || coordinates[i] < -largest_coordinate) throw OutOfRange();
+        small[i] = static_cast<std::int32_t>(coordinates[i]);
+    }
+    return points_.add(small.data(), place);
+}
+
+std::uint32_t TilePlane::find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {
+    return find_in(points_, coordinates, place);
+}
+std::uint32_t TilePlane::find_vector(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {
+    return find_in(vectors_, coordinates, place);
+}
+std::uint32_t TilePlane::find_in(const PlaceTable& table, const Cyclotomic::Number& coordinates,
+                                 glm::dvec2 place) const {
+    std::array<std::int32_t, 8> small{};
+    for (std::size_t i = 0; i < rank_; ++i) {
+        if (coordinates[i] > largest_coordinate || coordinates[i] < -largest_coordinate) return no_number;
+        small[i] = static_cast<std::int32_t>(coordinates[i]);
+    }
+    return table.find(small.data(), place);
+}
+
+Cyclotomic::Number TilePlane::number(const std::int32_t* coordinates) const {
+    Cyclotomic::Number result{};
+    std::copy_n(coordinates, rank_, result.begin());
+    return result;
+}
+Cyclotomic::Number TilePlane::coordinates(std::uint32_t point) const {
+    return number(points_.coordinates(point));
+}
+Cyclotomic::Number TilePlane::vector_coordinates(std::uint32_t vector) const {
+    return number(vectors_.coordinates(vector));
+}
+
+glm::dvec2 TilePlane::place(const Cyclotomic::Number& coordinates) const {
+    glm::dvec2 sum(0.0);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        sum += static_cast<double>(coordinates[i]) * (lattice_.unit * lattice_.basis(static_cast<int>(i)));
+    }
+    return sum;
+}
+
+std::uint32_t TilePlane::vector(std::uint32_t from, std::uint32_t to) {
+    if (!is_exact()) return vectors_.add(nullptr, at(to) - at(from));
+    std::array<std::int32_t, 8> difference{};
+    const std::int32_t* begin = points_.coordinates(from);
+    const std::int32_t* end = points_.coordinates(to);
+    Cyclotomic::Number whole{};
+    for (std::size_t i = 0; i < rank_; ++i) whole[i] = difference[i] = end[i] - begin[i];
+    return vectors_.add(difference.data(), place(whole));
+}
+
+int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to) const {
+    const glm::dvec2 a = at(along) - at(origin), b = at(to) - at(origin);
+    const double length = std::sqrt(scalar_product(a, a));
+    const double height = determinant(a, b) / length;
+    if (!is_exact()) return height > tolerance ? 1 : height < -tolerance ? -1 : 0;
+    const double size = length + std::sqrt(scalar_product(b, b));
+    if (std::fabs(height) > certain * (1 + size)) return height > 0 ? 1 : -1;
+    Cyclotomic::Number first{}, second{};
+    const std::int32_t* from = points_.coordinates(origin);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        first[i] = points_.coordinates(along)[i] - from[i];
+        second[i] = points_.coordinates(to)[i] - from[i];
+    }
+    return numbers_->sign_imaginary(numbers_->conjugate_product(first, second));
+}
+
+int TilePlane::turn(std::uint32_t first, std::uint32_t second) const {
+    const glm::dvec2 a = vector_at(first), b = vector_at(second);
+    const double sine = determinant(a, b) / std::sqrt(scalar_product(a, a) * scalar_product(b, b));
+    if (!is_exact()) return sine > same_direction ? 1 : sine < -same_direction ? -1 : 0;
+    if (std::fabs(sine) > 1e-3) return sine > 0 ? 1 : -1;
+    return numbers_->sign_imaginary(
+        numbers_->conjugate_product(vector_coordinates(first), vector_coordinates(second)));
+}
+
+void TilePlane::sort_directions() {
+    // Each vector in the half turn from the x axis on; the other half are opposites.
+    struct Ray {
+        double angle;
+        std::uint32_t vector;
+        bool is_opposite;
+    };
+    std::vector<Ray> rays;
+    for (std::uint32_t i = 0; i < vectors(); ++i) {
+        glm::dvec2 along = vector_at(i);
+        const bool is_opposite = along.y < 0 || (along.y == 0 && along.x < 0);
+        if (is_opposite) along = -along;
+        rays.push_back({std::atan2(along.y, along.x), i, is_opposite});
+    }
+    std::sort(rays.begin(), rays.end(), [](const Ray& a, const Ray& b) {
+        return a.angle != b.angle ? a.angle < b.angle : a.vector < b.vector;
+    });
+    // Directions that doubles do not distinguish are sorted by signs.
+    const auto parallel = [&](const Ray& a, const Ray& b) { return turn(a.vector, b.vector) == 0; };
+    const auto order = [&](const Ray& a, const Ray& b) {
+        const int sign = turn(a.vector, b.vector) * (a.is_opposite == b.is_opposite ? 1 : -1);
+        return sign != 0 ? sign > 0 : a.vector < b.vector;
+    };
+    constexpr double close = 1e-9;
+    for (auto begin = rays.begin(); is_exact() && begin != rays.end();) {
+        auto end = begin + 1;
+        while (end != rays.end() && end->angle - (end - 1)->angle < close) ++end;
+        std::sort(begin, end, order);
+        begin = end;
+    }
+    std::vector<std::uint32_t> half(rays.size());
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (i > 0 && !parallel(rays[i - 1], rays[i])) ++count;
+        half[i] = count;
+    }
+    const std::uint32_t last = count;
+    // The first and the last may be one direction, near the x axis.
+    const bool wraps = last > 0 && parallel(rays.back(), rays.front());
+    count = rays.empty() ? 0 : last + (wraps ? 0 : 1);
+    directions_ = 2 * count;
+    direction_.assign(rays.size(), 0);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const bool is_wrapped = wraps && half[i] == last;
+        const std::uint32_t opposite = (rays[i].is_opposite ? count : 0U) + (is_wrapped ? count : 0U);
+        direction_[rays[i].vector] = ((is_wrapped ? 0 : half[i]) + opposite) % directions_;
+    }
+}
+
+}  // namespace sikku

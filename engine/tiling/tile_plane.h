@@ -1,0 +1,125 @@
+// engine/tiling/tile_plane.h: the points of a tiling, numbered: whole coordinates of a lattice, or doubles with a
+// tolerance; and the directions of its edges.
+#pragma once
+
+#include "engine/geometry/cyclotomic.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
+
+/// Numbers places in the order in which they are added; equal ones have one number. Memory: 4 bytes a coordinate, and
+/// up to 48 a place.
+class PlaceTable {
+public:
+    /// @param rank  whole coordinates of a place; 0: places are doubles, and those within the tolerance are equal
+    PlaceTable(std::size_t rank, double tolerance);
+
+    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place);
+    /// no_number, if it was not added.
+    std::uint32_t find(const std::int32_t* coordinates, glm::dvec2 place) const;
+    std::size_t size() const { return places_.size(); }
+    glm::dvec2 at(std::uint32_t number) const { return places_[number]; }
+    const std::int32_t* coordinates(std::uint32_t number) const { return coordinates_.data() + number * rank_; }
+
+private:
+    struct Slot {
+        std::uint32_t number = no_number;
+        std::uint32_t tag = 0;  ///< upper half of the hash
+    };
+    static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32U); }
+    std::size_t slot(std::uint64_t hash) const { return hash & (table_.size() - 1); }
+    bool equals(std::uint32_t number, const std::int32_t* coordinates) const {
+        const std::int32_t* known = this->coordinates(number);
+        for (std::size_t i = 0; i < rank_; ++i) {
+            if (known[i] != coordinates[i]) return false;
+        }
+        return true;
+    }
+    std::uint64_t hash_of(const std::int32_t* coordinates) const;
+    std::uint32_t find_exact(const std::int32_t* coordinates, std::uint64_t hash) const;
+    std::uint32_t find_near(glm::dvec2 place) const;
+    void insert(std::uint32_t number, std::uint64_t hash);
+    std::uint64_t own_hash(std::uint32_t number) const;
+
+    std::size_t rank_;
+    double tolerance_;
+    std::vector<std::int32_t> coordinates_;
+    std::vector<glm::dvec2> places_;
+    std::vector<Slot> table_;  // numbers by hash, open addressing
+};
+
+/// Points and edges of tiles in the plane. Exact on a lattice: equality and collinearity are decided by whole
+/// numbers, signs by intervals that are refined until they exclude 0. Otherwise points within `tolerance` steps are
+/// one.
+class TilePlane {
+public:
+    /// Thrown by point(): coordinates of the lattice are larger than 2^26.
+    struct OutOfRange {};
+    static constexpr double tolerance = 1e-6;
+
+    /// @param exact  use the lattice, if it has coordinates
+    TilePlane(const Lattice& lattice, bool exact);
+
+    bool is_exact() const { return numbers_.has_value(); }
+    const Lattice& lattice() const { return lattice_; }
+    /// Only of an exact plane.
+    const Cyclotomic& numbers() const { return *numbers_; }
+
+    /// The number of a point. @param coordinates  those of the lattice; ignored if the plane is not exact
+    std::uint32_t point(std::span<const std::int64_t> coordinates, glm::dvec2 place);
+    /// The number of a known point, or no_number. An exact plane ignores `place`, another one `coordinates`.
+    std::uint32_t find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
+    std::size_t points() const { return points_.size(); }
+    glm::dvec2 at(std::uint32_t point) const { return points_.at(point); }
+    Cyclotomic::Number coordinates(std::uint32_t point) const;
+
+    /// The number of the vector between two points; equal vectors have one number.
+    std::uint32_t vector(std::uint32_t from, std::uint32_t to);
+    /// The number of a known vector, or no_number; as find().
+    std::uint32_t find_vector(const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
+    std::size_t vectors() const { return vectors_.size(); }
+    glm::dvec2 vector_at(std::uint32_t vector) const { return vectors_.at(vector); }
+    Cyclotomic::Number vector_coordinates(std::uint32_t vector) const;
+
+    /// 1 if `to` lies left of the line from `origin` through `along`, 0 on it, -1 right of it.
+    int side(std::uint32_t origin, std::uint32_t along, std::uint32_t to) const;
+    /// The same for two vectors: 1 if the second is turned to the left of the first by less than 180 degrees.
+    int turn(std::uint32_t first, std::uint32_t second) const;
+
+    /// Sorts the directions of all vectors and their opposites anticlockwise. Cost: v log v.
+    void sort_directions();
+    /// Number of different directions, even; the opposite of d is d + directions() / 2.
+    std::uint32_t directions() const { return directions_; }
+    std::uint32_t direction(std::uint32_t vector) const { return direction_[vector]; }
+
+private:
+    Cyclotomic::Number number(const std::int32_t* coordinates) const;
+    std::uint32_t find_in(const PlaceTable& table, const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
+    glm::dvec2 place(const Cyclotomic::Number& coordinates) const;
+
+    Lattice lattice_;
+    std::optional<Cyclotomic> numbers_;
+    std::size_t rank_;
+    PlaceTable points_;
+    PlaceTable vectors_;
+    std::vector<std::uint32_t> direction_;  // of vectors
+    std::uint32_t directions_ = 0;
+};
+
+inline double determinant(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline double scalar_product(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+}  // namespace sikku

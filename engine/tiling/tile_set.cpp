@@ -1,0 +1,411 @@
+#include "engine/tiling/tile_set.h"
+
+#include "engine/base/chance.h"
+#include "engine/base/memory.h"
+#include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
+#include "engine/geometry/polygon_classes.h"
+#include "engine/geometry/turtle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace sikku {
+namespace {
+
+using Points = std::vector<std::uint32_t>;
+
+/// Bytes that the examination needs for each corner of a tile, at most.
+constexpr double bytes_of_corner = 120;
+
+/// Finds where an outline crosses or touches itself. Cost: k^2.
+std::optional<std::uint32_t> find_crossing(const TilePlane& plane, const Points& corners, const Monitor& monitor) {
+    const std::size_t count = corners.size();
+    Points sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) return *twice;
+    Pulse pulse(monitor);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t a = corners[i], b = corners[(i + 1) % count];
+        const glm::dvec2 from = plane.at(a), to = plane.at(b);
+        const double margin = TilePlane::tolerance;
+        const double left = std::min(from.x, to.x) - margin, right = std::max(from.x, to.x) + margin;
+        const double low = std::min(from.y, to.y) - margin, high = std::max(from.y, to.y) + margin;
+        for (std::size_t j = i + 2; j < count && j - i < count - 1; ++j) {
+            pulse();
+            const std::uint32_t c = corners[j], d = corners[(j + 1) % count];
+            const glm::dvec2 p = plane.at(c), q = plane.at(d);
+            if (std::min(p.x, q.x) > right || std::max(p.x, q.x) < left) continue;
+            if (std::min(p.y, q.y) > high || std::max(p.y, q.y) < low) continue;
+            const int c_side = plane.side(a, b, c), d_side = plane.side(a, b, d);
+            if (c_side * d_side > 0) continue;
+            const int a_side = plane.side(c, d, a), b_side = plane.side(c, d, b);
+            if (a_side * b_side > 0) continue;
+            if (c_side == 0 && d_side == 0) {
+                // On one line: apart, unless their intervals overlap.
+                const glm::dvec2 along = to - from;
+                const double length = scalar_product(along, along);
+                const double first = scalar_product(along, p - from), second = scalar_product(along, q - from);
+                if (std::max(first, second) < 0 || std::min(first, second) > length) continue;
+            }
+            return a_side == 0 ? a : c_side == 0 ? c : d_side == 0 ? d : b;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::size_t least_rotation(std::span<const std::uint32_t> sequence) {
+    const std::size_t count = sequence.size();
+    std::size_t i = 0, j = 1, same = 0;
+    while (i < count && j < count && same < count) {
+        const std::uint32_t a = sequence[(i + same) % count], b = sequence[(j + same) % count];
+        if (a == b) {
+            ++same;
+            continue;
+        }
+        (a > b ? i : j) += same + 1;
+        if (i == j) ++j;
+        same = 0;
+    }
+    return std::min(i, j);
+}
+
+std::uint64_t hash_of(std::span<const std::uint32_t> sequence) {
+    std::uint64_t hash = sequence.size();
+    for (const std::uint32_t each : sequence) hash = scrambled(hash + 0x9e3779b97f4a7c15 + each);
+    return hash;
+}
+
+class TileCollector::Implementation {
+public:
+    Implementation(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)
+        : plane_(plane), tiles_(tiles), most_corners_(most_corners), monitor_(monitor) {
+        tiles_.begin.assign(1, 0);
+        angle_number(180);
+    }
+
+    /// Adds a polygon of an exact plane by its coordinates. Outlines like earlier ones need no examination.
+    void add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places, std::int32_t colour,
+             bool is_closed) {
+        const std::size_t rank = plane_.numbers().rank();
+        key_.clear();
+        for (std::size_t i = rank; i < coordinates.size(); ++i) {
+            const std::int64_t way = coordinates[i] - coordinates[i % rank];
+            if (way != static_cast<std::int32_t>(way)) throw TilePlane::OutOfRange();
+            key_.push_back(static_cast<std::uint32_t>(way));
+        }
+        const std::uint64_t hash = hash_of(key_);
+        const auto point = [&](std::size_t i) {
+            return plane_.point(coordinates.subspan(i * rank, rank), places[i]);
+        };
+        const auto [begin, end] = outlines_.equal_range(hash);
+        for (auto at = begin; is_closed && at != end; ++at) {
+            if (at->second.key != key_) continue;
+            ++tiles_.polygons;
+            corners_.clear();
+            for (const std::uint32_t corner : at->second.corners) corners_.push_back(point(corner));
+            return keep_tile(at->second.in_class, colour);
+        }
+        outline_points_.clear();
+        for (std::size_t i = 0; i < places.size(); ++i) outline_points_.push_back(point(i));
+        const std::size_t tiles = tiles_.tiles();
+        add(outline_points_, colour, is_closed);
+        if (tiles_.tiles() == tiles || outlines_.size() >= most_outlines) return;
+        Outline known{key_, tiles_.in_class.back(), {}};
+        for (const std::uint32_t corner : corners_) {
+            const auto found = std::find(outline_points_.begin(), outline_points_.end(), corner);
+            known.corners.push_back(static_cast<std::uint32_t>(found - outline_points_.begin()));
+        }
+        outlines_.emplace(hash, std::move(known));
+    }
+
+    void add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
+        ++tiles_.polygons;
+        if (!is_closed) return fault(TileFault::open, points.back());
+        take_corners(points);
+        if (!corners_.empty() && has_spike_) return fault(TileFault::crossing, spike_);
+        if (corners_.size() < 3) return fault(TileFault::empty, points.front());
+        vectors_.clear();
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            vectors_.push_back(plane_.vector(corners_[i], corners_[(i + 1) % corners_.size()]));
+        }
+        // Anticlockwise outlines of known classes need no examination.
+        std::uint32_t in_class = find_class();
+        if (in_class == no_number) {
+            const double area = area_of(corners_);
+            if (area < 0) {
+                std::reverse(corners_.begin(), corners_.end());
+                for (std::size_t i = 0; i < corners_.size(); ++i) {
+                    vectors_[i] = plane_.vector(corners_[i], corners_[(i + 1) % corners_.size()]);
+                }
+                in_class = find_class();
+            }
+            if (in_class == no_number) {
+                if (corners_.size() > most_corners_of_tile) {
+                    throw BudgetError(fmt::format("polygon {} has {} corners; tiles have at most {}", tiles_.polygons,
+                                                  corners_.size(), most_corners_of_tile));
+                }
+                if (const auto crossing = find_crossing(plane_, corners_, monitor_)) {
+                    return fault(TileFault::crossing, *crossing);
+                }
+                if (std::fabs(area) < TilePlane::tolerance * TilePlane::tolerance) {
+                    return fault(TileFault::empty, corners_.front());
+                }
+                in_class = add_class();
+            }
+        }
+        keep_tile(in_class, colour);
+    }
+
+private:
+    /// An outline as it was drawn: its vertices from the first one, and those that are corners.
+    struct Outline {
+        Points key;
+        std::uint32_t in_class;
+        Points corners;
+    };
+    static constexpr std::size_t most_outlines = 100'000;
+
+    void keep_tile(std::uint32_t in_class, std::int32_t colour) {
+        const std::uint32_t earlier = keep(in_class, corners_.front());
+        if (earlier != no_number) return fault(TileFault::duplicate, corners_.front(), tiles_.number[earlier]);
+        if (static_cast<double>(tiles_.corner.size() + corners_.size()) > most_corners_) {
+            throw BudgetError(
+                fmt::format("the tiles have more than {:.0f} corners, which exceeds the memory for "
+                            "their examination; use a shorter derivation",
+                            most_corners_));
+        }
+        tiles_.corner.insert(tiles_.corner.end(), corners_.begin(), corners_.end());
+        tiles_.begin.push_back(static_cast<std::uint32_t>(tiles_.corner.size()));
+        tiles_.in_class.push_back(in_class);
+        tiles_.colour.push_back(colour);
+        tiles_.number.push_back(tiles_.polygons);
+    }
+
+    void fault(TileFault fault, std::uint32_t point, std::uint32_t other = 0) {
+        tiles_.violations.add({fault, tiles_.polygons, other, plane_.at(point)});
+    }
+
+    /// Sets `corners_` without points on straight stretches, and looks for points where the outline turns back.
+    void take_corners(std::span<const std::uint32_t> points) {
+        outline_.clear();
+        for (const std::uint32_t point : points) {
+            if (outline_.empty() || outline_.back() != point) outline_.push_back(point);
+        }
+        while (outline_.size() > 1 && outline_.front() == outline_.back()) outline_.pop_back();
+        corners_.clear();
+        has_spike_ = false;
+        const std::size_t count = outline_.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t before = outline_[(i + count - 1) % count], here = outline_[i],
+                                after = outline_[(i + 1) % count];
+            const bool is_straight = before == after || plane_.side(before, here, after) == 0;
+            const glm::dvec2 a = plane_.at(here) - plane_.at(before), b = plane_.at(after) - plane_.at(here);
+            if (is_straight && scalar_product(a, b) < 0) {
+                has_spike_ = true;
+                spike_ = here;
+            }
+            if (!is_straight) corners_.push_back(here);
+        }
+    }
+
+    double area_of(const Points& corners) const {
+        double area = 0;
+        const glm::dvec2 origin = plane_.at(corners.front());
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+            area += determinant(plane_.at(corners[i]) - origin, plane_.at(corners[i + 1]) - origin) / 2;
+        }
+        return area;
+    }
+
+    /// Turns the outline to its least rotation; its class, or no_number.
+    std::uint32_t find_class() {
+        const std::size_t start = least_rotation(vectors_);
+        std::rotate(vectors_.begin(), vectors_.begin() + static_cast<std::ptrdiff_t>(start), vectors_.end());
+        std::rotate(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(start), corners_.end());
+        const auto [begin, end] = by_hash_.equal_range(hash_of(vectors_));
+        for (auto at = begin; at != end; ++at) {
+            if (tiles_.classes[at->second].vectors == vectors_) return at->second;
+        }
+        return no_number;
+    }
+
+    std::uint32_t add_class() {
+        TileClass added;
+        added.vectors = vectors_;
+        added.first = tiles_.tiles();
+        std::vector<glm::dvec2> places;
+        glm::dvec2 at(0.0);
+        for (const std::uint32_t vector : vectors_) {
+            places.push_back(at);
+            at += plane_.vector_at(vector);
+        }
+        const PolygonClass found = shapes_.classify(places);
+        tiles_.shapes = static_cast<std::uint32_t>(shapes_.shapes());
+        added.shape = found.shape;
+        added.hand = found.hand;
+        added.is_reflected = found.is_reflected;
+        for (std::size_t i = 0; i < vectors_.size(); ++i) {
+            const glm::dvec2 before = -plane_.vector_at(vectors_[(i + vectors_.size() - 1) % vectors_.size()]);
+            const glm::dvec2 after = plane_.vector_at(vectors_[i]);
+            const double angle = std::atan2(determinant(after, before), scalar_product(after, before));
+            added.angles.push_back(
+                angle_number((angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi));
+            if (i > 0) added.area += determinant(places[i], places[(i + 1) % places.size()]) / 2;
+        }
+        if (plane_.is_exact()) {
+            Cyclotomic::Number corner{};
+            for (const std::uint32_t vector : vectors_) {
+                Cyclotomic::Number next = plane_.vector_coordinates(vector);
+                const Cyclotomic::Number product = plane_.numbers().conjugate_product(corner, next);
+                const Cyclotomic::Number conjugate = plane_.numbers().conjugate(product);
+                for (std::size_t i = 0; i < next.size(); ++i) {
+                    added.area_4i[i] += product[i] - conjugate[i];
+                    corner[i] += next[i];
+                }
+            }
+        }
+        const auto number = static_cast<std::uint32_t>(tiles_.classes.size());
+        by_hash_.emplace(hash_of(vectors_), number);
+        tiles_.classes.push_back(std::move(added));
+        return number;
+    }
+
+    std::uint32_t angle_number(double degrees) {
+        constexpr double parts = 1e4;  // of a degree that are distinguished
+        const auto key = static_cast<std::int64_t>(std::floor(degrees * parts + 0.3183));
+        const auto [found, is_new] = angles_.try_emplace(key, static_cast<std::uint32_t>(tiles_.angles.size()));
+        if (is_new) tiles_.angles.push_back(degrees);
+        return found->second;
+    }
+
+    /// Keeps the tile that is added next; an earlier one at the same place, or no_number.
+    std::uint32_t keep(std::uint32_t in_class, std::uint32_t anchor) {
+        if (2 * (tiles_.in_class.size() + 1) >= table_.size()) {
+            table_.assign(std::max<std::size_t>(64, 2 * table_.size()), no_number);
+            for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
+                table_[slot_of(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]])] = tile;
+            }
+        }
+        const std::size_t slot = slot_of(in_class, anchor);
+        if (table_[slot] != no_number) return table_[slot];
+        table_[slot] = tiles_.tiles();
+        return no_number;
+    }
+    /// Of the tile of that class and first corner, or an empty one.
+    std::size_t slot_of(std::uint32_t in_class, std::uint32_t anchor) const {
+        std::size_t slot = scrambled(std::uint64_t{in_class} << 32U | anchor) & (table_.size() - 1);
+        while (table_[slot] != no_number) {
+            const std::uint32_t tile = table_[slot];
+            if (tiles_.in_class[tile] == in_class && tiles_.corner[tiles_.begin[tile]] == anchor) break;
+            slot = (slot + 1) & (table_.size() - 1);
+        }
+        return slot;
+    }
+
+    TilePlane& plane_;
+    TileSet& tiles_;
+    double most_corners_;
+    const Monitor& monitor_;
+    Points outline_, corners_, vectors_, key_, outline_points_;
+    std::unordered_multimap<std::uint64_t, Outline> outlines_;
+    bool has_spike_ = false;
+    std::uint32_t spike_ = 0;
+    PolygonClasses shapes_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
+    std::unordered_map<std::int64_t, std::uint32_t> angles_;
+    std::vector<std::uint32_t> table_;  // tiles by class and first corner, open addressing
+};
+
+TileCollector::TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)
+    : implementation_(std::make_unique<Implementation>(plane, tiles, most_corners, monitor)) {}
+TileCollector::~TileCollector() = default;
+void TileCollector::add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
+                        std::int32_t colour, bool is_closed) {
+    implementation_->add(coordinates, places, colour, is_closed);
+}
+void TileCollector::add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
+    implementation_->add(points, colour, is_closed);
+}
+
+namespace {
+
+/// Reads the polygons of a turtle.
+class TileReader : public PathSink, public PlaceSink {
+public:
+    TileReader(TilePlane& plane, TileCollector& collector)
+        : plane_(plane),
+          collector_(collector),
+          rank_(plane.is_exact() ? static_cast<std::size_t>(plane.lattice().rank) : 0) {}
+
+    void places(std::span<const std::int64_t>) override {}
+    void vertices(std::span<const std::int64_t> coordinates, std::uint64_t, bool is_closed) override {
+        coordinates_ = coordinates;
+        is_closed_ = is_closed;
+        has_vertices_ = true;
+    }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        // Inserted edges bound blades, not tiles.
+        if (!std::exchange(has_vertices_, false)) return;
+        if (rank_ > 0) return collector_.add(coordinates_, vertices, pen.colour, is_closed_);
+        points_.clear();
+        for (const glm::dvec2 vertex : vertices) points_.push_back(plane_.point({}, vertex));
+        collector_.add(points_, pen.colour, is_closed_);
+    }
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    TilePlane& plane_;
+    TileCollector& collector_;
+    std::size_t rank_;
+    std::span<const std::int64_t> coordinates_;
+    bool is_closed_ = true;
+    bool has_vertices_ = false;
+    Points points_;
+};
+
+void require_few_tiles(const Grammar& grammar, const TileLimits& limits) {
+    const auto known = estimate(grammar, true);
+    if (!known) return;
+    double tiles = 0;
+    for (std::size_t i = 0; i < known->rough_counts.size(); ++i) {
+        if (grammar.symbols()[i].command.action == Action::polygon_end) tiles += known->rough_counts[i];
+    }
+    if (tiles <= limits.tiles) return;
+    throw BudgetError(fmt::format("n = {} makes about {:.3g} tiles; at most {:.0f} are examined", grammar.steps(),
+                                  tiles, limits.tiles));
+}
+
+}  // namespace
+
+TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, const Monitor& monitor) {
+    require_few_tiles(grammar, limits);
+    require_affordable(grammar, true, limits.nodes);
+    TileSet tiles;
+    const double bytes = limits.bytes > 0 ? limits.bytes : static_cast<double>(available_memory()) / 2;
+    TileCollector collector(plane, tiles, std::min(bytes / bytes_of_corner, 1e9), monitor);
+    TileReader reader(plane, collector);
+    const auto turtle = Turtle::tracing(grammar, reader, reader, false);
+    DerivationOptions options;
+    options.interpreted = true;
+    options.limit_whole_words(limits.nodes);
+    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    monitor.expect(expected_symbols(grammar, true));
+    derive(grammar, *turtle, options);
+    return tiles;
+}
+
+}  // namespace sikku

@@ -1,0 +1,112 @@
+// engine/tiling/tile_set.h: the polygons of a word as tiles.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/language/grammar.h"
+#include "engine/tiling/tile_plane.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// What is wrong with a polygon, or with two.
+enum class TileFault : std::uint8_t {
+    open,       ///< the outline does not end where it began
+    empty,      ///< fewer than three corners, or no area
+    crossing,   ///< the outline crosses or touches itself
+    duplicate,  ///< the same corners as an earlier tile
+    overlap,
+};
+/// A fault with its polygons, numbered from 1 in drawing order.
+struct TileViolation {
+    TileFault fault = TileFault::open;
+    std::uint32_t tile = 0;
+    std::uint32_t other = 0;  ///< the earlier tile of two; else 0
+    glm::dvec2 at{0.0};
+    std::string origins{};  ///< places in the pattern that drew them, if they are known: see find_origins()
+};
+/// The first violations in their order, and the number of all.
+struct TileViolations {
+    static constexpr std::size_t most = 100;
+    std::vector<TileViolation> list;
+    std::uint64_t count = 0;
+    void add(TileViolation violation) {
+        if (list.size() < most) list.push_back(std::move(violation));
+        ++count;
+    }
+};
+
+/// Tiles that are the same up to translation.
+struct TileClass {
+    std::vector<std::uint32_t> vectors;  ///< edges, anticlockwise; the least of all their rotations
+    std::vector<std::uint32_t> angles;   ///< at the beginning of each edge, as index into TileSet::angles
+    std::uint32_t shape = 0;             ///< the same up to motions and reflections
+    std::uint32_t hand = 0;              ///< the same up to motions
+    bool is_reflected = false;           ///< not of the hand of the first tile of its shape
+    double area = 0;                     ///< in steps squared
+    Cyclotomic::Number area_4i{};        ///< 4 i times the area in units squared, if the plane is exact
+    std::uint32_t first = 0;             ///< its first tile
+};
+
+/// Valid tiles in drawing order, without duplicates.
+struct TileSet {
+    /// For each tile; `begin` has one more.
+    std::vector<std::uint32_t> begin;     ///< index of its first corner
+    std::vector<std::uint32_t> in_class;  ///< index into `classes`
+    std::vector<std::int32_t> colour;
+    std::vector<std::uint32_t> number;  ///< of the polygon in drawing order, from 1
+    std::vector<std::uint32_t> corner;  ///< points, anticlockwise, those on straight stretches left out
+
+    std::vector<TileClass> classes;  ///< in the order of their first tiles
+    std::vector<double> angles;      ///< that occur between edges, in degrees
+    std::uint32_t shapes = 0;
+    std::uint32_t polygons = 0;  ///< all that were drawn
+    TileViolations violations;
+
+    std::uint32_t tiles() const { return static_cast<std::uint32_t>(in_class.size()); }
+    std::span<const std::uint32_t> corners(std::uint32_t tile) const {
+        return std::span(corner).subspan(begin[tile], begin[tile + 1] - begin[tile]);
+    }
+    const TileClass& class_of(std::uint32_t tile) const { return classes[in_class[tile]]; }
+};
+
+/// The index at which the least rotation of a cyclic sequence begins. Cost: linear.
+std::size_t least_rotation(std::span<const std::uint32_t> sequence);
+std::uint64_t hash_of(std::span<const std::uint32_t> sequence);
+
+/// Limits of an examination, checked before memory and time are spent.
+struct TileLimits {
+    double nodes = 200e6;  ///< of the derivation
+    double tiles = 10e6;
+    double bytes = 0;  ///< of memory; 0: half of what is available
+};
+
+/// Adds polygons one by one to a set of tiles.
+class TileCollector {
+public:
+    TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor);
+    ~TileCollector();
+    /// Adds a polygon; faults go to TileSet::violations. @throws BudgetError
+    void add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed);
+    /// The same on an exact plane, in coordinates of its lattice, and faster.
+    void add(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places, std::int32_t colour,
+             bool is_closed);
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+/// The largest outline that is searched for crossings.
+constexpr std::size_t most_corners_of_tile = 20'000;
+
+/// Derives the word of a grammar and collects its polygons. @throws BudgetError, WordError, Stopped;
+/// TilePlane::OutOfRange
+TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, const Monitor& monitor);
+
+}  // namespace sikku

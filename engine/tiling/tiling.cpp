@@ -1,0 +1,192 @@
+#include "engine/tiling/tiling.h"
+
+#include "engine/derivation/forecast.h"
+#include "engine/derivation/origins.h"
+#include "engine/geometry/turtle.h"
+#include "engine/tiling/vertex_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace sikku {
+namespace {
+
+std::vector<TileShape> shapes_of(const TilePlane& plane, const TileSet& tiles) {
+    std::vector<TileShape> shapes(tiles.shapes);
+    std::vector<std::uint64_t> counts(tiles.classes.size(), 0);
+    for (const std::uint32_t in_class : tiles.in_class) ++counts[in_class];
+    for (std::size_t i = 0; i < tiles.classes.size(); ++i) {
+        const TileClass& each = tiles.classes[i];
+        TileShape& shape = shapes[each.shape];
+        if (shape.tiles == 0) {
+            for (const std::uint32_t angle : each.angles) shape.angles.push_back(tiles.angles[angle]);
+            for (const std::uint32_t vector : each.vectors) {
+                const glm::dvec2 side = plane.vector_at(vector);
+                shape.sides.push_back(std::sqrt(scalar_product(side, side)));
+            }
+            shape.area = each.area;
+        }
+        shape.tiles += counts[i];
+        if (each.is_reflected) shape.reflected += counts[i];
+        ++shape.orientations;
+    }
+    for (TileShape& shape : shapes) shape.is_chiral = shape.reflected > 0;
+    return shapes;
+}
+
+void count_neighbours(const TileNeighbours& neighbours, TilingExamination& result) {
+    std::map<std::uint64_t, std::uint64_t, std::greater<>> counts;
+    for (std::uint32_t tile = 0; tile < neighbours.tiles(); ++tile) {
+        const std::uint64_t count = neighbours.of(tile).size();
+        ++counts[count];
+        result.neighbours += count;
+    }
+    result.neighbours /= 2;
+    result.neighbour_counts.assign(counts.begin(), counts.end());
+}
+
+void examine_border(TilingPatch& patch, const TileVertices& vertices, const Monitor& monitor,
+                    TilingExamination& result) {
+    patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
+    const TileBorder& border = patch.border;
+    for (const TileViolation& overlap : border.overlaps) result.violations.add(overlap);
+    result.violations.count += border.overlap_count - border.overlaps.size();
+    result.regions = border.regions;
+    result.loops = border.loops.size();
+    for (const TileLoop& loop : border.loops) {
+        if (loop.area <= 0) result.gaps.push_back(loop);
+    }
+    result.areas_agree = border.areas_agree;
+    const auto euler = static_cast<std::int64_t>(vertices.fans) - static_cast<std::int64_t>(result.edges) +
+                       static_cast<std::int64_t>(result.tiles);
+    result.euler_agrees = euler == static_cast<std::int64_t>(border.regions) - static_cast<std::int64_t>(border.gaps);
+    result.figures = find_figures(patch.plane, patch.tiles, patch.pieces, patch.figure_of, monitor);
+}
+
+TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact, const TilingOptions& options) {
+    TilingResult both{{}, {TilePlane(lattice, exact), {}, {}, {}, TileNeighbours(0, {}), {}, {}}};
+    auto& [result, patch] = both;
+    patch.tiles = collect_tiles(grammar, patch.plane, options.limits, options.monitor);
+    const TileSet& tiles = patch.tiles;
+    result.is_exact = patch.plane.is_exact();
+    result.tolerance = result.is_exact ? 0 : TilePlane::tolerance;
+    result.polygons = tiles.polygons;
+    result.tiles = tiles.tiles();
+    result.violations = tiles.violations;
+    if (tiles.tiles() == 0) return both;
+    options.monitor.check();
+    result.shapes = shapes_of(patch.plane, tiles);
+    for (const std::uint32_t in_class : tiles.in_class) result.area += tiles.classes[in_class].area;
+
+    patch.pieces = cut_into_pieces(patch.plane, tiles, options.monitor);
+    const TilePieces& pieces = patch.pieces;
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
+        if (pieces.twin[side] == no_number) ++result.border_edges;
+    }
+    result.inner_edges = (pieces.sides() - result.border_edges) / 2;
+    result.edges = result.inner_edges + result.border_edges;
+    result.edges_cut = pieces.edges_cut;
+
+    const TileVertices vertices = check_vertices(patch.plane, tiles, pieces, options.monitor);
+    for (const TileViolation& overlap : vertices.overlaps) result.violations.add(overlap);
+    result.vertices = vertices.points;
+    result.inner_vertices = vertices.inner;
+    result.violations.count += vertices.overlap_count - vertices.overlaps.size();
+    result.has_border = vertices.overlap_count == 0;
+    if (result.has_border) examine_border(patch, vertices, options.monitor, result);
+    patch.neighbours = TileNeighbours(pieces);
+    count_neighbours(patch.neighbours, result);
+    TileColouring colouring = find_colours(patch.neighbours, options.colours, options.monitor);
+    result.least_colours = colouring.at_least;
+    result.most_colours = colouring.at_most;
+    patch.colours = std::move(colouring.colours);
+    result.symmetry = find_symmetry(patch.plane, tiles, options.monitor);
+    return both;
+}
+
+}  // namespace
+
+TilingResult examine_tiling(const Grammar& given, const TilingOptions& options) {
+    if (given.is_spatial()) {
+        throw std::runtime_error("a tiling lies in the plane: this drawing pitches, rolls, bends or has surfaces");
+    }
+    DerivationOptions whole_words;
+    whole_words.limit_whole_words(options.limits.nodes);
+    whole_words.watch = [&options](std::uint64_t symbols) { options.monitor.advance(symbols); };
+    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    const Lattice lattice = make_lattice(grammar);
+    try {
+        return examine(grammar, lattice, options.exact, options);
+    } catch (const TilePlane::OutOfRange&) {
+        return examine(grammar, lattice, false, options);
+    }
+}
+
+namespace {
+
+/// Finds the positions in the word of the `}` of some polygons.
+class PositionReader : public PathSink, public PlaceSink {
+public:
+    explicit PositionReader(std::map<std::uint32_t, std::uint64_t>& wanted) : wanted_(wanted) {}
+    void places(std::span<const std::int64_t>) override {}
+    void vertices(std::span<const std::int64_t>, std::uint64_t position, bool) override { position_ = position; }
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {
+        if (position_ == 0) return;
+        const auto found = wanted_.find(++number_);
+        if (found != wanted_.end()) found->second = position_;
+        position_ = 0;
+    }
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    std::map<std::uint32_t, std::uint64_t>& wanted_;
+    std::uint32_t number_ = 0;
+    std::uint64_t position_ = 0;  // 0: the next polygon is none between braces
+};
+
+}  // namespace
+
+void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor) {
+    const Grammar& grammar = document.grammar();
+    if (examination.violations.list.empty() || !grammar.is_plain() || grammar.whole_word_steps() > 0 ||
+        grammar.steps() > 10'000) {
+        return;
+    }
+    std::map<std::uint32_t, std::uint64_t> wanted;
+    for (const TileViolation& violation : examination.violations.list) {
+        wanted[violation.tile] = 0;
+        if (violation.other > 0) wanted[violation.other] = 0;
+    }
+    PositionReader reader(wanted);
+    const auto turtle = Turtle::tracing(grammar, reader, reader, false);
+    DerivationOptions options;
+    options.interpreted = true;
+    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    derive(grammar, *turtle, options);
+    std::vector<std::uint64_t> positions;
+    for (const auto& [tile, position] : wanted) positions.push_back(position);
+    const std::vector<Origin> found = origins(document, positions, monitor);
+    std::map<std::uint32_t, std::string> places;
+    std::size_t next = 0;
+    for (const auto& [tile, position] : wanted) {
+        const Span& symbol = found[next++].symbol;
+        if (!symbol.source) continue;
+        const Place place = symbol.source->place(symbol.at);
+        places[tile] = std::to_string(place.line) + ":" + std::to_string(place.column);
+    }
+    for (TileViolation& violation : examination.violations.list) {
+        violation.origins = places[violation.tile];
+        if (violation.other > 0 && !places[violation.other].empty()) {
+            violation.origins = places[violation.other] + " and " + violation.origins;
+        }
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,100 @@
+// engine/tiling/tiling.h: examines whether the polygons of a pattern tile a region, and how.
+#pragma once
+
+#include "engine/language/document.h"
+#include "engine/tiling/colour_search.h"
+#include "engine/tiling/tile_border.h"
+#include "engine/tiling/tile_symmetry.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+
+/// Tiles that are congruent, mirror images included.
+struct TileShape {
+    std::uint64_t tiles = 0;
+    std::uint64_t reflected = 0;  ///< those of the other hand than the first
+    bool is_chiral = false;       ///< tiles of both hands occur
+    std::uint64_t orientations = 0;
+    std::vector<double> angles;  ///< degrees, anticlockwise, of the first tile of the shape
+    std::vector<double> sides;   ///< steps; the first one follows the first angle
+    double area = 0;             ///< steps squared
+};
+
+/// Vertices with tiles all around that have the same angles of the same shapes, up to rotation and reflection.
+struct VertexFigure {
+    std::vector<double> angles;         ///< degrees
+    std::vector<std::uint32_t> shapes;  ///< of these angles, as index into TilingExamination::shapes
+    std::uint64_t count = 0;
+};
+
+/// What was examined, for exports.
+struct TilingPatch {
+    TilePlane plane;
+    TileSet tiles;
+    TilePieces pieces;
+    TileBorder border;
+    TileNeighbours neighbours{0, {}};
+    std::vector<std::uint32_t> colours;    ///< of tiles, so that neighbours differ; empty if none were found
+    std::vector<std::uint32_t> figure_of;  ///< of points: index of their figure, or no_number
+};
+
+struct TilingExamination {
+    bool is_exact = false;
+    double tolerance = 0;  ///< steps within which points are one, if it is not exact
+    std::uint64_t polygons = 0;
+    std::uint64_t tiles = 0;
+    TileViolations violations;
+    /// False if tiles overlap around a vertex: then nothing from `regions` to `figures` is known.
+    bool has_border = false;
+    std::uint64_t regions = 0;
+    std::vector<TileLoop> gaps;
+    std::uint64_t loops = 0;
+    std::vector<TileShape> shapes;
+    std::uint64_t edges = 0;  ///< pieces between corners
+    std::uint64_t inner_edges = 0;
+    std::uint64_t border_edges = 0;
+    std::uint64_t edges_cut = 0;  ///< edges of tiles with a corner inside; 0: edge-to-edge
+    std::uint64_t vertices = 0;
+    std::uint64_t inner_vertices = 0;
+    std::vector<VertexFigure> figures;  ///< the most frequent first
+    bool euler_agrees = false;          ///< V - E + F = regions - gaps
+    bool areas_agree = false;           ///< sum of tiles = regions - gaps
+    double area = 0;                    ///< of all tiles, steps squared
+    std::uint64_t neighbours = 0;       ///< pairs of tiles that share a piece
+    /// Number of neighbours of a tile and number of such tiles, the largest number first.
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> neighbour_counts;
+    int least_colours = 0;  ///< needed so that neighbours differ; absent tiles need none
+    int most_colours = 0;   ///< that suffice; more than least_colours if the search did not decide
+    TileSymmetry symmetry;
+
+    bool is_tiling() const {
+        return tiles > 0 && violations.count == 0 && has_border && gaps.empty() && euler_agrees && areas_agree;
+    }
+};
+
+struct TilingOptions {
+    TileLimits limits;
+    ColourBudget colours;
+    bool exact = true;  ///< use whole coordinates where angles and lengths fit a lattice
+    Monitor monitor{};
+};
+
+struct TilingResult {
+    TilingExamination examination;
+    TilingPatch patch;
+};
+
+/// Derives a word and examines its polygons. Cost: about 3 s and 1 GB for a million tiles.
+/// @throws BudgetError, WordError, Stopped; std::runtime_error if the drawing lies in space
+TilingResult examine_tiling(const Grammar& grammar, const TilingOptions& options);
+
+/// Names the places in the pattern that drew the tiles of the first violations, by line and column, as far as words
+/// without contexts, parameters and random choices allow it. Cost: the word is walked again. @throws Stopped
+void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor);
+
+}  // namespace sikku

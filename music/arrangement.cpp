@@ -1,0 +1,356 @@
+#include "music/arrangement.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/keys.h"
+#include "engine/base/text.h"
+#include "engine/language/arrangement_library.h"
+#include "music/melody/melody.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+/// Text as a TOML string on one line.
+std::string toml_string(std::string_view text) {
+    std::string result = "\"";
+    for (const char letter : text) {
+        if (letter == '"' || letter == '\\') {
+            result += '\\';
+            result += letter;
+        } else if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F) {
+            result += fmt::format("\\u{:04X}", static_cast<int>(letter));
+        } else {
+            result += letter;
+        }
+    }
+    return result + '"';
+}
+
+/// Text as a TOML string that keeps its lines, where its letters allow that.
+std::string toml_text(std::string_view text) {
+    const bool is_plain = std::none_of(text.begin(), text.end(), [](char letter) {
+        return (static_cast<unsigned char>(letter) < 0x20 && letter != '\n' && letter != '\t') || letter == 0x7F;
+    });
+    if (!is_plain || text.find("'''") != std::string_view::npos || text.ends_with('\'')) return toml_string(text);
+    return fmt::format("'''\n{}'''", text);
+}
+
+std::string pattern_table(std::string_view name, std::string_view text) {
+    return fmt::format("\n[[pattern]]\nname = {}\ntext = {}\n", toml_string(name), toml_text(text));
+}
+
+/// Hyphens and underscores are blanks; other names of keys are replaced. The symbol of a key such as `note SYMBOL`
+/// stays as it is.
+std::string folded(std::string_view key) {
+    std::string result = lower_case(key);
+    std::replace(result.begin(), result.end(), '-', ' ');
+    std::replace(result.begin(), result.end(), '_', ' ');
+    if (const KeyInfo* row = find_language_key(result); row && row->is_for_symbols()) {
+        const std::size_t before = row->before_symbol().size();
+        return result.substr(0, before) + std::string(key.substr(before));
+    }
+    if (result == "tempo ratio") return "speed";
+    return result == "transpose" ? "transposition" : result;
+}
+
+const KeyInfo* music_key(std::string_view name) {
+    const KeyInfo* known = find_language_key(name);
+    return known && known->owner == KeyOwner::music ? known : nullptr;
+}
+
+/// The text of a value. @throws FileError for tables, and for lists of other keys than `canon`
+std::string text_of(const std::string& key, const FileValue& value) {
+    if (value.type == FileValue::Type::list && key == "canon") {
+        std::string text;
+        for (const FileValue& one : value.list) {
+            if (one.type != FileValue::Type::text) fail(one.place, "canon: expected text such as \"2 -12\"");
+            text += (text.empty() ? "" : ", ") + one.text;
+        }
+        return text;
+    }
+    if (value.type != FileValue::Type::text) fail(value.place, fmt::format("{}: expected a text or a number", key));
+    const bool is_flag = key == "retrograde" || key == "inversion";
+    if (is_flag && value.text == "true") return "yes";
+    if (is_flag && value.text == "false") return "no";
+    return value.text;
+}
+
+/// A key with the place where it is set.
+struct PlacedSetting {
+    Setting setting;
+    std::string place;
+};
+
+class ArrangementReader {
+public:
+    ArrangementReader(const std::string& file, const std::string& text, const PatternReader& read)
+        : file_(file), text_(text), read_(read) {}
+
+    Arrangement read() {
+        const FileValue root = read_toml(file_, text_);
+        const FileValue* tracks = nullptr;
+        const FileValue* form = nullptr;
+        for (const auto& [key, value] : root.table) {
+            const std::string name = folded(key);
+            if (name == "track") {
+                tracks = &value;
+            } else if (name == "pattern") {
+                read_patterns(value);
+            } else if (name == "title" || name == "composer" || name == "source") {
+                (name == "title"      ? result_.title
+                 : name == "composer" ? result_.composer
+                                      : result_.source) = text_of(name, value);
+            } else if (name == "form") {
+                form = &value;
+            } else if (music_key(name)) {
+                shared_.push_back({part_setting(name, text_of(name, value)), value.place});
+            } else {
+                refuse_key(value.place, key, true);
+            }
+        }
+        if (form) {
+            result_.form = read_form(text_of("form", *form));
+            if (result_.form.empty()) {
+                fail(form->place,
+                     "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) "
+                     "endings");
+            }
+        }
+        if (!tracks || tracks->type != FileValue::Type::list || tracks->list.empty()) {
+            fail(tracks ? tracks->place : file_, "an arrangement has at least one [[track]]");
+        }
+        if (tracks->list.size() > most_tracks) {
+            fail(tracks->place, fmt::format("too many tracks: an arrangement has at most {}, and this one {}",
+                                            most_tracks, tracks->list.size()));
+        }
+        result_.text = text_;
+        for (const FileValue& track : tracks->list) read_track(track);
+        check_sections(*tracks, form);
+        read_frame();
+        return std::move(result_);
+    }
+
+private:
+    [[noreturn]] static void refuse_key(const std::string& place, const std::string& key, bool is_head) {
+        std::vector<std::string_view> known = {"n",       "seed",    "variant",   "set",
+                                               "pattern", "section", "transpose", "tempo ratio"};
+        for (const std::string_view name : keys_of(KeyOwner::music)) known.push_back(name);
+        if (is_head) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
+        fail(place, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(nearest(folded(key), known))));
+    }
+
+    void read_patterns(const FileValue& value) {
+        if (value.type != FileValue::Type::list) fail(value.place, "pattern: expected [[pattern]] tables");
+        for (const FileValue& one : value.list) {
+            std::string name;
+            const FileValue* text = nullptr;
+            if (one.type != FileValue::Type::table) fail(one.place, "pattern: expected [[pattern]] tables");
+            for (const auto& [key, inner] : one.table) {
+                if (key != "name" && key != "text")
+                    fail(inner.place, fmt::format("unknown key '{}'; expected name and text", printable(key)));
+                if (inner.type != FileValue::Type::text) fail(inner.place, key + ": expected a text");
+                if (key == "name") name = inner.text;
+                if (key == "text") text = &inner;
+            }
+            if (name.empty() || !text) fail(one.place, "a [[pattern]] has a name and a text");
+            if (!known_.try_emplace(name, NamedPattern{name, text->text}).second) {
+                fail(one.place, fmt::format("two patterns are named '{}'", printable(name)));
+            }
+            inner_.push_back(name);
+        }
+    }
+
+    const NamedPattern& pattern(const std::string& name, const std::string& place) {
+        const auto known = known_.find(name);
+        if (known != known_.end()) return known->second;
+        const auto refuse_arrangement = [&] {
+            fail(place, fmt::format("{}: a track plays a pattern, not another arrangement", printable(name)));
+        };
+        if (lower_case(name).ends_with(".toml")) refuse_arrangement();
+        NamedPattern found;
+        try {
+            found = read_(name);
+        } catch (const std::runtime_error& error) {
+            if (bundled_arrangement(name)) refuse_arrangement();
+            fail(place, error.what());
+        }
+        result_.text += pattern_table(name, found.text);
+        return known_.emplace(name, std::move(found)).first->second;
+    }
+
+    void read_track(const FileValue& track) {
+        if (track.type != FileValue::Type::table) fail(track.place, "track: expected [[track]] tables");
+        std::vector<PlacedSetting> settings = shared_;
+        Overrides overrides;
+        std::string name;
+        std::string name_place;
+        char section = 0;
+        for (const auto& [key, value] : track.table) {
+            const std::string known = folded(key);
+            if (known == "pattern") {
+                name = text_of(known, value);
+                name_place = value.place;
+            } else if (known == "section") {
+                const auto letters = read_form(text_of(known, value));
+                if (letters.size() != 1 || letters.front().ending != Ending::none) {
+                    fail(value.place, "section: expected a letter from A to Z");
+                }
+                section = static_cast<char>('A' + letters.front().letter);
+            } else if (known == "variant") {
+                overrides.variant = text_of(known, value);
+            } else if (known == "set") {
+                if (value.type != FileValue::Type::table)
+                    fail(value.place, "set: expected a table of keys and defines");
+                for (const auto& [inner, one] : value.table) {
+                    settings.push_back({{inner, inner, text_of(inner, one)}, one.place});
+                }
+            } else if (known == "tempo" || known == "ending") {
+                fail(value.place,
+                     fmt::format("{} belongs to the whole piece, above the first track{}", known,
+                                 known == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
+            } else if (known == "n" || known == "seed" || music_key(known)) {
+                settings.push_back({part_setting(known, text_of(known, value)), value.place});
+            } else {
+                refuse_key(value.place, key, false);
+            }
+        }
+        if (name.empty()) fail(track.place, "this track has no pattern");
+        const NamedPattern& found = pattern(name, name_place);
+        Diagnostics diagnostics;
+        Document document = Document::compile(found.name, found.text, overrides, diagnostics);
+        if (!diagnostics.is_unreadable()) read_melody(document.pattern(), {}, diagnostics);
+        diagnostics.throw_if_errors();
+        for (const PlacedSetting& one : settings) document = with(document, one);
+        require_turtle(document, "it has no melody");
+        result_.tracks.push_back({std::move(document), name, section});
+    }
+
+    /// @throws FileError at the place of the setting
+    static Document with(const Document& document, const PlacedSetting& one) {
+        const auto refuse = [&](const std::string& message) {
+            fail(one.place, fmt::format("{}: {}", one.setting.key, message));
+        };
+        try {
+            Document changed = document.with({one.setting});
+            Diagnostics diagnostics;
+            read_melody(changed.pattern(), {}, diagnostics);
+            for (const Diagnostic& diagnostic : diagnostics.list()) {
+                if (!diagnostic.warning) refuse(diagnostic.message);
+            }
+            return changed;
+        } catch (const PatternError& error) {
+            refuse(error.diagnostics().front().message);
+        }
+        return document;
+    }
+
+    void check_sections(const FileValue& tracks, const FileValue* form) const {
+        for (std::size_t i = 0; i < result_.tracks.size(); ++i) {
+            const char section = result_.tracks[i].section;
+            const bool is_played = std::any_of(result_.form.begin(), result_.form.end(),
+                                               [&](const FormSection& one) { return one.letter == section - 'A'; });
+            if (section != 0 && !is_played) {
+                fail(tracks.list[i].place,
+                     fmt::format("section {} is not in the form: form = \"A B A\" above the first track", section));
+            }
+        }
+        for (const FormSection& one : result_.form) {
+            const bool has_tracks =
+                std::any_of(result_.tracks.begin(), result_.tracks.end(),
+                            [&](const Track& track) { return track.section == static_cast<char>('A' + one.letter); });
+            if (!has_tracks)
+                fail(form->place, fmt::format("no track has section {}", static_cast<char>('A' + one.letter)));
+        }
+    }
+
+    /// Tempo and meter of the head.
+    void read_frame() {
+        Document head = result_.tracks.front().document;
+        for (const PlacedSetting& one : shared_) head = head.with({one.setting});
+        Diagnostics diagnostics;
+        const Melody melody = read_melody(head.pattern(), {}, diagnostics);
+        for (const PlacedSetting& one : shared_) {
+            if (one.setting.key == "tempo") result_.tempo = melody.tempo;
+            if (one.setting.key == "meter") result_.meter = melody.meter;
+        }
+    }
+
+    const std::string& file_;
+    const std::string& text_;
+    const PatternReader& read_;
+    std::map<std::string, NamedPattern> known_;
+    std::vector<std::string> inner_;
+    std::vector<PlacedSetting> shared_;
+    Arrangement result_;
+};
+
+}  // namespace
+
+Setting part_setting(std::string_view key, std::string value) {
+    std::string name = folded(key);
+    if (name == "n" || name == "generations") name = "derivation length";
+    // Defines keep their letters.
+    const bool is_known = find_language_key(name) != nullptr || name == "seed";
+    return {name == "derivation length" ? "-n"
+            : is_known                  ? name
+                                        : std::string(key),
+            is_known ? name : std::string(key), std::move(value)};
+}
+
+Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read) {
+    return ArrangementReader(file, text, read).read();
+}
+
+Arrangement arrangement_of(std::span<const Document> documents) {
+    Arrangement result;
+    std::map<std::string, std::string> texts;  // of patterns, by name
+    std::string patterns;
+    for (const Document& document : documents) {
+        std::string name = document.source().name();
+        const std::string& text = document.source().text();
+        for (int copy = 2; texts.contains(name) && texts[name] != text; ++copy) {
+            name = fmt::format("{} {}", document.source().name(), copy);
+        }
+        if (texts.emplace(name, text).second) patterns += pattern_table(name, text);
+        result.text += fmt::format("{}[[track]]\npattern = {}\n", result.text.empty() ? "" : "\n", toml_string(name));
+        const Overrides& overrides = document.overrides();
+        if (!overrides.variant.empty()) result.text += fmt::format("variant = {}\n", toml_string(overrides.variant));
+        std::map<std::string, std::string> own;   // the last value of a key holds
+        std::map<std::string, std::string> more;  // of keys of the curve, and defines
+        std::string shared;
+        for (const Setting& setting : overrides.settings) {
+            const std::string key = setting.key;
+            const bool is_head = key == "tempo" || key == "ending";
+            const bool is_own = key == "derivation length" || key == "seed" || (music_key(key) && !is_head);
+            if (is_head && !result.tracks.empty()) continue;  // the first pattern sets them
+            if (is_head) {
+                shared += fmt::format("{} = {}\n", key, toml_string(setting.value));
+            } else {
+                (is_own ? own : more)[key] = setting.value;
+            }
+        }
+        for (const auto& [key, value] : own) {
+            std::string written = key == "derivation length" ? "n" : key;
+            std::replace(written.begin(), written.end(), ' ', '-');
+            result.text += fmt::format("{} = {}\n", written, toml_string(value));
+        }
+        if (!more.empty()) {
+            std::string list;
+            for (const auto& [key, value] : more) {
+                list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", toml_string(key), toml_string(value));
+            }
+            result.text += fmt::format("set = {{ {} }}\n", list);
+        }
+        result.text = shared + (shared.empty() ? "" : "\n") + result.text;
+        result.tracks.push_back({document, name, 0});
+    }
+    result.text += patterns;
+    return result;
+}
+
+}  // namespace sikku

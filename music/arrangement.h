@@ -1,0 +1,62 @@
+// music/arrangement.h: arrangements: several patterns with keys of their own as one piece, read from TOML files.
+#pragma once
+
+#include "engine/base/toml_file.h"
+#include "engine/language/document.h"
+#include "music/melody/layout.h"
+#include "music/score/score.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// A part of an arrangement: a pattern with its keys.
+struct Track {
+    Document document;
+    std::string pattern;  ///< as the arrangement names it
+    char section = 0;     ///< `A` to `Z`; 0: it plays from the beginning of the piece
+};
+
+/// Several patterns as one piece.
+struct Arrangement {
+    std::string text;  ///< TOML, with every pattern in it, so that it can be read again without other files
+    std::string title;
+    std::string composer;
+    std::string source;
+    std::optional<double> tempo;  ///< quarters a minute; nullopt: that of the first track
+    std::optional<Meter> meter;   ///< nullopt: that of the first track
+    std::vector<FormSection> form;
+    std::vector<Track> tracks;
+};
+
+/// Largest number of tracks.
+constexpr std::size_t most_tracks = 500;
+
+/// Takes the name of a pattern, as a track names it, and returns its name in messages and its text.
+struct NamedPattern {
+    std::string name;
+    std::string text;
+};
+using PatternReader = std::function<NamedPattern(const std::string& pattern)>;
+
+/// Reads an arrangement and compiles its patterns. Those in `[[pattern]]` tables of the file come first; `read` reads
+/// the others.
+/// @param file  its name, for places
+/// @throws FileError with the place for errors of the arrangement; PatternError for errors in patterns; what `read`
+/// throws
+Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read);
+
+/// The arrangement in which these documents play together, as on the command line; the first sets tempo and meter.
+Arrangement arrangement_of(std::span<const Document> documents);
+
+/// A key of a part, as tracks and the command line name it: `n` is the derivation length, and hyphens and underscores
+/// are blanks.
+Setting part_setting(std::string_view key, std::string value);
+
+}  // namespace sikku

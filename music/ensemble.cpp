@@ -1,0 +1,441 @@
+#include "music/ensemble.h"
+
+#include "music/form/block.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t most_score_bars = 1'000'000;
+
+/// From ticks of a part to ticks of the score.
+Ratio to_score(const Player& player) {
+    const Ratio tempo = player.melody.layout.tempo;
+    return {tempo.below, tempo.above};
+}
+
+/// The part of the melody that is played at all, in its own ticks.
+void cut_excerpt(const Layout& layout, const Meter& meter, PlayOptions& options) {
+    const std::int64_t first = (layout.first_bar - 1) * meter.bar();
+    options.from += first;
+    if (options.to < INT64_MAX) options.to += first;
+    if (layout.bars > 0) options.to = std::min(options.to, first + layout.bars * meter.bar());
+}
+
+/// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
+class PartSink : public NoteSink {
+public:
+    /// @param later  ticks added to every onset, after `ratio`
+    PartSink(NoteSink& sink, int first_voice, std::int64_t later, Ratio ratio)
+        : sink_(sink), first_voice_(first_voice), later_(later), ratio_(ratio) {}
+    void notes(std::span<const Note> notes) override {
+        if (first_voice_ == 0 && later_ == 0 && ratio_.is_one()) return sink_.notes(notes);
+        moved_.assign(notes.begin(), notes.end());
+        for (Note& note : moved_) {
+            note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
+            const std::int64_t end = ratio_.of(note.onset + note.duration);
+            note.onset = ratio_.of(note.onset);
+            note.duration = std::max<std::int64_t>(1, end - note.onset);
+            note.onset += later_;
+        }
+        sink_.notes(moved_);
+    }
+    void finish(std::int64_t) override {}
+
+private:
+    NoteSink& sink_;
+    int first_voice_;
+    std::int64_t later_;
+    Ratio ratio_;
+    std::vector<Note> moved_;
+};
+
+void add(PlayReport& all, const PlayReport& one) {
+    all.notes += one.notes;
+    all.moved += one.moved;
+    all.lost += one.lost;
+    all.lowest = std::min(all.lowest, one.lowest);
+    all.highest = std::max(all.highest, one.highest);
+    all.past = all.past && one.past;
+    for (const auto& [symbol, count] : one.skipped) all.skipped[symbol] += count;
+    for (const std::string& symbol : one.unused) {
+        if (std::find(all.unused.begin(), all.unused.end(), symbol) == all.unused.end()) all.unused.push_back(symbol);
+    }
+}
+
+/// Passes the parts on as they are read.
+PlayReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
+    PlayReport all;
+    all.past = true;
+    for (const Player& player : ensemble.players) {
+        const std::int64_t start = start_of(player, ensemble.meter);
+        const std::int64_t later = std::max<std::int64_t>(0, start - playing.from);
+        PartSink part(sink, player.first_voice, later, to_score(player));
+        PlayOptions options = playing;
+        options.drums_from = player.drums_from;
+        if (player.is_bass) {
+            if (all.end == 0) continue;
+            options.to = std::min(playing.to, playing.from + all.end);
+        }
+        options = piece_of_part(player, ensemble.meter, options);
+        if (options.from >= options.to) continue;
+        PlayReport report = play(player.document.grammar(), player.melody, part, options);
+        report.end = to_score(player).of(std::min(report.end, std::int64_t{1} << 50));
+        add(all, report);
+        all.end = std::max(all.end, report.end + (report.notes > 0 ? later : 0));
+    }
+    return all;
+}
+
+/// A part that is known to its end.
+struct WholePart {
+    const Player* player = nullptr;
+    Block block;
+    std::int64_t start = 0;   ///< ticks of the score, or of its section
+    std::int64_t period = 0;  ///< ticks from one repetition to the next
+    std::int64_t repeats = 1;
+    std::int64_t until = INT64_MAX;  ///< tick at which repetitions are cut off
+    std::vector<FormNote> notes;     ///< in ticks of the score, with the voices of the score
+    std::int64_t end = 0;
+    std::int64_t last() const { return start + repeats * period; }
+};
+
+/// Plays parts to their ends and puts them together.
+class WholeScore {
+public:
+    WholeScore(const Ensemble& ensemble, const PlayOptions& playing) : ensemble_(ensemble), playing_(playing) {}
+
+    EnsembleReport play(NoteSink& sink) {
+        report_.past = true;
+        read();
+        repeat();
+        place();
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            if (parts_[i].player->melody.layout.is_strict) make_strict(i);
+        }
+        report_.lowest = PlayReport().lowest;
+        report_.highest = PlayReport().highest;
+        report_.notes = 0;
+        std::int64_t end = 0;
+        for (const WholePart& part : parts_) {
+            write(part, sink);
+            end = std::max(end, part.end);
+        }
+        report_.end = std::max<std::int64_t>(0, std::min(end, playing_.to) - playing_.from);
+        report_.past = end <= playing_.from;
+        return report_;
+    }
+
+private:
+    void read() {
+        std::int64_t leading = 0;  // length of the last part that is no bass, in its own ticks
+        for (const Player& player : ensemble_.players) {
+            const Layout& layout = player.melody.layout;
+            WholePart part;
+            part.player = &player;
+            part.start = start_of(player, ensemble_.meter);
+            PlayOptions options = playing_;
+            options.drums_from = player.drums_from;
+            options.from = 0;
+            options.to = player.is_bass ? leading : INT64_MAX;
+            if (!layout.needs_whole() && player.section == 0 && playing_.to < INT64_MAX) {
+                options.to = std::min(
+                    options.to, std::max<std::int64_t>(
+                                    1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
+            }
+            cut_excerpt(layout, player.melody.meter, options);
+            PlayReport one;
+            part.block = play_block(player.document.grammar(), player.melody, options, one);
+            add(report_, one);
+            if (!player.is_bass) leading = part.block.length;
+            if (!layout.form.empty()) part.block = in_form(part.block, player.melody, layout.form);
+            if (layout.is_retrograde) reverse(part.block);
+            const std::int64_t bar = player.melody.meter.bar();
+            const std::int64_t length = player.is_bass ? leading : part.block.length;
+            part.period = to_score(player).of((length + bar - 1) / bar * bar);
+            scale_times(part.block, to_score(player));
+            parts_.push_back(std::move(part));
+        }
+    }
+
+    /// Settles how often each part is played within its section.
+    void repeat() {
+        std::map<char, std::int64_t> longest;  // of each section, without those that fill it
+        std::map<char, std::int64_t> common;
+        for (WholePart& part : parts_) {
+            const Layout& layout = part.player->melody.layout;
+            if (layout.loop == Loop::times) part.repeats = layout.times;
+            std::int64_t& end = longest[part.player->section];
+            if (layout.loop == Loop::fill) continue;
+            if (layout.loop == Loop::common && part.period > 0) {
+                std::int64_t& shared = common[part.player->section];
+                shared = shared == 0 ? part.period : std::lcm(shared, part.period);
+                if (shared / ensemble_.meter.bar() > most_score_bars) {
+                    throw ScoreError(
+                        "the loops would end together only after more than 1000000 bars: `loop: fill` ends "
+                        "them with the longest part");
+                }
+                continue;
+            }
+            end = std::max(end, part.repeats > 1 ? part.last() : part.start + part.block.length);
+        }
+        for (WholePart& part : parts_) {
+            const char section = part.player->section;
+            const Loop loop = part.player->melody.layout.loop;
+            if (loop == Loop::common && part.period > 0) {
+                part.repeats = common[section] / part.period;
+                longest[section] = std::max(longest[section], part.last());
+            }
+        }
+        for (WholePart& part : parts_) {
+            const char section = part.player->section;
+            if (part.player->melody.layout.loop != Loop::fill || part.period == 0) continue;
+            if (section == 0 && !ensemble_.form.empty()) {
+                longest[0] = std::max(longest[0], form_length());
+            }
+            part.until = longest[section];
+            if (part.until <= part.start) part.until = part.last();
+            part.repeats = (part.until - part.start + part.period - 1) / part.period;
+        }
+        double notes = 0;
+        for (const WholePart& part : parts_) {
+            notes += static_cast<double>(part.repeats) * static_cast<double>(part.block.notes.size()) *
+                     (part.player->section == 0 ? 1.0 : static_cast<double>(ensemble_.form.size()));
+        }
+        if (notes > static_cast<double>(most_block_notes)) {
+            throw ScoreError(
+                fmt::format("the parts would have {:.0f} notes together, repetitions included; the limit is {}",
+                            notes, most_block_notes));
+        }
+    }
+
+    std::int64_t section_length(char section) const {
+        std::int64_t end = 0;
+        for (const WholePart& part : parts_) {
+            if (part.player->section != section) continue;
+            end =
+                std::max(end, std::min(part.until, part.repeats > 1 ? part.last() : part.start + part.block.length));
+        }
+        const std::int64_t bar = ensemble_.meter.bar();
+        return (end + bar - 1) / bar * bar;
+    }
+
+    std::int64_t form_length() const {
+        std::int64_t length = 0;
+        for (const FormSection& section : ensemble_.form)
+            length += section_length(static_cast<char>('A' + section.letter));
+        return length;
+    }
+
+    void place() {
+        for (WholePart& part : parts_) {
+            if (part.player->section == 0) place(part, 0, Ending::none);
+        }
+        std::int64_t at = 0;
+        for (const FormSection& section : ensemble_.form) {
+            const auto letter = static_cast<char>('A' + section.letter);
+            for (WholePart& part : parts_) {
+                if (part.player->section == letter) place(part, at, section.ending);
+            }
+            at += section_length(letter);
+        }
+    }
+
+    /// Adds all repetitions of a part. @param ending  of the last
+    void place(WholePart& part, std::int64_t at, Ending ending) const {
+        for (std::int64_t i = 0; i < part.repeats; ++i) {
+            const std::int64_t from = part.start + i * part.period;
+            Block block;
+            const bool is_last = i + 1 == part.repeats;
+            if (is_last && ending != Ending::none) {
+                block = part.block;
+                end_on(block, part.player->melody, ending);
+            }
+            for (FormNote one : block.notes.empty() ? part.block.notes : block.notes) {
+                one.note.onset += from;
+                if (one.note.onset >= part.until) continue;
+                one.note.duration = std::min(one.note.duration, part.until - one.note.onset);
+                one.note.onset += at;
+                one.note.voice = static_cast<std::int16_t>(one.note.voice + part.player->first_voice);
+                part.notes.push_back(one);
+            }
+        }
+        const std::int64_t last = part.start + (part.repeats - 1) * part.period + part.block.length;
+        part.end = std::max(part.end, at + std::min(part.until, last));
+    }
+
+    static bool is_drum(const WholePart& part, const FormNote& note) {
+        const Player& player = *part.player;
+        return player.has_drums && note.note.voice >= player.first_voice + player.drums_from;
+    }
+
+    void make_strict(std::size_t i) {
+        std::vector<FormNote> fixed;
+        for (std::size_t before = 0; before < i; ++before) {
+            const std::vector<FormNote>& notes = parts_[before].notes;
+            std::copy_if(notes.begin(), notes.end(), std::back_inserter(fixed),
+                         [&](const FormNote& note) { return !is_drum(parts_[before], note); });
+        }
+        const Melody& melody = parts_[i].player->melody;
+        // Drums make no intervals.
+        std::vector<FormNote>& notes = parts_[i].notes;
+        const auto first = std::stable_partition(notes.begin(), notes.end(),
+                                                 [&](const FormNote& note) { return !is_drum(parts_[i], note); });
+        const std::vector<FormNote> drums(first, notes.end());
+        notes.erase(first, notes.end());
+        const CounterpointReport one = sikku::make_strict(fixed, notes, melody, ensemble_.meter);
+        notes.insert(notes.end(), drums.begin(), drums.end());
+        report_.counterpoint.moved += one.moved;
+        report_.counterpoint.left += one.left;
+        report_.is_strict = true;
+    }
+
+    void write(const WholePart& part, NoteSink& sink) {
+        std::vector<Note> notes;
+        for (const FormNote& one : part.notes) {
+            Note note = one.note;
+            const std::int64_t from = std::max(note.onset, playing_.from);
+            const std::int64_t to = std::min(note.onset + note.duration, playing_.to);
+            if (from >= to) continue;
+            note.onset = from - playing_.from;
+            note.duration = to - from;
+            if (!is_drum(part, one)) {
+                report_.lowest = std::min(report_.lowest, note.key);
+                report_.highest = std::max(report_.highest, note.key);
+            }
+            notes.push_back(note);
+        }
+        std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
+            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
+        });
+        report_.notes += notes.size();
+        constexpr std::size_t at_once = 1024;
+        for (std::size_t i = 0; i < notes.size(); i += at_once) {
+            sink.notes(std::span(notes).subspan(i, std::min(at_once, notes.size() - i)));
+        }
+    }
+
+    const Ensemble& ensemble_;
+    const PlayOptions& playing_;
+    std::vector<WholePart> parts_;
+    EnsembleReport report_;
+};
+
+/// Explains why there are no notes. @throws ScoreError always
+[[noreturn]] void refuse_silence(const Ensemble& ensemble, const PlayOptions& playing, const PlayReport& all) {
+    if (playing.from > 0 && all.past) {
+        Integer ticks = 0;
+        for (const Player& player : ensemble.players) {
+            const auto known = census(player.document.grammar(), player.melody);
+            if (!known || player.melody.layout.needs_whole()) {
+                throw ScoreError("the requested bars contain no notes: the melody ends before them");
+            }
+            ticks = std::max(ticks, known->ticks);
+        }
+        throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
+                                     bars_of(ticks, ensemble.meter).str()));
+    }
+    throw ScoreError(
+        fmt::format("the {} no notes{}",
+                    playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains",
+                    reason_of_silence(ensemble.players.front().melody, all.lost)));
+}
+
+}  // namespace
+
+std::int64_t start_of(const Player& player, const Meter& meter) {
+    return std::llround(player.melody.layout.start * static_cast<double>(meter.bar()));
+}
+
+PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOptions& playing) {
+    const Layout& layout = player.melody.layout;
+    const std::int64_t start = start_of(player, meter);
+    PlayOptions options = playing;
+    options.from = std::max<std::int64_t>(0, playing.from - start);
+    if (playing.to <= start) {
+        options.to = options.from;
+        return options;
+    }
+    if (options.to < INT64_MAX) options.to -= start;
+    if (!layout.tempo.is_one()) {
+        options.from = layout.tempo.of(options.from);
+        if (options.to < INT64_MAX) options.to = layout.tempo.of(options.to);
+    }
+    cut_excerpt(layout, player.melody.meter, options);
+    return options;
+}
+
+bool Ensemble::needs_whole() const {
+    return !form.empty() || std::any_of(players.begin(), players.end(),
+                                        [](const Player& player) { return player.melody.layout.needs_whole(); });
+}
+
+bool Ensemble::has_expression() const {
+    return std::any_of(players.begin(), players.end(),
+                       [](const Player& player) { return player.melody.expression.any(); });
+}
+
+bool Ensemble::has_bends() const {
+    return std::any_of(players.begin(), players.end(),
+                       [](const Player& player) { return !player.melody.expression.gamakas.empty(); });
+}
+
+bool Ensemble::has_tempo_ratio() const {
+    return std::any_of(players.begin(), players.end(),
+                       [](const Player& player) { return !player.melody.layout.tempo.is_one(); });
+}
+
+PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor) {
+    PlayOptions playing;
+    playing.most_voices = most_voices;
+    playing.budget = options.budget;
+    playing.watch = [monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    const std::int64_t bar = ensemble.meter.bar();
+    Integer from = Integer(options.from_bar - 1) * bar;
+    const Integer farthest = Integer(1) << 60;
+    if (from > farthest) {
+        Integer periods = 1;
+        bool is_plain = !ensemble.has_tempo_ratio() && ensemble.form.empty();
+        for (const Player& player : ensemble.players) {
+            periods = boost::multiprecision::lcm(periods, period(player.melody));
+            is_plain = is_plain && !player.melody.layout.needs_whole();
+        }
+        if (periods > farthest / 4 || !is_plain) {
+            throw SettingError("from-bar", std::to_string(options.from_bar),
+                               "this bar is too far from the beginning for these parts");
+        }
+        playing.ahead = (from - (Integer(1) << 50)) / periods * periods;
+        from -= playing.ahead;
+    }
+    playing.from = from.convert_to<std::int64_t>();
+    if (options.bars > 0) playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
+    if (options.seconds > 0) {
+        const double ticks = options.seconds * ensemble.tempo / 60 * static_cast<double>(ticks_per_quarter);
+        playing.to = std::min(playing.to, playing.from + static_cast<std::int64_t>(std::min(ticks, 4e18)));
+    }
+    return playing;
+}
+
+EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
+    if (ensemble.needs_whole()) return WholeScore(ensemble, playing).play(sink);
+    EnsembleReport all;
+    static_cast<PlayReport&>(all) = stream(ensemble, playing, sink);
+    return all;
+}
+
+EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
+    const EnsembleReport all = play_parts(ensemble, playing, sink);
+    if (all.notes == 0) refuse_silence(ensemble, playing, all);
+    sink.finish(all.end);
+    return all;
+}
+
+}  // namespace sikku

@@ -1,0 +1,54 @@
+// music/ensemble.h: all parts of a score and the order in which they are played.
+#pragma once
+
+#include "music/form/counterpoint.h"
+#include "music/melody/layout.h"
+#include "music/players.h"
+
+#include <vector>
+
+namespace sikku {
+
+/// The parts of a score, with the tempo and meter that they share.
+struct Ensemble {
+    std::vector<Player> players;
+    std::vector<FormSection> form;  ///< sections of the score; empty: all parts play from the beginning
+    double tempo = 120;             ///< quarters a minute
+    Meter meter;
+    bool has_ritardando = false;
+
+    /// True if parts have to be known to their ends before the first note is played.
+    bool needs_whole() const;
+    /// True if a key of a part makes velocity, tempo, pan or pitch follow the curve.
+    bool has_expression() const;
+    /// True if notes of a part are bent.
+    bool has_bends() const;
+    /// True if a part has a tempo of its own.
+    bool has_tempo_ratio() const;
+};
+
+/// What playing all parts reports.
+struct EnsembleReport : PlayReport {
+    CounterpointReport counterpoint;
+    bool is_strict = false;  ///< some part is
+    double seconds = 0;      ///< with all changes of tempo; 0: unknown
+};
+
+/// The piece that is wanted, in ticks. @throws SettingError
+PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);
+
+/// Tick of the score at which a part begins.
+std::int64_t start_of(const Player& player, const Meter& meter);
+
+/// The piece of the score in ticks of a part. If `from` is not below `to`, the part is silent there.
+PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOptions& playing);
+
+/// Plays all parts into `sink`, as play_all(), but silence is no error, and finish() is not called.
+EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink);
+
+/// Plays all parts into `sink`. Parts that are reversed, looped, strict, in a form or in sections are held in memory,
+/// with at most 4,000,000 notes together; others are passed on as they are read.
+/// @throws ScoreError if there are no notes, or too many; as play()
+EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink);
+
+}  // namespace sikku

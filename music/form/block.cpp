@@ -1,0 +1,158 @@
+#include "music/form/block.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t notes_of_ending = 3;
+
+class BlockSink : public NoteSink {
+public:
+    BlockSink(Block& block, const std::vector<std::int64_t>& degrees) : block_(block), degrees_(degrees) {}
+    void notes(std::span<const Note> notes) override {
+        if (notes.size() > most_block_notes - block_.notes.size()) {
+            throw ScoreError(fmt::format(
+                "reversed, repeated and strict parts have at most {} notes; `excerpt` or a smaller n has fewer",
+                most_block_notes));
+        }
+        for (const Note& note : notes) {
+            const std::int64_t degree = degrees_[block_.notes.size()];
+            const bool has_degree = degree != PlayOptions::no_degree;
+            block_.notes.push_back({note, has_degree ? degree : 0, has_degree});
+        }
+    }
+    void finish(std::int64_t end) override { block_.length = end; }
+
+private:
+    Block& block_;
+    const std::vector<std::int64_t>& degrees_;
+};
+
+void sort(std::vector<FormNote>& notes) {
+    std::stable_sort(notes.begin(), notes.end(), [](const FormNote& a, const FormNote& b) {
+        return std::tie(a.note.onset, a.note.voice) < std::tie(b.note.onset, b.note.voice);
+    });
+}
+
+/// The degree nearest to a just fifth above the tonic.
+std::int64_t fifth_of(const Scale& scale) {
+    std::int64_t best = 0;
+    for (std::int64_t degree = 0; degree < static_cast<std::int64_t>(scale.size()); ++degree) {
+        const auto distance = [&](std::int64_t one) { return std::fabs(scale.cents(one, true) - 702); };
+        if (distance(degree) < distance(best)) best = degree;
+    }
+    return best;
+}
+
+/// What the notes of `block` from `begin` to `end` are, beginning at tick 0.
+Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
+    Block piece;
+    piece.length = end - begin;
+    for (FormNote one : block.notes) {
+        const std::int64_t from = std::max(one.note.onset, begin);
+        const std::int64_t to = std::min(one.note.onset + one.note.duration, end);
+        if (from >= to) continue;
+        one.note.onset = from - begin;
+        one.note.duration = to - from;
+        piece.notes.push_back(one);
+    }
+    return piece;
+}
+
+}  // namespace
+
+Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report) {
+    Block block;
+    std::vector<std::int64_t> degrees;
+    PlayOptions recording = options;
+    recording.degrees = &degrees;
+    recording.phrase_ends = &block.ends;
+    BlockSink sink(block, degrees);
+    report = play(grammar, melody, sink, recording);
+    sort(block.notes);
+    return block;
+}
+
+void reverse(Block& block) {
+    for (FormNote& one : block.notes) {
+        one.note.onset = block.length - one.note.onset - one.note.duration;
+        std::swap(one.note.from, one.note.to);
+    }
+    sort(block.notes);
+    for (std::int64_t& end : block.ends) end = block.length - end;
+    std::reverse(block.ends.begin(), block.ends.end());
+}
+
+Block in_form(const Block& block, const Melody& melody, const std::vector<FormSection>& form) {
+    std::vector<std::int64_t> borders = {0};
+    for (const std::int64_t end : block.ends) {
+        if (end > borders.back() && end < block.length) borders.push_back(end);
+    }
+    borders.push_back(block.length);
+    Block result;
+    for (const FormSection& section : form) {
+        const auto at = static_cast<std::size_t>(section.letter);
+        if (at + 1 >= borders.size()) {
+            throw ScoreError(fmt::format(
+                "section {} of the form is missing: the curve has {} sub-curve{} of this "
+                "order; a lower order has more: `form: A B order 2`",
+                static_cast<char>('A' + section.letter), borders.size() - 1, borders.size() == 2 ? "" : "s"));
+        }
+        Block piece = cut(block, borders[at], borders[at + 1]);
+        end_on(piece, melody, section.ending);
+        if (piece.notes.size() > most_block_notes - result.notes.size()) {
+            throw ScoreError(fmt::format("the form would have more than {} notes", most_block_notes));
+        }
+        for (FormNote one : piece.notes) {
+            one.note.onset += result.length;
+            result.notes.push_back(one);
+        }
+        result.length += piece.length;
+        result.ends.push_back(result.length);
+    }
+    return result;
+}
+
+void end_on(Block& block, const Melody& melody, Ending ending) {
+    if (ending == Ending::none) return;
+    std::vector<FormNote*> last;  // the last one first
+    for (auto one = block.notes.rbegin(); one != block.notes.rend() && last.size() < notes_of_ending; ++one) {
+        if (one->has_degree && one->note.voice == 0) last.push_back(&*one);
+    }
+    if (last.empty()) return;
+    const auto period = static_cast<std::int64_t>(melody.scale.size());
+    const std::int64_t place = ending == Ending::open ? fifth_of(melody.scale) : 0;
+    std::int64_t above = (last[0]->degree - place) % period;
+    if (above < 0) above += period;
+    const std::int64_t goal = 2 * above <= period ? last[0]->degree - above : last[0]->degree + period - above;
+    const std::int64_t side = last.size() > 1 && last[1]->degree < goal ? -1 : 1;
+    for (std::size_t i = 0; i < last.size(); ++i) {
+        last[i]->degree = goal + side * static_cast<std::int64_t>(i);
+        last[i]->note.key = key_within(melody, last[i]->degree, side > 0);
+    }
+}
+
+void scale_times(Block& block, Ratio by) {
+    if (by.is_one()) return;
+    for (FormNote& one : block.notes) {
+        const std::int64_t end = by.of(one.note.onset + one.note.duration);
+        one.note.onset = by.of(one.note.onset);
+        one.note.duration = std::max<std::int64_t>(1, end - one.note.onset);
+    }
+    for (std::int64_t& end : block.ends) end = by.of(end);
+    block.length = by.of(block.length);
+}
+
+double key_within(const Melody& melody, std::int64_t degree, bool falling) {
+    double key = melody.key(degree, falling).value_or(melody.tonic);
+    if (key > melody.highest) key -= 12 * std::ceil((key - melody.highest) / 12);
+    if (key < melody.lowest) key += 12 * std::ceil((melody.lowest - key) / 12);
+    return std::clamp(key, melody.lowest, melody.highest);
+}
+
+}  // namespace sikku

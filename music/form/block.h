@@ -1,0 +1,51 @@
+// music/form/block.h: a part as a block of notes that can be reversed, put in another order, and repeated.
+#pragma once
+
+#include "music/melody/layout.h"
+#include "music/melody/mapping.h"
+#include "music/melody/melody.h"
+#include "music/score/score.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// A note with its degree above the tonic; notes of drones and chords have none.
+struct FormNote {
+    Note note;
+    std::int64_t degree = 0;
+    bool has_degree = false;
+};
+
+/// Notes of one part from its first tick.
+struct Block {
+    std::vector<FormNote> notes;     ///< by onset, then by voice
+    std::vector<std::int64_t> ends;  ///< ticks at which sub-curves end and the next ones begin, if they are marked
+    std::int64_t length = 0;         ///< ticks, rests included
+};
+
+/// Largest number of notes in all blocks of a score.
+constexpr std::size_t most_block_notes = 4'000'000;
+
+/// Plays a melody into a block. @throws as play(); ScoreError for too many notes
+Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report);
+
+/// Reverses time.
+void reverse(Block& block);
+
+/// Puts sub-curves in the order of the form: A is the first of the curve, B the second.
+/// @throws ScoreError if the curve has fewer
+Block in_form(const Block& block, const Melody& melody, const std::vector<FormSection>& form);
+
+/// Leads the last notes of the first voice by step to the fifth or the tonic; as many as three.
+void end_on(Block& block, const Melody& melody, Ending ending);
+
+/// Multiplies all times.
+void scale_times(Block& block, Ratio by);
+
+/// The MIDI key of a degree, moved by octaves into the range of the melody.
+double key_within(const Melody& melody, std::int64_t degree, bool falling);
+
+}  // namespace sikku

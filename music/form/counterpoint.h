@@ -1,0 +1,31 @@
+// music/form/counterpoint.h: moves notes of a part where they clash with the parts before it.
+#pragma once
+
+#include "music/form/block.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Result of make_strict().
+struct CounterpointReport {
+    std::uint64_t moved = 0;  ///< notes
+    std::uint64_t left = 0;   ///< parallels and dissonances that no move of up to three degrees avoids
+};
+
+/// True for the intervals that are consonant between two voices, in semitones rounded: unisons, thirds, fifths,
+/// sixths and octaves. Fourths are dissonant, as between two voices.
+bool is_consonant(double low, double high);
+
+/// Moves notes of `part` by up to three degrees, so that on the strong beats of `meter` (the beginning of
+/// the bar, and of its groups or its second half)
+/// no voice of it is dissonant with a voice of `fixed`, and no fifths, octaves or unisons follow each other where
+/// both voices move. The voices of `part` follow one another: each heeds those before it. Notes stay where they are
+/// if nothing is wrong with them. Notes without degrees are heeded, and never moved. Cost: O(notes x voices).
+/// @param fixed  by onset; times as in `part`
+CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
+                               const Meter& meter);
+
+}  // namespace sikku

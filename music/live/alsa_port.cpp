@@ -1,0 +1,208 @@
+#include "music/live/ports.h"
+
+#include <alsa/asoundlib.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+
+namespace sikku::live {
+namespace {
+
+constexpr int patience_milliseconds = 1000;
+constexpr std::size_t largest_event = 64;
+
+/// The library reports failures, too.
+void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+
+/// A client of the sequencer.
+class Sequencer {
+public:
+    Sequencer() {
+        snd_lib_error_set_handler(say_nothing);
+        const int error = snd_seq_open(&handle_, "default", SND_SEQ_OPEN_DUPLEX, SND_SEQ_NONBLOCK);
+        if (error < 0) {
+            throw PortError(fmt::format(
+                "the ALSA sequencer cannot be opened: {}; `sudo modprobe snd-seq` may load it", snd_strerror(error)));
+        }
+        snd_seq_set_client_name(handle_, "Sikku");
+    }
+    Sequencer(const Sequencer&) = delete;
+    Sequencer& operator=(const Sequencer&) = delete;
+    ~Sequencer() { snd_seq_close(handle_); }
+    snd_seq_t* get() const { return handle_; }
+
+private:
+    snd_seq_t* handle_ = nullptr;
+};
+
+std::vector<PortInfo> ports_of(snd_seq_t* sequencer) {
+    std::vector<PortInfo> ports;
+    snd_seq_client_info_t* client = nullptr;
+    snd_seq_port_info_t* port = nullptr;
+    if (snd_seq_client_info_malloc(&client) < 0 || snd_seq_port_info_malloc(&port) < 0) throw std::bad_alloc();
+    const int own = snd_seq_client_id(sequencer);
+    snd_seq_client_info_set_client(client, -1);
+    while (snd_seq_query_next_client(sequencer, client) >= 0) {
+        const int number = snd_seq_client_info_get_client(client);
+        if (number == own || number == SND_SEQ_CLIENT_SYSTEM) continue;
+        snd_seq_port_info_set_client(port, number);
+        snd_seq_port_info_set_port(port, -1);
+        while (snd_seq_query_next_port(sequencer, port) >= 0) {
+            const unsigned able = snd_seq_port_info_get_capability(port);
+            const auto can = [able](unsigned all) { return (able & all) == all; };
+            if ((able & SND_SEQ_PORT_CAP_NO_EXPORT) != 0) continue;
+            PortInfo info;
+            info.client = number;
+            info.number = snd_seq_port_info_get_port(port);
+            info.client_name = snd_seq_client_info_get_name(client);
+            info.name = snd_seq_port_info_get_name(port);
+            info.is_output = can(SND_SEQ_PORT_CAP_WRITE | SND_SEQ_PORT_CAP_SUBS_WRITE);
+            info.is_input = can(SND_SEQ_PORT_CAP_READ | SND_SEQ_PORT_CAP_SUBS_READ);
+            if (info.is_output || info.is_input) ports.push_back(std::move(info));
+        }
+    }
+    snd_seq_port_info_free(port);
+    snd_seq_client_info_free(client);
+    return ports;
+}
+
+class AlsaPort final : public Port {
+public:
+    AlsaPort(const std::string& name, bool has_input) : name_(name) {
+        const std::vector<PortInfo> ports = ports_of(handle());
+        other_ = choose_port(ports, name);
+        port_ = check(snd_seq_create_simple_port(
+            handle(), "Music",
+            SND_SEQ_PORT_CAP_READ | SND_SEQ_PORT_CAP_SUBS_READ | SND_SEQ_PORT_CAP_WRITE | SND_SEQ_PORT_CAP_SUBS_WRITE,
+            SND_SEQ_PORT_TYPE_MIDI_GENERIC | SND_SEQ_PORT_TYPE_APPLICATION));
+        check(snd_seq_connect_to(handle(), port_, other_.client, other_.number));
+        // The sequencer announces what ends.
+        check(snd_seq_connect_from(handle(), port_, SND_SEQ_CLIENT_SYSTEM, SND_SEQ_PORT_SYSTEM_ANNOUNCE));
+        if (has_input && other_.is_input) check(snd_seq_connect_from(handle(), port_, other_.client, other_.number));
+        if (snd_midi_event_new(largest_event, &encoder_) < 0) throw std::bad_alloc();
+        snd_midi_event_no_status(encoder_, 1);
+    }
+    AlsaPort(const AlsaPort&) = delete;
+    AlsaPort& operator=(const AlsaPort&) = delete;
+    ~AlsaPort() override { snd_midi_event_free(encoder_); }
+
+    void send(std::span<const Message> messages) override {
+        for (const Message& message : messages) {
+            snd_seq_event_t event;
+            snd_seq_ev_clear(&event);
+            snd_midi_event_reset_encode(encoder_);
+            if (snd_midi_event_encode(encoder_, message.bytes.data(), message.size, &event) < 0) continue;
+            snd_seq_ev_set_source(&event, static_cast<unsigned char>(port_));
+            snd_seq_ev_set_subs(&event);
+            snd_seq_ev_set_direct(&event);
+            for (int error = -EAGAIN; error == -EAGAIN;) {
+                error = snd_seq_event_output_direct(handle(), &event);
+                if (error == -EAGAIN) await_room();
+                if (error < 0 && error != -EAGAIN) fail(snd_strerror(error));
+            }
+        }
+    }
+
+    std::vector<Received> wait(Clock& clock, Nanoseconds time) override {
+        std::vector<Received> received;
+        const Nanoseconds left = std::max<Nanoseconds>(0, time - clock.now());
+        timespec timeout{};
+        timeout.tv_sec = static_cast<time_t>(left / second);
+        timeout.tv_nsec = static_cast<long>(left % second);
+        std::array<pollfd, 4> polled{};
+        const int count = snd_seq_poll_descriptors(handle(), polled.data(), polled.size(), POLLIN);
+        if (snd_seq_event_input_pending(handle(), 0) == 0 &&
+            ppoll(polled.data(), static_cast<nfds_t>(count), &timeout, nullptr) <= 0) {
+            return received;
+        }
+        const Nanoseconds now = clock.now();
+        snd_seq_event_t* event = nullptr;
+        while (snd_seq_event_input(handle(), &event) >= 0) read(*event, now, received);
+        return received;
+    }
+
+private:
+    snd_seq_t* handle() const { return sequencer_.get(); }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw PortError(fmt::format("port '{}': {}", name_, what));
+    }
+    int check(int result) const {
+        if (result < 0) fail(snd_strerror(result));
+        return result;
+    }
+
+    void await_room() const {
+        std::array<pollfd, 4> polled{};
+        const int count = snd_seq_poll_descriptors(handle(), polled.data(), polled.size(), POLLOUT);
+        if (poll(polled.data(), static_cast<nfds_t>(count), patience_milliseconds) == 0) {
+            fail("it takes no messages");
+        }
+    }
+
+    bool is_other(const snd_seq_addr_t& address) const {
+        return address.client == other_.client && address.port == other_.number;
+    }
+
+    void read(const snd_seq_event_t& event, Nanoseconds now, std::vector<Received>& received) const {
+        using Kind = Received::Kind;
+        switch (event.type) {
+            case SND_SEQ_EVENT_CLOCK:
+                received.push_back({now, Kind::clock, 0});
+                break;
+            case SND_SEQ_EVENT_START:
+                received.push_back({now, Kind::start, 0});
+                break;
+            case SND_SEQ_EVENT_CONTINUE:
+                received.push_back({now, Kind::resume, 0});
+                break;
+            case SND_SEQ_EVENT_STOP:
+                received.push_back({now, Kind::stop, 0});
+                break;
+            case SND_SEQ_EVENT_SONGPOS:
+                received.push_back({now, Kind::position, event.data.control.value});
+                break;
+            case SND_SEQ_EVENT_CLIENT_EXIT:
+                if (event.data.addr.client == other_.client) fail("it has vanished");
+                break;
+            case SND_SEQ_EVENT_PORT_EXIT:
+                if (is_other(event.data.addr)) fail("it has vanished");
+                break;
+            case SND_SEQ_EVENT_PORT_UNSUBSCRIBED:
+                if (event.data.connect.sender.port == port_ &&
+                    event.data.connect.sender.client == snd_seq_client_id(handle()) &&
+                    is_other(event.data.connect.dest)) {
+                    fail("it was disconnected");
+                }
+                break;
+            default:
+                break;
+        }
+    }
+
+    Sequencer sequencer_;
+    std::string name_;
+    PortInfo other_;
+    int port_ = -1;
+    snd_midi_event_t* encoder_ = nullptr;
+};
+
+}  // namespace
+
+bool has_alsa() {
+    return true;
+}
+
+std::vector<PortInfo> list_ports() {
+    const Sequencer sequencer;
+    return ports_of(sequencer.get());
+}
+
+std::unique_ptr<Port> open_alsa_port(const std::string& name, bool has_input) {
+    return std::make_unique<AlsaPort>(name, has_input);
+}
+
+}  // namespace sikku::live

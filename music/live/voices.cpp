@@ -1,0 +1,186 @@
+#include "music/live/voices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sikku::live {
+namespace {
+
+constexpr int drums = 9;
+constexpr int centre = 8192;  // of a pitch bend
+constexpr int release = 64;   // velocity of note-offs
+constexpr int all_notes_off = 123;
+constexpr std::uint32_t unset = ~std::uint32_t{0};
+/// Half a cent: see write_midi().
+constexpr double least_fraction = 0.005 + 1e-9;
+
+void controller(int channel, int number, int value, std::vector<Message>& messages) {
+    messages.push_back({0xB0 | channel, number, value});
+}
+
+void parameter(int channel, int number, int value, std::vector<Message>& messages) {
+    controller(channel, 101, 0, messages);
+    controller(channel, 100, number, messages);
+    controller(channel, 6, value, messages);
+    controller(channel, 38, 0, messages);
+}
+
+/// Further data entry changes nothing.
+void no_parameter(int channel, std::vector<Message>& messages) {
+    controller(channel, 101, 127, messages);
+    controller(channel, 100, 127, messages);
+}
+
+Message bend(int channel, int value) {
+    return {0xE0 | channel, value & 0x7F, value >> 7};
+}
+
+}  // namespace
+
+Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
+    : head_(head),
+      midi_(midi),
+      is_mpe_(midi.tuning == Tuning::mpe),
+      bend_range_(is_mpe_ ? mpe_bend_range : midi.bend_range) {
+    for (const Part& part : head.parts) voice_count_ += std::max(part.voices, 0);
+    sounding_.resize(static_cast<std::size_t>(voice_count_));
+    programs_.fill(-1);
+    bends_.fill(centre);
+    if (midi.microtonal && midi.tuning == Tuning::mts) {
+        tuned_.resize(16);
+        for (auto& keys : tuned_) keys.fill(unset);
+    }
+}
+
+bool Voices::is_drum(int voice) const {
+    return head_.parts[static_cast<std::size_t>(part_of(voice))].is_drums;
+}
+
+int Voices::part_of(int voice) const {
+    for (std::size_t i = 0; i < head_.parts.size(); ++i) {
+        voice -= std::max(head_.parts[i].voices, 0);
+        if (voice < 0) return static_cast<int>(i);
+    }
+    return 0;
+}
+
+int Voices::channel_of(int voice) const {
+    if (is_drum(voice)) return drums;
+    const int slot = (midi_.share_channels ? part_of(voice) : voice) % 15;
+    return slot < drums ? slot : slot + 1;
+}
+
+void Voices::prepare(std::vector<Message>& messages) const {
+    if (is_mpe_) {
+        parameter(mpe_master, 6, mpe_members, messages);
+        no_parameter(mpe_master, messages);
+        for (int channel = 0; channel < 16; ++channel) {
+            if (!is_mpe_member(channel)) continue;
+            parameter(channel, 0, mpe_bend_range, messages);
+            no_parameter(channel, messages);
+        }
+        return;
+    }
+    std::array<bool, 16> is_ready{};
+    for (int voice = 0; voice < voice_count_; ++voice) {
+        const int channel = channel_of(voice);
+        if (std::exchange(is_ready[static_cast<std::size_t>(channel)], true)) continue;
+        if (midi_.microtonal && midi_.tuning == Tuning::bend && channel != drums) {
+            parameter(channel, 0, midi_.bend_range, messages);
+            no_parameter(channel, messages);
+        }
+        if (midi_.microtonal && midi_.tuning == Tuning::mts && channel != drums) {
+            parameter(channel, 4, 0, messages);
+            parameter(channel, 3, channel, messages);
+            no_parameter(channel, messages);
+        }
+        messages.push_back({0xC0 | channel, head_.parts[static_cast<std::size_t>(part_of(voice))].program});
+    }
+}
+
+void Voices::tune(int channel, int key, double fraction, std::vector<Message>& messages) {
+    if (channel == drums) return;
+    if (std::fabs(fraction) <= least_fraction) fraction = 0;
+    if (is_mpe_ || (midi_.microtonal && midi_.tuning == Tuning::bend)) {
+        const int value =
+            std::clamp(centre + static_cast<int>(std::lround(fraction * centre / bend_range_)), 0, 16383);
+        int& last = bends_[static_cast<std::size_t>(channel)];
+        if (!is_mpe_ && value == last) return;
+        last = value;
+        messages.push_back(bend(channel, value));
+    } else if (!tuned_.empty()) {
+        const auto value = static_cast<std::uint32_t>(std::lround((key + fraction) * 0x1p14));
+        std::uint32_t& last = tuned_[static_cast<std::size_t>(channel)][static_cast<std::size_t>(key)];
+        if (value == last) return;
+        last = value;
+        const auto seven = [value](int shift) { return static_cast<int>(value >> shift & 0x7F); };
+        messages.push_back({0xF0, 0x7F, 0x7F, 8, 2, channel, 1, key, seven(14), seven(7), seven(0), 0xF7});
+    }
+}
+
+void Voices::begin(const Note& note, std::int64_t tick, std::vector<Message>& messages) {
+    const int voice = note.voice;
+    if (voice < 0 || voice >= voice_count_ || !(note.key >= 0 && note.key <= 127)) return;
+    end(voice, tick, messages);
+    const int key = static_cast<int>(note.key + 0.5);
+    int channel = channel_of(voice);
+    if (is_mpe_ && channel != drums) {
+        channel = mpe_.take(tick, INT64_MAX, key, 0);
+        if (channel < 0) {
+            end(*std::find_if_not(order_.begin(), order_.end(), [this](int one) { return is_drum(one); }), tick,
+                messages);
+            channel = mpe_.take(tick, INT64_MAX, key, 0);
+        }
+        const int program = head_.parts[static_cast<std::size_t>(part_of(voice))].program;
+        int& last = programs_[static_cast<std::size_t>(channel)];
+        if (last != program) messages.push_back({0xC0 | channel, program});
+        last = program;
+    }
+    Key& state = keys_[static_cast<std::size_t>(channel)][static_cast<std::size_t>(key)];
+    sounding_[static_cast<std::size_t>(voice)] = {channel, key, note.key - key};
+    order_.push_back(voice);
+    is_used_[static_cast<std::size_t>(channel)] = true;
+    ++state.notes;
+    // Voices that share a channel strike a key once at a time; a later stroke ends the one before.
+    if (state.notes > 1 && state.since == tick) return;
+    if (state.notes > 1) messages.push_back({0x80 | channel, key, release});
+    state.since = tick;
+    tune(channel, key, note.key - key, messages);
+    messages.push_back({0x90 | channel, key, std::clamp<int>(note.velocity, 1, 127)});
+}
+
+void Voices::control(const ControlPoint& point, std::vector<Message>& messages) {
+    if (is_mpe_ || point.voice < 0 || point.voice >= voice_count_) return;
+    if (point.number != ControlPoint::bend) {
+        const int value = std::clamp(static_cast<int>(std::lround(point.value)), 0, 127);
+        return controller(channel_of(point.voice), point.number, value, messages);
+    }
+    const Sounding& note = sounding_[static_cast<std::size_t>(point.voice)];
+    const bool is_bent = midi_.microtonal && midi_.tuning == Tuning::bend;
+    if (note.channel >= 0 && is_bent) tune(note.channel, note.key, note.fraction + point.value, messages);
+}
+
+void Voices::end(int voice, std::int64_t tick, std::vector<Message>& messages) {
+    if (voice < 0 || voice >= voice_count_) return;
+    Sounding& note = sounding_[static_cast<std::size_t>(voice)];
+    if (note.channel < 0) return;
+    Key& state = keys_[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.key)];
+    if (--state.notes == 0) messages.push_back({0x80 | note.channel, note.key, release});
+    if (is_mpe_ && note.channel != drums) mpe_.release(note.channel, tick);
+    note.channel = -1;
+    order_.erase(std::find(order_.begin(), order_.end(), voice));
+}
+
+void Voices::silence(std::int64_t tick, std::vector<Message>& messages) {
+    while (!order_.empty()) end(order_.front(), tick, messages);
+    for (int channel = 0; channel < 16; ++channel) {
+        if (!is_used_[static_cast<std::size_t>(channel)]) continue;
+        controller(channel, all_notes_off, 0, messages);
+        int& last = bends_[static_cast<std::size_t>(channel)];
+        if (last != centre) messages.push_back(bend(channel, centre));
+        last = centre;
+    }
+}
+
+}  // namespace sikku::live

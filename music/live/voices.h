@@ -1,0 +1,68 @@
+// music/live/voices.h: notes of a score as MIDI messages, in the order of time.
+#pragma once
+
+#include "music/live/message.h"
+#include "music/score/curves.h"
+#include "music/score/midi.h"
+#include "music/score/mpe.h"
+#include "music/score/score.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sikku::live {
+
+/// Knows which notes sound on which channels. Each voice has one note at a time. Messages are the same as in MIDI
+/// files: see write_midi().
+class Voices {
+public:
+    /// @param head  has to outlive this object
+    Voices(const ScoreHead& head, const MidiOptions& midi);
+
+    /// What channels need before the first note: programs, bend ranges, MPE.
+    void prepare(std::vector<Message>& messages) const;
+    /// Begins a note; a note that its voice still has ends.
+    void begin(const Note& note, std::int64_t tick, std::vector<Message>& messages);
+    /// Changes a controller, or bends the note that the voice has, as files do. With MPE there are none.
+    void control(const ControlPoint& point, std::vector<Message>& messages);
+    /// Ends the note of a voice, if it has one.
+    void end(int voice, std::int64_t tick, std::vector<Message>& messages);
+    /// Ends all notes, and again with the message for all notes of a channel; bends return to the centre.
+    void silence(std::int64_t tick, std::vector<Message>& messages);
+
+    /// Number of notes that sound.
+    std::size_t sounding() const { return order_.size(); }
+
+private:
+    struct Sounding {
+        int channel = -1;
+        int key = 0;
+        double fraction = 0;
+    };
+    int part_of(int voice) const;
+    bool is_drum(int voice) const;
+    int channel_of(int voice) const;
+    void tune(int channel, int key, double fraction, std::vector<Message>& messages);
+
+    const ScoreHead& head_;
+    MidiOptions midi_;
+    bool is_mpe_;
+    int bend_range_;
+    int voice_count_ = 0;
+    std::vector<Sounding> sounding_;  // by voice
+    std::vector<int> order_;          // voices that sound, the oldest first
+    struct Key {
+        int notes = 0;
+        std::int64_t since = -1;
+    };
+    std::array<std::array<Key, 128>, 16> keys_{};
+    MpeChannels mpe_;
+    std::array<int, 16> programs_{};
+    std::array<int, 16> bends_{};
+    std::array<bool, 16> is_used_{};
+    std::vector<std::array<std::uint32_t, 128>> tuned_;  // by channel
+};
+
+}  // namespace sikku::live

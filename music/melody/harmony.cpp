@@ -1,0 +1,135 @@
+#include "music/melody/harmony.h"
+
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace sikku {
+namespace {
+
+constexpr std::array<std::string_view, 7> numerals = {"I", "II", "III", "IV", "V", "VI", "VII"};
+constexpr std::array<double, 7> usual_cents = {0, 200, 400, 500, 700, 900, 1100};
+constexpr std::size_t most_chords = 256;
+
+std::int64_t within(std::int64_t degree, std::int64_t size) {
+    return (degree % size + size) % size;
+}
+
+/// The degree above `root` whose interval is nearest to `interval`, within `tolerance` cents.
+std::optional<std::int64_t> degree_at(const Scale& scale, std::int64_t root, double interval, double tolerance) {
+    std::optional<std::int64_t> best;
+    for (std::int64_t degree = root + 1; degree < root + static_cast<std::int64_t>(scale.size()); ++degree) {
+        const double distance = std::fabs(scale.cents(degree, false) - scale.cents(root, false) - interval);
+        if (distance > tolerance) continue;
+        tolerance = distance;
+        best = degree;
+    }
+    return best;
+}
+
+void mark_tones(Chord& chord, const Scale& scale) {
+    const double period = std::fabs(scale.period);
+    chord.is_tone.assign(scale.size(), 0);
+    for (std::size_t degree = 0; degree < scale.size(); ++degree) {
+        for (const double tone : chord.cents) {
+            const double apart = std::remainder(scale.cents(static_cast<std::int64_t>(degree), false) - tone, period);
+            if (std::fabs(apart) < 50) chord.is_tone[degree] = 1;
+        }
+    }
+}
+
+Chord seventh_on(const Scale& scale, std::int64_t root) {
+    Chord chord;
+    const double base = scale.cents(root, false);
+    chord.cents = {base, base + 400, base + 1000, base + 700};
+    mark_tones(chord, scale);
+    return chord;
+}
+
+}  // namespace
+
+bool Chord::has(std::int64_t degree) const {
+    const auto size = static_cast<std::int64_t>(is_tone.size());
+    return is_tone[static_cast<std::size_t>(within(degree, size))] != 0;
+}
+
+std::int64_t Chord::nearest(std::int64_t degree) const {
+    for (std::int64_t by = 0; by <= static_cast<std::int64_t>(is_tone.size()); ++by) {
+        if (has(degree - by)) return degree - by;
+        if (has(degree + by)) return degree + by;
+    }
+    return degree;
+}
+
+Chord triad_on(const Scale& scale, std::int64_t root) {
+    std::vector<std::int64_t> degrees = {root};
+    if (scale.size() == 7) {
+        degrees.push_back(root + 2);
+        degrees.push_back(root + 4);
+    } else {
+        if (const auto third = degree_at(scale, root, 350, 84)) degrees.push_back(*third);
+        if (const auto fifth = degree_at(scale, root, 702, 60)) degrees.push_back(*fifth);
+    }
+    Chord chord;
+    for (const std::int64_t degree : degrees) chord.cents.push_back(scale.cents(degree, false));
+    mark_tones(chord, scale);
+    return chord;
+}
+
+std::vector<Chord> triads_of(const Scale& scale) {
+    const auto size = static_cast<std::int64_t>(scale.size());
+    std::vector<std::int64_t> roots;
+    if (size == 7) {
+        roots = {0, 3, 4, 5, 1, 2, 6};
+    } else {
+        for (std::int64_t root = 0; root < size; ++root) roots.push_back(root);
+    }
+    std::vector<Chord> chords;
+    for (const std::int64_t root : roots) {
+        Chord chord = triad_on(scale, root);
+        if (chord.cents.size() == 3) chords.push_back(std::move(chord));
+    }
+    if (chords.empty()) chords.push_back(triad_on(scale, 0));
+    return chords;
+}
+
+std::vector<Chord> read_progression(std::string_view text, const Scale& scale, std::string& problem) {
+    if (lower_case(text) == "blues") text = "I7-I7-I7-I7-IV7-IV7-I7-I7-V7-IV7-I7-I7";
+    problem = "expected chords from I to VII, one a bar, such as I-IV-V7-I, or blues";
+    std::vector<Chord> chords;
+    for (;;) {
+        const std::size_t end = std::min(text.find('-'), text.size());
+        std::string_view name = text.substr(0, end);
+        const bool is_seventh = name.ends_with('7');
+        if (is_seventh) name.remove_suffix(1);
+        std::string upper(name);
+        for (char& letter : upper) letter = letter == 'i' ? 'I' : letter == 'v' ? 'V' : letter;
+        const auto* found = std::find(numerals.begin(), numerals.end(), upper);
+        if (found == numerals.end()) return {};
+        if (chords.size() == most_chords) {
+            problem = fmt::format("more than {} chords", most_chords);
+            return {};
+        }
+        const auto number = static_cast<std::size_t>(found - numerals.begin());
+        std::int64_t root = static_cast<std::int64_t>(number);
+        if (scale.size() != 7 && number > 0) root = degree_at(scale, 0, usual_cents[number], 1e9).value_or(0);
+        chords.push_back(is_seventh ? seventh_on(scale, root) : triad_on(scale, root));
+        if (end == text.size()) return chords;
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::int64_t drone_degree(const Scale& scale) {
+    for (const double interval : {702.0, 498.0}) {
+        if (const auto degree = degree_at(scale, 0, interval, 50)) return *degree;
+    }
+    return 0;
+}
+
+}  // namespace sikku

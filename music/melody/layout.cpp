@@ -1,0 +1,217 @@
+#include "music/melody/layout.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+constexpr double most_bars = 100'000;
+constexpr std::int64_t most_excerpt_bars = 1'000'000;
+constexpr std::int64_t most_times = 10'000;
+constexpr std::size_t most_sections = 256;
+constexpr std::size_t most_followers = 16;
+
+constexpr std::array<std::string_view, 8> intervals = {"unison", "second", "third",   "fourth",
+                                                       "fifth",  "sixth",  "seventh", "octave"};
+
+std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std::int64_t most) {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_good = error == std::errc() && end == text.data() + text.size() && !text.empty();
+    return is_good && value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+/// `3:2` or `3/2`, or `2`.
+std::optional<Ratio> ratio(std::string_view text) {
+    constexpr std::int64_t most = 64;
+    const std::size_t mark = std::min(text.find_first_of(":/"), text.size());
+    const auto above = whole(trimmed(text.substr(0, mark)), 1, most);
+    const auto below = mark < text.size() ? whole(trimmed(text.substr(mark + 1)), 1, most) : 1;
+    if (!above || !below) return std::nullopt;
+    const std::int64_t common = std::gcd(*above, *below);
+    return Ratio{*above / common, *below / common};
+}
+
+/// Cuts off what comes before the next blank, and the blanks after it.
+std::string_view next_word(std::string_view& text) {
+    text = trimmed(text);
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text = trimmed(text.substr(end));
+    return word;
+}
+
+class LayoutReader {
+public:
+    LayoutReader(const Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+
+    Layout read() {
+        read_key("start", "expected bars of rest, from 0 to 100000", [&](std::string_view text) {
+            return read_number(text, layout_.start) && layout_.start >= 0 && layout_.start <= most_bars;
+        });
+        read_ratio("speed", layout_.tempo,
+                   "expected a ratio to the tempo of the score, such as 3:2, of numbers up to 64");
+        read_ratio("augmentation", layout_.augmentation,
+                   "expected how many times longer notes are, such as 2 or 1/2, of numbers up to 64");
+        read_excerpt();
+        read_flag("retrograde", {"no", "yes"}, layout_.is_retrograde);
+        read_form_key();
+        read_loop();
+        read_key("canon",
+                 "expected bars and an interval for each voice that follows, such as `2 -12`, `1 fifth below` or "
+                 "`2 -12, 4 -24`, for up to 16 voices",
+                 [&](std::string_view text) { return read_canon(text); });
+        read_flag("counterpoint", {"free", "strict"}, layout_.is_strict);
+        return std::move(layout_);
+    }
+
+private:
+    template <class Read>
+    void read_key(std::string_view name, std::string_view expected, Read read) {
+        const Key* key = pattern_.find(name);
+        if (key && !read(key->value.view())) {
+            diagnostics_.error(key->value.empty() ? key->name_at : key->value, std::string(expected));
+        }
+    }
+
+    void read_ratio(std::string_view name, Ratio& value, std::string_view expected) {
+        read_key(name, expected, [&](std::string_view text) {
+            const auto read = ratio(text);
+            if (read) value = *read;
+            return read.has_value();
+        });
+    }
+
+    void read_flag(std::string_view name, std::array<std::string_view, 2> words, bool& value) {
+        read_key(name, fmt::format("expected {} or {}", words[0], words[1]), [&](std::string_view text) {
+            const std::string word = lower_case(text);
+            value = word == words[1];
+            return value || word == words[0];
+        });
+    }
+
+    /// `9-16`, or `9-` for all from there.
+    void read_excerpt() {
+        read_key("excerpt", "expected bars of the melody, such as 1-8, up to 1000000", [&](std::string_view text) {
+            if (lower_case(text) == "all") return true;
+            const std::size_t dash = std::min(text.find('-'), text.size());
+            const auto first = whole(trimmed(text.substr(0, dash)), 1, most_excerpt_bars);
+            const std::string_view after = dash < text.size() ? trimmed(text.substr(dash + 1)) : text;
+            const auto last = after.empty() ? 0 : whole(after, first.value_or(1), most_excerpt_bars);
+            if (!first || !last) return false;
+            layout_.first_bar = *first;
+            layout_.bars = *last == 0 ? 0 : *last - *first + 1;
+            return true;
+        });
+    }
+
+    void read_form_key() {
+        read_key(
+            "form",
+            "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending, "
+            "and perhaps `order 2` after it",
+            [&](std::string_view text) {
+                if (lower_case(text) == "curve") return true;
+                const std::size_t word = lower_case(text).find("order");
+                if (word != std::string::npos) {
+                    const auto order = whole(trimmed(text.substr(word + 5)), 1, 1'000'000);
+                    if (!order) return false;
+                    layout_.form_order = *order;
+                }
+                layout_.form = read_form(trimmed(text.substr(0, word)));
+                return !layout_.form.empty();
+            });
+    }
+
+    void read_loop() {
+        read_key(
+            "loop",
+            fmt::format("expected how often the part is played, from 1 to {}, fill (until the longest part ends) "
+                        "or common (until all loops end together)",
+                        most_times),
+            [&](std::string_view text) {
+                const std::string word = lower_case(text);
+                if (word == "fill" || word == "common") {
+                    layout_.loop = word == "fill" ? Loop::fill : Loop::common;
+                    return true;
+                }
+                const auto times = whole(text, 1, most_times);
+                if (!times) return false;
+                layout_.loop = *times > 1 ? Loop::times : Loop::none;
+                layout_.times = *times;
+                return true;
+            });
+    }
+
+    bool read_canon(std::string_view text) {
+        if (lower_case(text) == "none") return true;
+        for (;;) {
+            const std::size_t comma = std::min(text.find(','), text.size());
+            std::string_view one = text.substr(0, comma);
+            Follower follower;
+            if (!read_number(next_word(one), follower.bars) || !(follower.bars >= 0 && follower.bars <= most_bars))
+                return false;
+            if (!one.empty() && !read_interval(one, follower)) return false;
+            layout_.canon.push_back(follower);
+            if (layout_.canon.size() > most_followers) return false;
+            if (comma == text.size()) return true;
+            text.remove_prefix(comma + 1);
+        }
+    }
+
+    /// `-12`, or `fifth`, `octave below`.
+    static bool read_interval(std::string_view text, Follower& follower) {
+        const std::string word = lower_case(next_word(text));
+        const auto* found = std::find(intervals.begin(), intervals.end(), word);
+        const std::string direction = lower_case(text);
+        if (found != intervals.end()) {
+            const std::int64_t sign = direction == "below" ? -1 : 1;
+            const std::int64_t steps = found - intervals.begin();
+            // Scales have any number of notes; an octave is one in all.
+            follower.semitones = steps == 7 ? 12.0 * static_cast<double>(sign) : 0;
+            follower.degrees = steps == 7 ? 0 : sign * steps;
+            return direction.empty() || direction == "below" || direction == "above";
+        }
+        return direction.empty() && read_number(word, follower.semitones) && std::fabs(follower.semitones) <= 127;
+    }
+
+    const Pattern& pattern_;
+    Diagnostics& diagnostics_;
+    Layout layout_;
+};
+
+}  // namespace
+
+Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics) {
+    return LayoutReader(pattern, diagnostics).read();
+}
+
+std::vector<FormSection> read_form(std::string_view text) {
+    std::vector<FormSection> form;
+    for (const char letter : text) {
+        if (letter == ' ' && !form.empty()) continue;
+        if (letter >= 'A' && letter <= 'Z') {
+            form.push_back({letter - 'A', Ending::none});
+        } else if ((letter == '1' || letter == '2') && !form.empty() && form.back().ending == Ending::none) {
+            form.back().ending = letter == '1' ? Ending::open : Ending::closed;
+        } else {
+            return {};
+        }
+        if (form.size() > most_sections) return {};
+    }
+    return form;
+}
+
+}  // namespace sikku

@@ -1,0 +1,66 @@
+// music/melody/layout.h: how a part lies in its score: where it begins, how fast, how often, in which order, and what
+// follows it in canon.
+#pragma once
+
+#include "engine/language/pattern.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// A ratio of whole numbers above 0.
+struct Ratio {
+    std::int64_t above = 1;
+    std::int64_t below = 1;
+    bool is_one() const { return above == below; }
+    /// `ticks` times the ratio, rounded to the nearest. @param ticks  from 0 to 2^50
+    std::int64_t of(std::int64_t ticks) const { return (2 * ticks * above + below) / (2 * below); }
+};
+
+/// What the last notes of a section lead to by step: nothing, the fifth, or the tonic.
+enum class Ending { none, open, closed };
+
+/// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one.
+struct FormSection {
+    int letter = 0;  ///< 0 is A
+    Ending ending = Ending::none;
+};
+
+/// A voice that repeats a part.
+struct Follower {
+    double bars = 0;           ///< how much later it begins
+    double semitones = 0;      ///< how much higher it is,
+    std::int64_t degrees = 0;  ///< or how many degrees of the scale
+};
+
+/// How often a part is played: once; so many times; until the longest part ends; until all loops end together.
+enum class Loop { none, times, fill, common };
+
+/// Where and how a part is played.
+struct Layout {
+    double start = 0;            ///< bars of the score before it
+    Ratio tempo;                 ///< speed, compared with the score
+    Ratio augmentation;          ///< of all durations
+    std::int64_t first_bar = 1;  ///< of the melody, counted from 1
+    std::int64_t bars = 0;       ///< of the melody; 0: all from the first
+    bool is_retrograde = false;
+    std::vector<FormSection> form;  ///< sub-curves in the order in which they are played; empty: as in the curve
+    std::int64_t form_order = 0;    ///< of the sub-curves
+    Loop loop = Loop::none;
+    std::int64_t times = 1;
+    std::vector<Follower> canon;
+    bool is_strict = false;  ///< notes give way to the parts before: see counterpoint.h
+
+    /// True if notes have to be known to the end before the first one is played.
+    bool needs_whole() const { return is_retrograde || !form.empty() || loop != Loop::none || is_strict; }
+};
+
+/// Reads the keys start, speed, augmentation, excerpt, retrograde, form, loop, canon and counterpoint; mistakes
+/// go to `diagnostics`.
+Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics);
+
+/// Reads `A1 A2 B A2` or `AABA`: up to 26 letters in up to 256 sections. Empty if it is none.
+std::vector<FormSection> read_form(std::string_view text);
+
+}  // namespace sikku

@@ -1,0 +1,141 @@
+#include "music/melody/rhythm_template.h"
+
+#include "engine/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr int most_slots = 256;
+
+struct Tala {
+    std::string_view name;
+    std::string_view groups;
+};
+constexpr std::array<Tala, 7> talas = {{{"adi", "4+2+2"},
+                                        {"rupaka", "2+4"},
+                                        {"misra chapu", "3+2+2"},
+                                        {"khanda chapu", "2+3"},
+                                        {"tintal", "4+4+4+4"},
+                                        {"jhaptal", "2+3+2+3"},
+                                        {"rupak", "3+2+2"}}};
+
+/// Whole numbers between separators; nullopt if there is anything else.
+std::optional<std::vector<int>> numbers(std::string_view text, char separator) {
+    std::vector<int> result;
+    for (;;) {
+        const std::size_t end = std::min(text.find(separator), text.size());
+        std::string_view digits = text.substr(0, end);
+        while (digits.starts_with(' ')) digits.remove_prefix(1);
+        while (digits.ends_with(' ')) digits.remove_suffix(1);
+        int number = 0;
+        const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+        if (error != std::errc() || last != digits.data() + digits.size() || digits.empty()) return std::nullopt;
+        result.push_back(number);
+        if (end == text.size()) return result;
+        text.remove_prefix(end + 1);
+    }
+}
+
+/// Bjorklund's distribution: the remainder is dealt out until at most one is left.
+std::string euclidean(int notes, int slots) {
+    std::vector<std::string> front(static_cast<std::size_t>(notes), "x");
+    std::vector<std::string> rest(static_cast<std::size_t>(slots - notes), ".");
+    while (rest.size() > 1) {
+        const std::size_t dealt = std::min(front.size(), rest.size());
+        std::vector<std::string> left(front.begin() + static_cast<std::ptrdiff_t>(dealt), front.end());
+        if (left.empty()) left.assign(rest.begin() + static_cast<std::ptrdiff_t>(dealt), rest.end());
+        front.resize(dealt);
+        for (std::size_t i = 0; i < dealt; ++i) front[i] += rest[i];
+        rest = std::move(left);
+    }
+    std::string text;
+    for (const std::string& part : front) text += part;
+    for (const std::string& part : rest) text += part;
+    return text;
+}
+
+/// @param text  of x, X, . and ~ only
+RhythmTemplate from_slots(std::string_view text) {
+    RhythmTemplate result;
+    bool sounds = false;
+    for (const char slot : text) {
+        if (slot == 'x' || slot == 'X') {
+            result.hits.push_back({result.slots, 1, slot == 'X'});
+            sounds = true;
+        } else if (slot == '~') {
+            sounds = false;
+        } else if (sounds) {
+            ++result.hits.back().length;
+        }
+        ++result.slots;
+    }
+    return result;
+}
+
+RhythmTemplate from_groups(const std::vector<int>& groups) {
+    std::string text;
+    for (const int group : groups)
+        text += (text.empty() ? 'X' : 'x') + std::string(static_cast<std::size_t>(group - 1), '.');
+    return from_slots(text);
+}
+
+}  // namespace
+
+RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem) {
+    problem =
+        "expected a template such as x..x..x., a Euclidean rhythm such as E(3,8), groups such as 4+2+2, or a "
+        "tala: adi, rupaka, misra chapu, khanda chapu, tintal, jhaptal, rupak";
+    const std::string lower = lower_case(text);
+    for (const Tala& tala : talas) {
+        if (lower == tala.name) return from_groups(*numbers(tala.groups, '+'));
+    }
+    if (lower.starts_with("e(") && lower.ends_with(')')) {
+        const auto terms = numbers(std::string_view(lower).substr(2, lower.size() - 3), ',');
+        if (!terms || terms->size() < 2 || terms->size() > 3) return {};
+        const int notes = (*terms)[0];
+        const int slots = (*terms)[1];
+        if (notes < 1 || slots < notes || slots > most_slots) {
+            problem = fmt::format("expected 1 to {0} notes in up to {0} slots", most_slots);
+            return {};
+        }
+        std::string slots_text = euclidean(notes, slots);
+        const int by = terms->size() == 3 ? ((*terms)[2] % slots + slots) % slots : 0;
+        std::rotate(slots_text.begin(), slots_text.begin() + by, slots_text.end());
+        // A cycle begins with a note: what comes before it sounds on from the cycle before.
+        std::rotate(slots_text.begin(), slots_text.begin() + static_cast<std::ptrdiff_t>(slots_text.find('x')),
+                    slots_text.end());
+        return from_slots(slots_text);
+    }
+    if (const auto groups = numbers(lower, '+')) {
+        int sum = 0;
+        for (const int group : *groups) {
+            if (group < 1 || group > most_slots || (sum += group) > most_slots) {
+                problem = fmt::format("groups of a tala have 1 to {0} beats, {0} together", most_slots);
+                return {};
+            }
+        }
+        if (groups->size() < 2) return {};
+        return from_groups(*groups);
+    }
+    std::string slots;
+    for (const char slot : text) {
+        if (slot == ' ' || slot == '|') continue;
+        if (slot != 'x' && slot != 'X' && slot != '.' && slot != '~') return {};
+        slots += slot;
+    }
+    if (slots.empty() || (slots[0] != 'x' && slots[0] != 'X') || slots.size() > most_slots) {
+        problem = fmt::format("a template begins with x or X and has up to {} slots", most_slots);
+        return {};
+    }
+    return from_slots(slots);
+}
+
+}  // namespace sikku

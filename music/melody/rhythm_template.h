@@ -1,0 +1,43 @@
+// music/melody/rhythm_template.h: rhythms laid over the steps of a curve.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// Onsets in a cycle of equal slots. The steps of a curve take them in turn, again and again.
+struct RhythmTemplate {
+    struct Hit {
+        std::int64_t onset = 0;   ///< slots from the beginning of the cycle
+        std::int64_t length = 1;  ///< slots that sound: up to the next hit, or to the rest before it
+        bool is_accented = false;
+    };
+    std::vector<Hit> hits;  ///< by onset, the first at 0; none: every step lasts a slot
+    std::int64_t slots = 0;
+
+    bool empty() const { return hits.empty(); }
+    /// The slot in which step `index`, counted from 0, begins.
+    std::int64_t onset(std::int64_t index) const {
+        const auto count = static_cast<std::int64_t>(hits.size());
+        return index / count * slots + hits[static_cast<std::size_t>(index % count)].onset;
+    }
+    /// The slot in which what ends with step `index` - 1 ends.
+    std::int64_t end(std::int64_t index) const {
+        if (index <= 0) return 0;
+        const Hit& last = hits[static_cast<std::size_t>((index - 1) % static_cast<std::int64_t>(hits.size()))];
+        return onset(index - 1) + last.length;
+    }
+    const Hit& hit(std::int64_t index) const { return hits[static_cast<std::size_t>(index) % hits.size()]; }
+};
+
+/// Reads `x..x..x.` (x a note, X an accented one, . holds it, ~ is silent; blanks and | do not count), `E(3,8)` or
+/// `E(3,8,2)` (Bjorklund's distribution of 3 notes over 8 slots, rotated by 2), the groups of a tala such as `4+2+2`,
+/// or a tala's name; a tala has a note for each group, the first accented.
+/// @param problem  what is wrong, if the result is empty
+/// Source: Toussaint 2005 for E(k,n).
+RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem);
+
+}  // namespace sikku

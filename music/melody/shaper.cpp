@@ -1,0 +1,190 @@
+#include "music/melody/shaper.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sikku::mapping {
+namespace {
+
+constexpr std::size_t notes_of_cadence = 3;
+
+/// The degree nearest to a just fifth.
+std::int64_t fifth_of(const Scale& scale) {
+    std::int64_t best = 0;
+    double least = 1e9;
+    for (std::int64_t degree = 0; degree < static_cast<std::int64_t>(scale.size()); ++degree) {
+        const double distance = std::fabs(scale.cents(degree, true) - 702);
+        if (distance >= least) continue;
+        least = distance;
+        best = degree;
+    }
+    return best;
+}
+
+/// The member of `place` + whole periods that is nearest to `degree`; of two, the lower.
+std::int64_t nearest_in(std::int64_t degree, std::int64_t place, std::int64_t period) {
+    std::int64_t above = (degree - place) % period;
+    if (above < 0) above += period;
+    return 2 * above <= period ? degree - above : degree + (period - above);
+}
+
+}  // namespace
+
+Shaper::Shaper(const Melody& melody)
+    : melody_(melody), held_(melody.cadence == Cadence::none ? 1 : notes_of_cadence), fifth_(fifth_of(melody.scale)) {
+    if (melody.harmony == Harmony::triads) triads_ = triads_of(melody.scale);
+}
+
+void Shaper::add(int voice, Draft note) {
+    const auto at = static_cast<std::size_t>(voice);
+    if (at >= pending_.size()) pending_.resize(at + 1);
+    note.voice = voice;
+    pending_[at].push_back(note);
+    if (pending_[at].size() <= held_) return;
+    release(pending_[at].front());
+    pending_[at].erase(pending_[at].begin());
+}
+
+void Shaper::end_phrase(int voice, bool is_odd) {
+    const auto at = static_cast<std::size_t>(voice);
+    if (at >= pending_.size()) return;
+    auto& notes = pending_[at];
+    if (notes.empty()) return;
+    cadence(notes, is_odd);
+    notes.back().is_last = true;
+    for (const Draft& note : notes) release(note);
+    notes.clear();
+}
+
+void Shaper::finish(bool is_end) {
+    if (is_end && melody_.cadence != Cadence::none) {
+        for (const auto& notes : pending_) {
+            if (notes.empty()) continue;
+            last_bar_ = std::max(last_bar_, notes.back().onset / melody_.meter.bar() * melody_.meter.bar());
+        }
+    }
+    for (std::size_t voice = 0; voice < pending_.size(); ++voice) {
+        // The last phrase closes, whatever its number.
+        if (is_end) end_phrase(static_cast<int>(voice), true);
+        for (const Draft& note : pending_[voice]) release(note);
+        pending_[voice].clear();
+    }
+    close_bar();
+}
+
+std::int64_t Shaper::first_pending() const {
+    std::int64_t first = bar_.empty() ? INT64_MAX : bar_.front().onset;
+    for (const auto& notes : pending_) {
+        if (!notes.empty()) first = std::min(first, notes.front().onset);
+    }
+    return first;
+}
+
+std::span<const Shaper::Draft> Shaper::take() {
+    taken_.swap(ready_);
+    ready_.clear();
+    return taken_;
+}
+
+/// The last note becomes the goal, those before it approach it by step from their side.
+void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
+    if (melody_.cadence == Cadence::none) return;
+    const bool is_open = melody_.cadence == Cadence::alternate && !is_odd;
+    const auto period = static_cast<std::int64_t>(melody_.scale.size());
+    const std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
+    const bool from_above = notes.front().degree >= goal;
+    std::int64_t distance = static_cast<std::int64_t>(notes.size()) - 1;
+    for (Draft& note : notes) {
+        if (note.is_fixed()) {
+            --distance;
+            continue;
+        }
+        const std::int64_t farthest = goal + (from_above ? distance : -distance);
+        if (distance <= 1) {
+            note.degree = farthest;
+        } else {
+            note.degree = std::clamp(note.degree, std::min(goal, farthest), std::max(goal, farthest));
+        }
+        --distance;
+    }
+}
+
+const Chord* Shaper::given_chord(std::int64_t tick) const {
+    if (melody_.progression.empty()) return nullptr;
+    if (last_bar_ >= 0 && tick >= last_bar_) return &melody_.progression.front();
+    const auto bar = static_cast<std::uint64_t>(tick / melody_.meter.bar());
+    return &melody_.progression[bar % melody_.progression.size()];
+}
+
+/// The first beat, and the middle of a bar of an even number of beats.
+bool Shaper::is_strong(const Draft& note) const {
+    const std::int64_t bar = melody_.meter.bar();
+    const std::int64_t within = note.onset % bar;
+    return within == 0 || (melody_.meter.beats % 2 == 0 && 2 * within == bar);
+}
+
+void Shaper::release(Draft note) {
+    if (!melody_.has_chords()) return perform(note);
+    harmonise(note);
+}
+
+void Shaper::harmonise(Draft note) {
+    if (const Chord* chord = given_chord(note.onset)) {
+        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = chord->nearest(note.degree);
+        return perform(note);
+    }
+    if (note.voice != 0) return perform(note);
+    const std::int64_t bar = melody_.meter.bar();
+    if (!bar_.empty() && bar_.front().onset / bar != note.onset / bar) close_bar();
+    bar_.push_back(note);
+}
+
+/// Chooses the triad with which the most sounds, its beginnings on strong beats twice.
+void Shaper::close_bar() {
+    if (bar_.empty()) return;
+    const Chord* best = nullptr;
+    std::int64_t most = -1;
+    for (const Chord& chord : triads_) {
+        std::int64_t sounding = 0;
+        for (const Draft& note : bar_) {
+            const std::int64_t weight = is_strong(note) || note.is_last ? 2 : 1;
+            if (!note.is_drum && chord.has(note.degree)) sounding += weight * (note.end - note.onset);
+        }
+        if (sounding <= most) continue;
+        most = sounding;
+        best = &chord;
+    }
+    const std::int64_t bar = melody_.meter.bar();
+    chords_.push_back({bar_.front().onset / bar * bar, best});
+    for (Draft& note : bar_) {
+        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = best->nearest(note.degree);
+        perform(note);
+    }
+    bar_.clear();
+}
+
+void Shaper::perform(Draft note) {
+    if (!note.is_last && !note.is_drum && melody_.articulation != Articulation::legato) {
+        double share = melody_.sounding;
+        if (melody_.articulation == Articulation::by_depth) share = std::max(0.25, 1 - 0.15 * note.depth);
+        note.end =
+            note.onset + std::max<std::int64_t>(1, std::llround(static_cast<double>(note.end - note.onset) * share));
+    }
+    if (melody_.swing != 0.5) {
+        note.onset = swung(note.onset);
+        note.end = swung(note.end);
+    }
+    ready_.push_back(note);
+}
+
+std::int64_t Shaper::swung(std::int64_t tick) const {
+    const std::int64_t unit = melody_.swing_unit;
+    const std::int64_t within = tick % (2 * unit);
+    const double first = melody_.swing * 2 * static_cast<double>(unit);
+    const double moved = within <= unit ? first * static_cast<double>(within) / static_cast<double>(unit)
+                                        : first + (2 * static_cast<double>(unit) - first) *
+                                                      static_cast<double>(within - unit) / static_cast<double>(unit);
+    return tick - within + std::llround(moved);
+}
+
+}  // namespace sikku::mapping

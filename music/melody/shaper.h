@@ -1,0 +1,77 @@
+// music/melody/shaper.h: shapes the notes of a melody between the curve and the scale: cadences, articulation, swing.
+#pragma once
+
+#include "music/melody/melody.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sikku::mapping {
+
+/// Holds back the last notes of each voice until it is known whether they end a phrase. What becomes of a note
+/// depends only on its time and on the notes around it, so that a piece from the middle sounds as in the whole.
+class Shaper {
+public:
+    /// A note without a key of its own. Not a number.
+    static constexpr double by_degree = std::numeric_limits<double>::quiet_NaN();
+    struct Draft {
+        std::int64_t degree = 0;
+        std::int64_t onset = 0;
+        std::int64_t end = 0;
+        int velocity = 80;
+        int depth = 0;  ///< brackets around it
+        glm::dvec2 from{0.0};
+        glm::dvec2 to{0.0};
+        std::uint64_t symbol = 0;
+        int voice = 0;
+        bool is_last = false;    ///< of its phrase
+        double key = by_degree;  ///< of notes that cadences and chords leave as they are; else by_degree
+        bool is_drum = false;
+        bool is_fixed() const { return key == key; }
+    };
+
+    explicit Shaper(const Melody& melody);
+    void add(int voice, Draft note);
+    void end_phrase(int voice, bool is_odd);
+    /// No notes follow. @param is_end  the melody ends here, and with it a phrase
+    void finish(bool is_end);
+    /// Onset of the first note that is held back; INT64_MAX if there is none.
+    std::int64_t first_pending() const;
+    /// A chord of a bar that is complete.
+    struct BarChord {
+        std::int64_t begin = 0;  ///< tick
+        const Chord* chord = nullptr;
+    };
+    std::vector<BarChord> take_chords() { return std::exchange(chords_, {}); }
+    /// The given chord of the bar with that tick; null if chords are not given.
+    const Chord* given_chord(std::int64_t tick) const;
+    /// The notes that are ready, by voice in order. Valid until the next call.
+    std::span<const Draft> take();
+
+private:
+    void cadence(std::vector<Draft>& notes, bool is_odd) const;
+    void release(Draft note);
+    void harmonise(Draft note);
+    void close_bar();
+    void perform(Draft note);
+    bool is_strong(const Draft& note) const;
+    std::int64_t swung(std::int64_t tick) const;
+
+    const Melody& melody_;
+    std::size_t held_;                         // notes of a voice that are held back
+    std::int64_t fifth_;                       // degrees from the tonic to the fifth
+    std::vector<std::vector<Draft>> pending_;  // by voice
+    std::vector<Chord> triads_;
+    std::vector<Draft> bar_;  // of the first voice, until its chord is known
+    std::vector<BarChord> chords_;
+    std::int64_t last_bar_ = -1;  // its tick, once the melody has ended
+    std::vector<Draft> ready_;
+    std::vector<Draft> taken_;
+};
+
+}  // namespace sikku::mapping

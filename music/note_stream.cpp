@@ -1,0 +1,317 @@
+#include "music/note_stream.h"
+
+#include "music/ensemble.h"
+#include "music/form/block.h"
+#include "music/humaniser.h"
+#include "music/performance.h"
+#include "music/players.h"
+#include "music/score/music_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t least_span = 16 * ticks_per_quarter;
+
+bool is_earlier(const Note& a, const Note& b) {
+    return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
+}
+
+/// Only counts.
+class Nobody : public NoteSink {
+public:
+    void notes(std::span<const Note>) override {}
+    void finish(std::int64_t) override {}
+};
+
+class Stream : public NoteStream {
+public:
+    Stream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
+        : score_(std::move(score)), ensemble_(std::move(ensemble)), playing_(playing) {}
+    const ScoreHead& head() const override { return score_.head; }
+    const MidiOptions& midi() const override { return score_.midi; }
+
+protected:
+    EnsembleReport play_into(NoteSink& sink, const PlayOptions& playing) const {
+        if (score_.humanise == 0) return play_parts(ensemble_, playing, sink);
+        Humaniser human(sink, score_.humanise, score_.seed, playing.from);
+        return play_parts(ensemble_, playing, human);
+    }
+    /// @throws ScoreError with the reason
+    void refuse_silence() const {
+        Nobody nobody;
+        play_all(ensemble_, playing_, nobody);
+    }
+
+    StreamedScore score_;
+    Ensemble ensemble_;
+    PlayOptions playing_;
+};
+
+/// All notes in memory.
+class WholeStream final : public Stream {
+public:
+    WholeStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
+        : Stream(std::move(score), std::move(ensemble), playing) {
+        NoteCollector collector(most_block_notes);
+        if (ensemble_.has_expression()) {
+            Humaniser human(collector, score_.humanise, score_.seed, playing.from);
+            NoteSink& sink = score_.humanise > 0 ? static_cast<NoteSink&>(human) : collector;
+            PerformanceSink performance(sink, ensemble_, playing_, false);
+            end_ = play_all(ensemble_, playing_, performance).end;
+            curves_ = performance.curves();
+        } else {
+            end_ = play_into(collector, playing).end;
+        }
+        notes_ = collector.notes();
+        if (notes_.empty()) refuse_silence();
+        std::stable_sort(notes_.begin(), notes_.end(), is_earlier);
+    }
+
+    const Curves& curves() const override { return curves_; }
+    void seek(std::int64_t tick) override { at_ = tick; }
+
+    NoteWindow next() override {
+        NoteWindow window;
+        window.from = at_;
+        window.end = end_;
+        window.is_last = end_ - at_ <= least_span;
+        window.to = window.is_last ? std::max(at_, end_) : at_ + least_span;
+        const auto before = [](const Note& note, std::int64_t tick) { return note.onset < tick; };
+        const auto first = std::lower_bound(notes_.begin(), notes_.end(), window.from, before);
+        const auto last = window.is_last ? notes_.end() : std::lower_bound(first, notes_.end(), window.to, before);
+        window.notes.assign(first, last);
+        at_ = window.is_last ? 0 : window.to;
+        return window;
+    }
+
+private:
+    std::vector<Note> notes_;
+    Curves curves_;
+    std::int64_t end_ = 0;
+    std::int64_t at_ = 0;
+};
+
+/// Keeps the notes of one window, and the ends of notes that were not known before.
+class WindowSink : public NoteSink {
+public:
+    /// @param open         of each voice: whether its last note has no known end
+    /// @param begin        tick of the first note that may come
+    /// @param known_until  ends from here on were not known before
+    /// @param until        tick after which nothing is known; INT64_MAX if the score ends there
+    WindowSink(NoteWindow& window, std::vector<char> open, std::int64_t begin, std::int64_t known_until,
+               std::int64_t until)
+        : window_(window), open_(std::move(open)), begin_(begin), known_until_(known_until), until_(until) {}
+
+    void notes(std::span<const Note> notes) override {
+        for (Note note : notes) {
+            note.onset += begin_;
+            if (note.onset >= window_.to) continue;
+            const auto voice = static_cast<std::size_t>(note.voice);
+            if (voice >= still_open_.size()) still_open_.resize(voice + 1, 0);
+            if (voice >= open_.size()) open_.resize(voice + 1, 0);
+            const std::int64_t end = note.onset + note.duration;
+            if (note.onset < window_.from) {
+                if (open_[voice] == 0 || end < known_until_) continue;
+                open_[voice] = 0;
+                if (end < until_) {
+                    window_.ends.push_back({end, note.voice});
+                } else {
+                    still_open_[voice] = 1;
+                }
+                continue;
+            }
+            if (end >= until_) {
+                note.duration = 0;
+                still_open_[voice] = 1;
+            }
+            if (window_.notes.size() >= most_block_notes) {
+                throw ScoreError(
+                    fmt::format("more than {} notes in a few bars do not fit into memory", most_block_notes));
+            }
+            window_.notes.push_back(note);
+        }
+    }
+    void finish(std::int64_t) override {}
+
+    /// Sorts what was kept. @return voices whose last note has no known end
+    std::vector<char> complete() {
+        // A note that did not come again ends where it was last seen.
+        for (std::size_t voice = 0; voice < open_.size(); ++voice) {
+            if (open_[voice] != 0) window_.ends.push_back({window_.from, static_cast<std::int16_t>(voice)});
+        }
+        std::stable_sort(window_.notes.begin(), window_.notes.end(), is_earlier);
+        std::sort(window_.ends.begin(), window_.ends.end(), [](const NoteWindow::End& a, const NoteWindow::End& b) {
+            return std::tie(a.tick, a.voice) < std::tie(b.tick, b.voice);
+        });
+        return std::move(still_open_);
+    }
+
+private:
+    NoteWindow& window_;
+    std::vector<char> open_;
+    std::int64_t begin_;
+    std::int64_t known_until_;
+    std::int64_t until_;
+    std::vector<char> still_open_;
+};
+
+/// Plays one window at a time. It is read a little before and after, so that what leads up to it is known, and where
+/// its notes end.
+class WindowStream final : public Stream {
+public:
+    WindowStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing, std::int64_t grid)
+        : Stream(std::move(score), std::move(ensemble), playing), grid_(grid) {
+        for (const Player& player : ensemble_.players) {
+            const Ratio tempo = player.melody.layout.tempo;
+            lead_ = std::max(lead_, 2 * Ratio{tempo.below, tempo.above}.of(player.melody.meter.bar()));
+        }
+        const auto on_grid = [grid](std::int64_t ticks) { return (ticks + grid - 1) / grid * grid; };
+        span_ = on_grid(least_span);
+        after_ = on_grid(std::max(2 * ensemble_.meter.bar(), lead_));
+    }
+
+    void seek(std::int64_t tick) override {
+        at_ = tick;
+        open_.clear();
+        is_silent_ = tick == 0;
+        end_ = tick;
+    }
+
+    NoteWindow next() override {
+        NoteWindow window;
+        window.from = at_;
+        window.to = (at_ / span_ + 1) * span_;
+        const std::int64_t begin = std::max<std::int64_t>(0, at_ - lead_) / grid_ * grid_;
+        PlayOptions options = playing_;
+        options.from = playing_.from + begin;
+        options.to = std::min(playing_.to, playing_.from + window.to + after_);
+        const std::int64_t until = options.to - playing_.from;
+        const bool is_cut = options.to == playing_.to;
+        WindowSink sink(window, std::move(open_), begin, known_until_, is_cut ? INT64_MAX : until);
+        EnsembleReport report;
+        if (options.from < options.to) report = play_into(sink, options);
+        open_ = sink.complete();
+        known_until_ = until;
+        is_silent_ = is_silent_ && window.notes.empty();
+        if (report.end > 0) end_ = std::max(end_, begin + report.end);
+        if (is_cut || (begin + report.end < until && !has_later_part(options.to))) {
+            window.end = end_;
+            window.is_last = end_ <= window.to;
+        }
+        if (window.is_last) {
+            window.to = std::max(window.from, end_);
+            if (is_silent_) refuse_silence();
+            seek(0);
+        } else {
+            at_ = window.to;
+        }
+        return window;
+    }
+
+private:
+    bool has_later_part(std::int64_t tick) const {
+        return std::any_of(ensemble_.players.begin(), ensemble_.players.end(),
+                           [&](const Player& player) { return start_of(player, ensemble_.meter) >= tick; });
+    }
+
+    std::int64_t grid_;  // of ticks at which all parts have whole ticks
+    std::int64_t lead_ = ticks_per_quarter;
+    std::int64_t span_ = 0;
+    std::int64_t after_ = 0;
+    std::int64_t at_ = 0;
+    std::int64_t end_ = 0;
+    std::int64_t known_until_ = 0;
+    bool is_silent_ = true;
+    std::vector<char> open_;  // voices whose last note has no known end
+};
+
+/// Largest distance of ticks at which all parts have whole ticks.
+constexpr std::int64_t most_grid = 64 * ticks_per_quarter;
+
+/// The ticks of the score, counted from the beginning of the piece, at which all parts have whole ticks of their own
+/// are the multiples of the result; 0 if there are none.
+std::int64_t grid_of(const Ensemble& ensemble, const PlayOptions& playing) {
+    std::int64_t grid = 1;
+    for (const Player& player : ensemble.players) {
+        const Ratio tempo = player.melody.layout.tempo;
+        if (tempo.is_one()) continue;
+        const std::int64_t part = tempo.below / std::gcd(tempo.above, tempo.below);
+        if ((playing.from - start_of(player, ensemble.meter)) % part != 0) return 0;
+        if (part > most_grid) return 0;
+        grid = std::lcm(grid, part);
+        if (grid > most_grid) return 0;
+    }
+    return grid;
+}
+
+/// True if any bars of the part can be read without the others.
+bool has_windows(const Player& player) {
+    const Grammar& grammar = player.document.grammar();
+    const Melody& melody = player.melody;
+    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return false;
+    if (melody.branches != Branches::sequence && has_brackets(grammar)) return false;
+    switch (melody.anchor) {
+        case Anchor::first_note:
+            return true;
+        case Anchor::piece:
+            return melody.mapping != Mapping::counterpoint;
+        default:
+            return census(grammar, melody).has_value();
+    }
+}
+
+/// With `anchor: piece` the first note of the piece is the tonic; windows after it have to know its height.
+void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) {
+    Melody& melody = player.melody;
+    if (melody.anchor != Anchor::piece) return;
+    Melody plain = melody;
+    plain.cadence = Cadence::none;
+    plain.harmony = Harmony::none;
+    plain.progression.clear();
+    plain.articulation = Articulation::legato;
+    plain.swing = 0.5;
+    plain.range = Range::clamp;
+    const PlayOptions whole = piece_of_part(player, meter, playing);
+    for (std::int64_t length = meter.bar(); whole.from < whole.to; length *= 2) {
+        PlayOptions options = whole;
+        options.to = whole.to - whole.from > length ? whole.from + length : whole.to;
+        const auto first_degree = [&](Anchor anchor) {
+            std::vector<std::int64_t> degrees;
+            options.degrees = &degrees;
+            plain.anchor = anchor;
+            Nobody nobody;
+            play(player.document.grammar(), plain, nobody, options);
+            return degrees.empty() ? std::optional<std::int64_t>() : degrees.front();
+        };
+        if (const auto degree = first_degree(Anchor::piece)) {
+            melody.shift += *degree - *first_degree(Anchor::first_note);
+            melody.anchor = Anchor::first_note;
+            return;
+        }
+        if (options.to == whole.to) return;
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing) {
+    const std::int64_t grid = grid_of(ensemble, playing);
+    const bool is_whole = ensemble.needs_whole() || ensemble.has_expression() || grid == 0 ||
+                          !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
+    if (is_whole) return std::make_unique<WholeStream>(std::move(score), std::move(ensemble), playing);
+    for (Player& player : ensemble.players) fix_anchor(player, ensemble.meter, playing);
+    auto stream = std::make_unique<WindowStream>(std::move(score), std::move(ensemble), playing, grid);
+    // A score that cannot be played is refused now.
+    stream->next();
+    stream->seek(0);
+    return stream;
+}
+
+}  // namespace sikku

@@ -1,0 +1,82 @@
+// music/note_stream.h: the notes of a score in the order of time, a few bars at a time.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/interpreter.h"
+#include "music/arrangement.h"
+#include "music/score/curves.h"
+#include "music/score/midi.h"
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Notes that begin in a few bars. Ticks are counted from the beginning of the score.
+struct NoteWindow {
+    std::int64_t from = 0;
+    std::int64_t to = 0;  ///< the next window begins here
+    /// By onset, then by voice. A duration of 0 means that the note sounds beyond what is known.
+    std::vector<Note> notes;
+    /// Ends of notes of earlier windows whose duration was 0, by tick.
+    struct End {
+        std::int64_t tick = 0;
+        std::int16_t voice = 0;
+    };
+    std::vector<End> ends;
+    /// Where the score ends, rests included: known at least two bars before.
+    std::optional<std::int64_t> end;
+    bool is_last = false;  ///< the next window begins at tick 0 again
+};
+
+/// The notes of a score from any tick on, again and again.
+class NoteStream {
+public:
+    virtual ~NoteStream() = default;
+    virtual const ScoreHead& head() const = 0;
+    /// How its voices use channels.
+    virtual const MidiOptions& midi() const = 0;
+    /// What changes while notes sound, in ticks of the score.
+    virtual const Curves& curves() const {
+        static const Curves none;
+        return none;
+    }
+    /// The next window begins at this tick, 0 or more; notes that began before it are left out.
+    virtual void seek(std::int64_t tick) = 0;
+    /// True if next() returns at once.
+    virtual bool is_ready() { return true; }
+    /// @throws as Work::make()
+    virtual NoteWindow next() = 0;
+};
+
+/// Streams the score of documents or of an arrangement. A window takes memory for its bars only, and the part of a
+/// curve on the square grid before it is skipped; off the grid the curve is walked to the window. Scores whose notes
+/// depend on later ones (retrograde, forms, loops, strict parts, expression, branches as voices, words with
+/// parameters, chance or contexts) are held in memory, with at most 4,000,000 notes. `monitor` stops the reading of
+/// windows, too.
+/// @throws as plan_score(); ScoreError if the score has no notes
+std::unique_ptr<NoteStream> stream_notes(std::span<const Document> documents, const OptionValues& values,
+                                         const Monitor& monitor = {}, const std::filesystem::path& folder = {});
+std::unique_ptr<NoteStream> stream_notes(const Arrangement& arrangement, const OptionValues& values,
+                                         const Monitor& monitor = {}, const std::filesystem::path& folder = {});
+
+struct Ensemble;
+struct PlayOptions;
+
+/// What a stream plays.
+struct StreamedScore {
+    ScoreHead head;
+    MidiOptions midi;
+    double humanise = 0;
+    std::uint64_t seed = 0;
+};
+
+/// Streams a piece of an ensemble. @throws ScoreError if it has no notes
+std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing);
+
+}  // namespace sikku

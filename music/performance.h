@@ -1,0 +1,46 @@
+// music/performance.h: adds to the notes of a score what its keys of expression say.
+#pragma once
+
+#include "music/ensemble.h"
+#include "music/score/curves.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace sikku {
+
+/// Collects all notes, changes their velocities, makes the curves of tempo, pan, controllers and pitch, and hands all
+/// on. Sources are measured from their least to their greatest value in the notes of a part. The tempo follows the
+/// first part, beat by beat and smoothed. Memory: O(notes and points).
+class PerformanceSink : public NoteSink {
+public:
+    /// Largest number of notes, and of points of curves.
+    static constexpr std::size_t most = 4'000'000;
+
+    /// @param is_printed  velocities alone
+    /// `sink`, `ensemble` and `playing` have to outlive it.
+    PerformanceSink(NoteSink& sink, const Ensemble& ensemble, const PlayOptions& playing, bool is_printed);
+
+    /// @throws ScoreError for too many notes
+    void notes(std::span<const Note> notes) override;
+    /// @throws ScoreError for too many points; as play() where a source is the level
+    void finish(std::int64_t end) override;
+
+    const Curves& curves() const { return curves_; }
+
+private:
+    void express(const Player& player, std::vector<Note*>& notes);
+    void bend(const Player& player, const std::vector<Note*>& notes);
+    void add_tempo(const Player& player, const std::vector<Note*>& notes, const std::vector<double>& parts,
+                   std::int64_t end);
+
+    NoteSink& sink_;
+    const Ensemble& ensemble_;
+    const PlayOptions& playing_;
+    bool is_printed_;
+    std::vector<Note> notes_;
+    std::int64_t end_ = 0;
+    Curves curves_;
+};
+
+}  // namespace sikku

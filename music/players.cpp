@@ -1,0 +1,224 @@
+#include "music/players.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/input_file.h"
+#include "engine/base/text.h"
+#include "music/score/spelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr int acoustic_bass = 32;  // of General MIDI, counted from 0
+
+/// Only counts.
+class Nobody : public NoteSink {
+public:
+    void notes(std::span<const Note>) override {}
+    void finish(std::int64_t) override {}
+};
+
+/// @param first, then  folders where it is looked for
+std::string read_small_file(const std::filesystem::path& first, const std::filesystem::path& then,
+                            const std::string& name) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 20;
+    std::error_code error;
+    const bool is_there = std::filesystem::exists(first / name, error);
+    const std::filesystem::path path = (is_there ? first : then) / name;
+    if (std::filesystem::is_fifo(path, error)) throw std::runtime_error(fmt::format("{}: this is a pipe", name));
+    std::string text = read_file(path, name, most_bytes);
+    if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
+    if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
+    return text;
+}
+
+}  // namespace
+
+bool has_brackets(const Grammar& grammar) {
+    const std::vector<char> reached = grammar.reachable();
+    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+        if (reached[symbol] && grammar.is_push(symbol)) return true;
+    }
+    return false;
+}
+
+Player bass_of(const Player& player) {
+    Player bass = player;
+    const Melody& melody = player.melody;
+    const std::int64_t steps = player.document.grammar().steps() - melody.bass_order;
+    if (steps < 1) {
+        throw ScoreError(fmt::format("`harmony: bass {}` needs a derivation length of at least {}", melody.bass_order,
+                                     melody.bass_order + 1));
+    }
+    bass.document = player.document.with({{"derivation length", "derivation length", std::to_string(steps)}});
+    bass.is_bass = true;
+    bass.warnings.clear();
+    bass.melody.harmony = Harmony::none;
+    bass.melody.cadence = Cadence::none;
+    bass.melody.articulation = Articulation::legato;
+    bass.melody.rhythm = {};
+    bass.melody.swing = 0.5;
+    bass.melody.program = acoustic_bass;
+    bass.melody.phrase_order = std::max<std::int64_t>(0, melody.phrase_order - melody.bass_order);
+    transpose(bass.melody, -24);
+    // Where both breathe, they breathe as often.
+    Melody whole = melody;
+    if (bass.melody.phrase_order > 0) whole.breath = 0;
+    Melody plain = bass.melody;
+    plain.breath = 0;
+    const auto own = census(player.document.grammar(), whole);
+    const auto coarse = census(bass.document.grammar(), plain);
+    if (!own || !coarse || coarse->ticks == 0) {
+        throw ScoreError("`harmony: bass` needs `mapping: runs` and a curve on the square grid without voices");
+    }
+    const Integer ratio = (own->ticks + coarse->ticks / 2) / coarse->ticks;
+    constexpr std::int64_t longest = std::int64_t{1} << 40;
+    if (ratio > longest / melody.unit)
+        throw ScoreError("the notes of the bass would be too long: a lower order is needed");
+    bass.melody.unit *= std::max<std::int64_t>(1, ratio.convert_to<std::int64_t>());
+    return bass;
+}
+
+std::vector<Player> followers_of(const Player& player) {
+    std::vector<Player> followers;
+    for (const Follower& one : player.melody.layout.canon) {
+        Player follower = player;
+        follower.warnings.clear();
+        follower.is_follower = true;
+        follower.melody.layout.canon.clear();
+        follower.melody.layout.start += one.bars;
+        follower.melody.harmony = Harmony::none;
+        follower.melody.shift += one.degrees;
+        transpose(follower.melody, one.semitones);
+        followers.push_back(std::move(follower));
+    }
+    return followers;
+}
+
+Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
+                   const FileWitness& witness) {
+    require_turtle(given, "it has no melody");
+    Player player{given, {}, 0, 0, false, false, false, 0, {}};
+    for (const Setting& setting : settings.keys) {
+        try {
+            player.document = player.document.with({setting});
+        } catch (const PatternError& error) {
+            throw SettingError(setting.key, setting.value, error.diagnostics().front().message);
+        }
+    }
+    Diagnostics diagnostics;
+    const std::string& name = given.source().name();
+    const std::filesystem::path beside = name == "-" ? folder : std::filesystem::path(name).parent_path();
+    player.melody = read_melody(
+        player.document.pattern(),
+        [&](const std::string& file) {
+            // Files that the pattern names are beside it; files that options name are in the folder of the options.
+            const bool is_option = std::any_of(settings.keys.begin(), settings.keys.end(),
+                                               [&](const Setting& setting) { return setting.value == file; });
+            std::string text =
+                is_option ? read_small_file(folder, beside, file) : read_small_file(beside, folder, file);
+            if (witness) witness(file, text);
+            return text;
+        },
+        diagnostics);
+    diagnostics.throw_if_errors();
+    // Warnings about the pattern itself belong to the document.
+    for (const Diagnostic& warning : diagnostics.list()) {
+        if (warning.where.line == 0) player.warnings.push_back(warning.message);
+    }
+    transpose(player.melody, settings.transpose);
+    return player;
+}
+
+int voices_of(const Player& player, const PlayOptions& playing) {
+    const Melody& melody = player.melody;
+    if (melody.branches != Branches::voices || !has_brackets(player.document.grammar())) {
+        return melody.own_voices();
+    }
+    Nobody nobody;
+    return std::max(1, play(player.document.grammar(), melody, nobody, playing).voices);
+}
+
+std::string scale_of(const Melody& melody) {
+    const auto spelling = spell(melody.scale, melody.tonic_spelling);
+    return fmt::format("{} from {}", melody.scale.title, note_name(melody.tonic + melody.transpose, spelling));
+}
+
+std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
+    if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
+    if (!melody.table.empty()) return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
+    if (melody.mapping != Mapping::runs) return {};
+    return std::string(": the curve has no horizontal run there") +
+           (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
+                                               : "");
+}
+
+Integer bars_of(const Integer& ticks, const Meter& meter) {
+    return (ticks + meter.bar() - 1) / meter.bar();
+}
+
+std::string time_of(const Integer& ticks, double tempo) {
+    return time_text(ticks.convert_to<double>() / static_cast<double>(ticks_per_quarter) * 60 / tempo);
+}
+
+std::string range_of(const PlayReport& report, const Melody& melody) {
+    if (report.lowest > report.highest) return "drums";
+    const auto spelling = spell(melody.scale, melody.tonic_spelling);
+    return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
+}
+
+std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped) {
+    constexpr std::size_t most_named = 8;
+    std::vector<std::pair<std::string, std::uint64_t>> counts(skipped.begin(), skipped.end());
+    std::stable_sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::string text;
+    for (std::size_t i = 0; i < std::min(counts.size(), most_named); ++i) {
+        text += fmt::format("{}{} {}", i > 0 ? ", " : "", counts[i].second, printable(counts[i].first));
+    }
+    if (counts.size() > most_named) text += fmt::format(" and {} other symbols", counts.size() - most_named);
+    return text;
+}
+
+std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
+    PlayOptions playing = piece;
+    playing.budget = std::min(piece.budget, 20e6);
+    std::string text;
+    for (const Player& player : players) {
+        if (player.is_bass) continue;
+        const Melody& melody = player.melody;
+        const std::string title = player.document.text("title");
+        const auto known = is_whole ? census(player.document.grammar(), melody) : std::nullopt;
+        std::optional<PlayReport> played;
+        try {
+            Nobody nobody;
+            played = play(player.document.grammar(), melody, nobody, playing);
+        } catch (const BudgetError&) {
+            if (!known) throw;
+        }
+        const auto out = std::back_inserter(text);
+        fmt::format_to(out, "{}, n = {}\n", title.empty() ? "(untitled)" : printable(title),
+                       player.document.grammar().steps());
+        const Integer notes = played ? Integer(played->notes) : known->notes;
+        const Integer ticks = played ? Integer(played->end) : known->ticks;
+        fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
+                       bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
+        if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
+        if (played && played->notes == 0) {
+            fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(melody, played->lost));
+        }
+        if (played && !played->skipped.empty()) {
+            fmt::format_to(out, "skipped   {}\n", skipped_text(played->skipped));
+        }
+        if (known) fmt::format_to(out, "height    {}\n", counted(known->height.str(), "degree"));
+    }
+    return text;
+}
+
+}  // namespace sikku

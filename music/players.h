@@ -1,0 +1,76 @@
+// music/players.h: the parts of a score: documents with their melodies, and how they are played together.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/language/document.h"
+#include "music/melody/mapping.h"
+#include "music/melody/melody.h"
+#include "music/play_settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Largest number of voices of a score.
+constexpr int most_voices = 1000;
+
+/// A pattern that is a part of the score.
+struct Player {
+    Document document;
+    Melody melody;
+    int first_voice = 0;
+    int drums_from = 0;  ///< voices of drums come so many later
+    bool has_drums = false;
+    bool is_bass = false;               ///< of the player before it: `harmony: bass`
+    bool is_follower = false;           ///< in the canon of a player before it
+    char section = 0;                   ///< of the score, `A` to `Z`; 0: it plays from the beginning
+    std::vector<std::string> warnings;  ///< warnings about values of options
+};
+
+/// Takes the name of a file that was read and what it holds.
+using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
+
+/// Reads the melody of a document with the keys of `settings`. @param folder  of files that options name
+/// @throws SettingError, PatternError; std::runtime_error if a file cannot be read
+Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
+                   const FileWitness& witness);
+
+/// The voices that follow a player in canon.
+std::vector<Player> followers_of(const Player& player);
+
+/// The curve of a lower order in notes so long that it lasts as long as the melody. @throws ScoreError, SettingError
+Player bass_of(const Player& player);
+
+/// True if the word may contain brackets.
+bool has_brackets(const Grammar& grammar);
+
+/// How many voices sound; where brackets make them, only playing tells.
+int voices_of(const Player& player, const PlayOptions& playing);
+
+/// The scale in words, with its tonic.
+std::string scale_of(const Melody& melody);
+
+/// Why a melody has no notes, and what may help; empty if unknown. @param lost  notes without a length or a key
+std::string reason_of_silence(const Melody& melody, std::uint64_t lost);
+
+/// Number of bars that so many ticks begin.
+Integer bars_of(const Integer& ticks, const Meter& meter);
+
+/// Duration in words. @param tempo  quarters a minute
+std::string time_of(const Integer& ticks, double tempo);
+
+/// Lowest and highest note: `C4 to G5`.
+std::string range_of(const PlayReport& report, const Melody& melody);
+
+/// The symbols that a table leaves out, the most frequent first: `5 Y, 2 X`.
+std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped);
+
+/// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
+std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole);
+
+}  // namespace sikku

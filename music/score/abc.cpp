@@ -1,0 +1,278 @@
+#include "music/score/abc.h"
+
+#include "music/score/comments.h"
+#include "music/score/drums.h"
+#include "music/score/dynamics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t eighth_note = ticks_per_quarter / 2;
+constexpr std::int64_t bars_on_a_line = 4;
+
+/// The text of a field: without comments and escapes.
+std::string field(std::string_view text) {
+    std::string result;
+    for (const char byte : single_line(text)) {
+        if (byte == '%' || byte == '\\') result += '\\';
+        result += byte;
+    }
+    return result;
+}
+
+/// Lengths in eighths: `2`, `/2`, `3/2`, nothing for 1.
+std::string length_of(std::int64_t ticks) {
+    const std::int64_t divisor = std::gcd(ticks, eighth_note);
+    const std::int64_t above = ticks / divisor;
+    const std::int64_t below = eighth_note / divisor;
+    return (above == 1 ? "" : std::to_string(above)) + (below == 1 ? "" : "/" + std::to_string(below));
+}
+
+std::string_view sign_of(int quarters) {
+    static constexpr std::array<std::string_view, 9> signs = {"__", "_3/2", "_", "_/", "=", "^/", "^", "^3/2", "^^"};
+    return signs[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
+}
+
+/// `C,`, `C` (middle C), `c`, `c'`.
+std::string letter_of(const Pitch& pitch) {
+    std::string text(1, (pitch.octave > 4 ? "cdefgab" : "CDEFGAB")[pitch.letter]);
+    const int marks = pitch.octave > 4 ? pitch.octave - 5 : 4 - pitch.octave;
+    return text.append(static_cast<std::size_t>(marks), pitch.octave > 4 ? '\'' : ',');
+}
+
+std::string_view clef_name(Clef clef) {
+    static constexpr std::array<std::string_view, 7> names = {"treble", "bass", "alto", "tenor",
+                                                              "treble", "bass", "perc"};
+    return names[static_cast<std::size_t>(clef)];
+}
+
+std::string key_name(const std::optional<KeySignature>& key) {
+    if (!key) return "C";
+    static constexpr std::array<std::string_view, 7> modes = {"lyd", "", "mix", "dor", "min", "phr", "loc"};
+    const int from_f = std::clamp(key->fifths, -7, 7) + static_cast<int>(key->mode);
+    const int letter = (from_f + 7) % 7;
+    const int sharps = (from_f - letter) / 7;
+    return fmt::format("{}{}{}", "FCGDAEB"[letter],
+                       sharps < 0   ? "b"
+                       : sharps > 0 ? "#"
+                                    : "",
+                       modes[static_cast<std::size_t>(key->mode)]);
+}
+
+std::string meter_name(const Meter& meter) {
+    if (meter.groups[0] == 0) return fmt::format("{}/{}", meter.beats, meter.unit);
+    std::string groups;
+    for (const std::uint8_t group : meter.groups) {
+        if (group != 0) groups += fmt::format("{}{}", groups.empty() ? "" : "+", group);
+    }
+    return fmt::format("({})/{}", groups, meter.unit);
+}
+
+class Writer {
+public:
+    Writer(const Notation& notation, const ScoreHead& head, Output& out)
+        : notation_(notation), head_(head), out_(out) {}
+
+    void write() {
+        find_drums();
+        put("%abc-2.1\n\n{}\nX:1\nT:{}\n", head_comments(head_, "%"), field(head_.title));
+        if (!head_.composer.empty()) put("C:{}\n", field(head_.composer));
+        if (!head_.source.empty()) put("S:{}\n", field(head_.source));
+        put("M:{}\nL:1/8\nQ:1/4={}\n{}", meter_name(head_.meter), std::max<long long>(1, std::llround(head_.tempo)),
+            score());
+        put("K:{}\n", key_name(head_.parts.empty() ? std::nullopt : printed_key(head_.parts.front())));
+        int number = 0;
+        for (std::size_t i = 0; i < notation_.parts.size(); ++i) {
+            const Part& part = head_.parts[i];
+            for (const Staff& staff : notation_.parts[i].staves) {
+                for (std::size_t k = 0; k < staff.voices.size(); ++k) {
+                    put("V:{} clef={}{}\n{}\n[K:{}] ", ++number, clef_name(staff.changes.front().clef),
+                        part.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(part.name)),
+                        part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
+                        key_name(printed_key(part)));
+                    write_voice(staff, k, part);
+                }
+            }
+        }
+        flush();
+    }
+
+private:
+    template <typename... Arguments>
+    void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+        constexpr std::size_t flush_bytes = std::size_t{1} << 16;
+        if (text_.size() > flush_bytes) flush();
+    }
+
+    void flush() {
+        out_.write({text_.data(), text_.size()});
+        text_.clear();
+    }
+
+    static std::string quoted(std::string_view text) {
+        std::string result = field(text);
+        std::replace(result.begin(), result.end(), '"', '\'');
+        return result;
+    }
+
+    /// Which voices share a staff, and which staves are joined.
+    std::string score() const {
+        std::string text;
+        int number = 0;
+        for (const NotatedPart& part : notation_.parts) {
+            std::string staves;
+            for (const Staff& staff : part.staves) {
+                std::string voices;
+                for (std::size_t i = 0; i < staff.voices.size(); ++i) {
+                    voices += fmt::format("{}{}", i > 0 ? " " : "", ++number);
+                }
+                staves += (staves.empty() ? "" : " ") + (staff.voices.size() > 1 ? "(" + voices + ")" : voices);
+            }
+            text += part.bracket == Bracket::brace     ? " {" + staves + "}"
+                    : part.bracket == Bracket::bracket ? " [" + staves + "]"
+                                                       : " " + staves;
+        }
+        return number > 1 ? "%%score" + text + "\n" : "";
+    }
+
+    /// The drums of the score as notes on the staff; a sign keeps those apart that have one place.
+    void find_drums() {
+        std::map<int, int> at_height;
+        for (const NotatedPart& part : notation_.parts) {
+            for (const Staff& staff : part.staves) {
+                for (const NotatedVoice& voice : staff.voices) {
+                    for (const NotatedSymbol& symbol : voice.symbols) {
+                        if (symbol.drum > 0) drum_notes_.try_emplace(symbol.drum);
+                        for (const ChordNote& note : symbol.chord) {
+                            if (note.drum > 0) drum_notes_.try_emplace(note.drum);
+                        }
+                    }
+                }
+            }
+        }
+        static constexpr std::array<std::string_view, 5> signs = {"=", "^", "_", "^^", "__"};
+        for (auto& [key, note] : drum_notes_) {
+            const Drum& drum = drum_of(key);
+            const Pitch place{drum.letter, drum.octave, 0};
+            const int others = at_height[place.height()]++;
+            note = std::string(signs[static_cast<std::size_t>(others) % signs.size()]) + letter_of(place);
+        }
+    }
+
+    std::string drum_map() const {
+        std::string text = "%%MIDI channel 10";
+        for (const auto& [key, note] : drum_notes_) text += fmt::format("\n%%MIDI drummap {} {}", note, key);
+        return text;
+    }
+
+    void write_voice(const Staff& staff, std::size_t index, const Part& part) {
+        const NotatedVoice& voice = staff.voices[index];
+        const std::int64_t bar = notation_.bar_length;
+        const std::array<int, 7> signs = signs_of(printed_key(part));
+        const bool is_first = index == 0;
+        std::size_t change = 0;
+        std::size_t mark = 0;
+        Clef clef = staff.changes.front().clef;
+        int octaves = 0;
+        std::string_view hairpin;
+        std::set<int> altered;  // letters whose sign is not that of the key
+        for (const NotatedSymbol& symbol : voice.symbols) {
+            for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
+                 ++change) {
+                const StaffChange& next = staff.changes[change];
+                if (clef_name(next.clef) != clef_name(clef)) put("[K:clef={}] ", clef_name(next.clef));
+                if (octaves != next.octaves)
+                    put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(next.octaves, '('));
+                clef = next.clef;
+                octaves = next.octaves;
+            }
+            for (; is_first && mark < staff.dynamics.size() && staff.dynamics[mark].onset <= symbol.onset; ++mark) {
+                if (!hairpin.empty()) put("!{})!", hairpin);
+                const DynamicMark& next = staff.dynamics[mark];
+                hairpin = next.kind == DynamicMark::Kind::crescendo    ? "<"
+                          : next.kind == DynamicMark::Kind::diminuendo ? ">"
+                                                                       : "";
+                put("!{}!", hairpin.empty() ? std::string(dynamic_name(next.level)) : std::string(hairpin) + "(");
+            }
+            if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
+            write_symbol(symbol, signs, altered);
+            const std::int64_t end = symbol.onset + symbol.length;
+            const bool is_beamed = symbol.beams[0] == Beam::begin || symbol.beams[0] == Beam::inside;
+            if (end % bar != 0) {
+                put("{}", is_beamed ? "" : " ");
+                continue;
+            }
+            altered.clear();
+            const bool is_last = end / bar == notation_.bars;
+            if (is_last) put("{}", line_of_octaves(octaves, ')'));
+            put("{}", is_last ? " |]\n" : end / bar % bars_on_a_line == 0 ? " |\n" : " | ");
+        }
+    }
+
+    static std::string line_of_octaves(int octaves, char side) {
+        if (octaves == 0) return {};
+        const std::string name = std::string(std::abs(octaves) > 1 ? "15m" : "8v") + (octaves > 0 ? "a" : "b");
+        return "!" + name + side + (side == '(' ? "!" : "! ");
+    }
+
+    void write_tuplet(const NotatedVoice& voice, const NotatedSymbol& symbol) {
+        const TupletSpan& tuplet = voice.tuplets[static_cast<std::size_t>(symbol.tuplet)];
+        if (tuplet.from != symbol.onset) return;
+        const auto count = std::count_if(voice.symbols.begin(), voice.symbols.end(),
+                                         [&](const NotatedSymbol& each) { return each.tuplet == symbol.tuplet; });
+        put("({}:{}:{}", tuplet.actual, tuplet.normal, count);
+    }
+
+    /// A note without its length.
+    std::string head_of(const Pitch& pitch, int drum, const std::array<int, 7>& signs, std::set<int>& altered) const {
+        if (drum > 0) return drum_notes_.at(drum);
+        const bool is_plain = pitch.quarters == 2 * signs[static_cast<std::size_t>(pitch.letter)];
+        if (!is_plain) altered.insert(pitch.letter);
+        const bool is_signed = altered.count(pitch.letter) > 0;
+        return (is_signed ? std::string(sign_of(pitch.quarters)) : "") + letter_of(pitch);
+    }
+
+    void write_symbol(const NotatedSymbol& symbol, const std::array<int, 7>& signs, std::set<int>& altered) {
+        const bool is_bar = symbol.length == notation_.bar_length && symbol.kind != SymbolKind::note;
+        const std::string length = length_of(is_bar ? symbol.length : symbol.value.ticks());
+        if (symbol.kind != SymbolKind::note) {
+            put("{}{}", symbol.kind == SymbolKind::gap ? "x" : "z", length);
+            return;
+        }
+        const Pitch& pitch = symbol.pitch;
+        if (symbol.is_accented) put("!>!");
+        if (symbol.cents != 0) put("\"^{:+}\"", symbol.cents);
+        std::string text = head_of(pitch, symbol.drum, signs, altered);
+        for (const ChordNote& note : symbol.chord) text += head_of(note.pitch, note.drum, signs, altered);
+        put("{}{}{}", symbol.chord.empty() ? text : "[" + text + "]", length, symbol.tied_forward ? "-" : "");
+    }
+
+    const Notation& notation_;
+    const ScoreHead& head_;
+    Output& out_;
+    fmt::memory_buffer text_;
+    std::map<int, std::string> drum_notes_;  // by key
+};
+
+}  // namespace
+
+void write_abc(const Notation& notation, const ScoreHead& head, Output& out) {
+    Writer(notation, head, out).write();
+}
+
+}  // namespace sikku

@@ -1,0 +1,143 @@
+#include "music/score/csound.h"
+
+#include "music/score/comments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+/// A number with at most six decimals.
+std::string number(double value) {
+    std::string text = fmt::format("{:.6f}", value);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+double quarters(std::int64_t ticks) {
+    return static_cast<double>(ticks) / static_cast<double>(ticks_per_quarter);
+}
+
+bool has_pan(const Curves& curves) {
+    return std::any_of(curves.controls.begin(), curves.controls.end(),
+                       [](const ControlPoint& point) { return point.number == ControlPoint::pan; });
+}
+
+/// The tempo from beat to beat: where it changes at once, the beat has two.
+std::string tempo_statement(const ScoreHead& head, const Curves& curves, std::int64_t end) {
+    std::string text = fmt::format("t 0 {}", number(head.tempo));
+    double last = head.tempo;
+    for (const TempoPoint& point : tempo_map(head, curves, end)) {
+        const double tempo = head.tempo * point.factor;
+        if (point.tick > 0) text += fmt::format(" {} {}", number(quarters(point.tick)), number(last));
+        if (point.tick == 0) text = fmt::format("t 0 {}", number(tempo));
+        if (point.tick > 0) text += fmt::format(" {} {}", number(quarters(point.tick)), number(tempo));
+        last = tempo;
+    }
+    return text + "\n";
+}
+
+/// The pan of a note, 0 to 1.
+double pan_of(const Note& note, const Curves& curves) {
+    double pan = 64;
+    for (const ControlPoint& point : curves.of_voice(note.voice)) {
+        if (point.tick > note.onset) break;
+        if (point.number == ControlPoint::pan) pan = point.value;
+    }
+    return pan / 127;
+}
+
+void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64_t end, Output& out,
+                      const Curves& curves) {
+    std::vector<int> instruments;
+    for (std::size_t i = 0; i < head.parts.size(); ++i) {
+        instruments.insert(instruments.end(), static_cast<std::size_t>(std::max(head.parts[i].voices, 0)),
+                           static_cast<int>(i) + 1);
+    }
+    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
+        return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
+    });
+    std::string text = tempo_statement(head, curves, end);
+    const bool is_panned = has_pan(curves);
+    for (const Note& note : notes) {
+        const int instrument = instruments.at(static_cast<std::size_t>(note.voice));
+        const bool is_drum = head.parts[static_cast<std::size_t>(instrument - 1)].is_drums;
+        constexpr std::size_t flush_bytes = std::size_t{1} << 16;
+        fmt::format_to(
+            std::back_inserter(text), "i {} {} {} {} {} {}{}\n", instrument, number(quarters(note.onset)),
+            number(quarters(note.duration)), number(is_drum ? note.key : 440 * std::exp2((note.key - 69) / 12)),
+            number(note.velocity / 127.0), note.voice + 1, is_panned ? " " + number(pan_of(note, curves)) : "");
+        if (text.size() < flush_bytes) continue;
+        out.write(text);
+        text.clear();
+    }
+    fmt::format_to(std::back_inserter(text), "f 0 {}\ne\n", number(quarters(end) + 2));
+    out.write(text);
+}
+
+/// Voices add up; so each has its share of the full scale.
+std::string orchestra(const ScoreHead& head, bool is_panned) {
+    int voices = 0;
+    for (const Part& part : head.parts) voices += part.voices;
+    std::string text = "sr = 44100\nksmps = 32\nnchnls = 2\n0dbfs = 1\n";
+    const std::string_view outs = is_panned
+                                      ? "  outs asound * aenvelope * sqrt(1 - p7), asound * aenvelope * sqrt(p7)\n"
+                                      : "  outs asound * aenvelope, asound * aenvelope\n";
+    for (std::size_t i = 0; i < head.parts.size(); ++i) {
+        if (head.parts[i].is_drums) {
+            // Bass drums and toms are falling tones, others noise: snares low, metal high. p4 is the key of the drum.
+            fmt::format_to(
+                std::back_inserter(text),
+                "instr {}  ; {}\n"
+                "  ilow = (p4 <= 36 || p4 == 41 || p4 == 43 || p4 == 45 || p4 == 47 || p4 == 48 || p4 == 50 || "
+                "p4 >= 60 && p4 <= 66 ? 1 : 0)\n"
+                "  ilong = (p4 == 46 || p4 == 49 || p4 == 51 || p4 == 52 || p4 == 55 || p4 == 57 ? 0.6 : 0.12)\n"
+                "  p3 = (ilow == 1 ? 0.3 : ilong)\n"
+                "  aenvelope expon 1, p3, 0.001\n"
+                "  ktone expon 60 + 8 * (p4 - 35) + 60, p3, 40 + 6 * (p4 - 35)\n"
+                "  askin oscili ilow, ktone\n"
+                "  ahiss noise 1 - ilow, 0\n"
+                "  ahiss buthp ahiss, (p4 < 42 ? 800 : 5000)\n"
+                "  asound = (askin + ahiss) * p5 * {}\n"
+                "  outs asound * aenvelope, asound * aenvelope\n"
+                "endin\n",
+                i + 1, single_line(head.parts[i].name), number(0.7 / std::sqrt(std::max(voices, 1))), outs);
+            continue;
+        }
+        fmt::format_to(std::back_inserter(text),
+                       "instr {}  ; {}\n"
+                       "  aenvelope linsegr 0, 0.005, 1, 0.3, 0.5, 3, 0.1, 0.1, 0\n"
+                       "  awave vco2 p5 * {}, p4, 12\n"
+                       "  asound tone awave, p4 * 4\n"
+                       "{}endin\n",
+                       i + 1, single_line(head.parts[i].name), number(0.7 / std::sqrt(std::max(voices, 1))), outs);
+    }
+    return text;
+}
+
+}  // namespace
+
+void write_csound_score(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
+                        const Curves& curves) {
+    out.write("; score for Csound\n\n" + head_comments(head, ";") + "\n");
+    write_statements(head, notes, end, out, curves);
+}
+
+void write_csound_file(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
+                       const Curves& curves) {
+    out.write("<CsoundSynthesizer>\n<CsOptions>\n-o dac\n</CsOptions>\n<CsInstruments>\n");
+    out.write(orchestra(head, has_pan(curves)) + "</CsInstruments>\n<CsScore>\n");
+    write_statements(head, notes, end, out, curves);
+    // Csound does not read what comes after its end.
+    out.write("</CsScore>\n</CsoundSynthesizer>\n\n" + head_comments(head, ";"));
+}
+
+}  // namespace sikku

@@ -1,0 +1,60 @@
+#include "music/score/curves.h"
+
+#include <algorithm>
+
+namespace sikku {
+
+bool Curves::has_bends() const {
+    return std::any_of(controls.begin(), controls.end(),
+                       [](const ControlPoint& point) { return point.number == ControlPoint::bend; });
+}
+
+std::span<const ControlPoint> Curves::of_voice(int voice) const {
+    const auto first = std::lower_bound(controls.begin(), controls.end(), voice,
+                                        [](const ControlPoint& point, int number) { return point.voice < number; });
+    const auto last = std::upper_bound(first, controls.end(), voice,
+                                       [](int number, const ControlPoint& point) { return number < point.voice; });
+    return {controls.data() + (first - controls.begin()), static_cast<std::size_t>(last - first)};
+}
+
+std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, std::int64_t end) {
+    constexpr int steps = 8;
+    constexpr double slowest = 0.6;
+    if (head.ritardando == 0) return curves.tempo;
+    const std::int64_t begin = std::max<std::int64_t>(0, end - head.ritardando);
+    std::vector<TempoPoint> falling;
+    for (int step = 0; step < steps; ++step) {
+        falling.push_back({begin + (end - begin) * step / steps, 1 - (1 - slowest) * (step + 1) / steps});
+    }
+    // Both together: as many points for every end.
+    std::vector<TempoPoint> map;
+    double curve = 1;
+    double fall = 1;
+    auto next = falling.begin();
+    for (const TempoPoint& point : curves.tempo) {
+        for (; next != falling.end() && next->tick < point.tick; ++next) {
+            fall = next->factor;
+            map.push_back({next->tick, curve * fall});
+        }
+        curve = point.factor;
+        map.push_back({point.tick, curve * fall});
+    }
+    for (; next != falling.end(); ++next) map.push_back({next->tick, curve * next->factor});
+    return map;
+}
+
+double seconds_at(std::int64_t tick, double tempo, std::span<const TempoPoint> map) {
+    const double ticks_per_second = tempo * static_cast<double>(ticks_per_quarter) / 60;
+    double seconds = 0;
+    double factor = 1;
+    std::int64_t here = 0;
+    for (const TempoPoint& point : map) {
+        if (point.tick >= tick) break;
+        seconds += static_cast<double>(point.tick - here) / (ticks_per_second * factor);
+        here = point.tick;
+        factor = point.factor;
+    }
+    return seconds + static_cast<double>(tick - here) / (ticks_per_second * factor);
+}
+
+}  // namespace sikku

@@ -1,0 +1,99 @@
+#include "music/score/dynamics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace sikku {
+namespace {
+
+constexpr double step = 16;  // of velocity between two levels
+constexpr int levels = 8;
+constexpr double reluctance = 3;
+constexpr std::size_t longest_hairpin = 4;  // bars
+constexpr double least_slope = 2;           // of velocity, from bar to bar
+constexpr double accent = 14;
+
+double centre(int level) {
+    return step * (level + 1);
+}
+
+int level_of(double velocity) {
+    return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
+}
+
+/// The mean velocity of a bar with notes.
+struct BarLoudness {
+    std::int64_t bar = 0;
+    std::int64_t onset = 0;  ///< of its first note
+    double velocity = 0;
+    double weight = 0;  ///< ticks in which it sounds
+};
+
+std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t bar_length) {
+    std::vector<BarLoudness> bars;
+    for (const Note& note : notes) {
+        const std::int64_t bar = note.onset / bar_length;
+        if (bars.empty() || bars.back().bar != bar) {
+            bars.push_back({bar, note.onset, 0, 0});
+        }
+        const auto duration = static_cast<double>(note.duration);
+        bars.back().weight += duration;
+        bars.back().velocity += (note.velocity - bars.back().velocity) * duration / bars.back().weight;
+    }
+    return bars;
+}
+
+}  // namespace
+
+std::string_view dynamic_name(int level) {
+    static constexpr std::array<std::string_view, levels> names = {"ppp", "pp", "p", "mp", "mf", "f", "ff", "fff"};
+    return names[static_cast<std::size_t>(std::clamp(level, 0, levels - 1))];
+}
+
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length) {
+    using enum DynamicMark::Kind;
+    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
+    std::vector<DynamicMark> marks;
+    int current = -1;
+    std::size_t changed_at = 0;
+    for (std::size_t i = 0; i < bars.size(); ++i) {
+        const double velocity = bars[i].velocity;
+        // A few notes alone do not change the level.
+        if (current >= 0 && 2 * bars[i].weight < static_cast<double>(bar_length)) continue;
+        if (current >= 0 && std::fabs(velocity - centre(current)) <= step / 2 + reluctance) continue;
+        const int next = level_of(velocity);
+        if (next == current) continue;
+        if (current >= 0) {
+            const double side = next > current ? 1 : -1;
+            std::size_t begin = i;
+            while (begin > changed_at && i - begin < longest_hairpin && bars[begin].bar == bars[begin - 1].bar + 1 &&
+                   side * (bars[begin].velocity - bars[begin - 1].velocity) >= least_slope) {
+                --begin;
+            }
+            if (begin < i) marks.push_back({bars[begin].onset, side > 0 ? crescendo : diminuendo, current});
+        }
+        marks.push_back({bars[i].onset, level, next});
+        current = next;
+        changed_at = i;
+    }
+    return marks;
+}
+
+std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_length) {
+    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
+    std::vector<bool> accents(notes.size(), false);
+    std::size_t bar = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        while (bars[bar].bar != notes[i].onset / bar_length) ++bar;
+        accents[i] = notes[i].velocity >= bars[bar].velocity + accent && i > 0 &&
+                     notes[i].velocity >= notes[i - 1].velocity + accent;
+        if (accents[i]) ++count;
+    }
+    if (3 * count > notes.size()) accents.assign(notes.size(), false);
+    return accents;
+}
+
+}  // namespace sikku

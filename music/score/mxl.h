@@ -1,0 +1,16 @@
+// music/score/mxl.h: packs MusicXML into its compressed form.
+#pragma once
+
+#include "engine/base/output.h"
+
+#include <string_view>
+
+namespace sikku {
+
+/// Writes a ZIP archive with the container file and `score.musicxml`, deflated. The pattern and what made the score
+/// stand first, as they are, so that they can be read without unpacking. The same bytes each time (entries are dated
+/// 1980-01-01).
+/// @throws std::runtime_error for a score of 4 GB; what `out` throws
+void write_mxl(std::string_view musicxml, Output& out);
+
+}  // namespace sikku

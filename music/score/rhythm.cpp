@@ -1,0 +1,316 @@
+#include "music/score/rhythm.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sikku {
+namespace {
+
+constexpr std::int64_t whole_note = 4 * ticks_per_quarter;
+constexpr std::int64_t eighth_note = ticks_per_quarter / 2;
+
+/// Three units make a beat.
+bool has_dotted_beats(const Meter& meter) {
+    return meter.groups[0] == 0 && meter.beats > 3 && meter.beats % 3 == 0 && meter.unit >= 8;
+}
+
+bool is_power_of_two(std::int64_t value) {
+    return value > 0 && (value & (value - 1)) == 0;
+}
+
+/// True for lengths with a note value without a dot.
+bool is_simple(std::int64_t length) {
+    return length % shortest_value == 0 && is_power_of_two(length / shortest_value) && length <= whole_note;
+}
+
+/// Where a bar may be cut, in ticks.
+struct Bar {
+    std::int64_t length;
+    std::vector<std::int64_t> ends;  ///< of groups
+    std::int64_t middle;             ///< the length if the bar has no middle
+    bool is_grouped;                 ///< groups are more than simple beats
+
+    explicit Bar(const Meter& meter) : length(meter.bar()), is_grouped(has_groups(meter) || has_dotted_beats(meter)) {
+        const std::vector<std::int64_t> groups = groups_of(meter);
+        ends.resize(groups.size());
+        std::partial_sum(groups.begin(), groups.end(), ends.begin());
+        middle = !is_grouped && groups.size() % 2 == 0 ? length / 2 : length;
+    }
+
+    std::int64_t group_end(std::int64_t time) const { return *std::upper_bound(ends.begin(), ends.end(), time); }
+    std::int64_t group_begin(std::int64_t time) const {
+        const auto end = std::upper_bound(ends.begin(), ends.end(), time);
+        return end == ends.begin() ? 0 : *(end - 1);
+    }
+    bool is_group_end(std::int64_t time) const { return std::binary_search(ends.begin(), ends.end(), time); }
+
+    bool fits(std::int64_t from, std::int64_t to) const {
+        const std::int64_t begin = group_begin(from);
+        if (is_grouped)
+            return to <= group_end(from) ? fits_group(from - begin, to - begin) : from == begin && is_group_end(to);
+        if (from == begin) return true;
+        if (from < middle && to > middle) return false;
+        return fits_group(from, to);
+    }
+
+private:
+    /// The largest power of two in `from` is its metrical place.
+    static bool fits_group(std::int64_t from, std::int64_t to) {
+        if (from == 0) return true;
+        const std::int64_t place = from / shortest_value;
+        const std::int64_t wider = 4 * (place & -place);
+        return to <= (place / wider + 1) * wider * shortest_value;
+    }
+};
+
+}  // namespace
+
+NoteValue note_value(std::int64_t length) {
+    // 3, 6, 12, … 64ths are the dotted ones.
+    const bool dotted = length / shortest_value % 3 == 0;
+    return {static_cast<int>(whole_note / (dotted ? length / 3 * 2 : length)), dotted};
+}
+
+bool has_groups(const Meter& meter) {
+    return meter.groups[0] != 0 ||
+           (meter.unit >= 8 && meter.beats >= 5 && meter.beats % 2 != 0 && meter.beats % 3 != 0);
+}
+
+std::vector<std::int64_t> groups_of(const Meter& meter) {
+    const std::int64_t unit = whole_note / meter.unit;
+    std::vector<std::int64_t> groups;
+    if (meter.groups[0] != 0) {
+        for (const std::uint8_t group : meter.groups) {
+            if (group != 0) groups.push_back(group * unit);
+        }
+    } else if (has_groups(meter)) {
+        groups.assign(static_cast<std::size_t>(meter.beats - 3) / 2, 2 * unit);
+        groups.push_back(3 * unit);
+    } else if (has_dotted_beats(meter)) {
+        groups.assign(static_cast<std::size_t>(meter.beats) / 3, 3 * unit);
+    } else {
+        groups.assign(static_cast<std::size_t>(meter.beats), unit);
+    }
+    return groups;
+}
+
+Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
+    const std::int64_t bar = meter.bar();
+    const std::vector<std::int64_t> groups = groups_of(meter);
+    const bool is_halved = is_simple(bar) && !has_groups(meter);
+    for (std::size_t i = 0; i < times.size();) {
+        const std::int64_t begin = times[i] / bar * bar;
+        std::size_t end = i;
+        while (end < times.size() && times[end] < begin + bar) ++end;
+        const std::span<const std::int64_t> inside = times.subspan(i, end - i);
+        i = end;
+        if (is_halved) {
+            divide(begin, bar, inside);
+            continue;
+        }
+        std::int64_t from = begin;
+        for (const std::int64_t group : groups) {
+            const auto first = std::lower_bound(inside.begin(), inside.end(), from);
+            const auto last = std::lower_bound(first, inside.end(), from + group);
+            divide(from, group, std::span(first, last));
+            from += group;
+        }
+    }
+}
+
+/// Adds a tuplet if every time is on its grid.
+bool Grid::add(std::int64_t from, std::int64_t length, int actual, int normal, std::span<const std::int64_t> times) {
+    const bool fits = length % actual == 0 && length % normal == 0 && length / normal >= shortest_value &&
+                      std::all_of(times.begin(), times.end(),
+                                  [&](std::int64_t time) { return (time - from) % (length / actual) == 0; });
+    if (fits)
+        tuplets_.push_back({from, from + length, actual, normal, static_cast<int>(whole_note * normal / length)});
+    return fits;
+}
+
+bool Grid::divide_parts(std::int64_t from, std::int64_t length, int parts, std::span<const std::int64_t> times) {
+    bool is_exact = true;
+    for (int i = 0; i < parts; ++i) {
+        const std::int64_t begin = from + length / parts * i;
+        const auto first = std::lower_bound(times.begin(), times.end(), begin);
+        const auto last = std::lower_bound(first, times.end(), begin + length / parts);
+        is_exact = divide(begin, length / parts, std::span(first, last)) && is_exact;
+    }
+    return is_exact;
+}
+
+/// @return whether all times are on the grid; the time at `from` always is
+bool Grid::divide(std::int64_t from, std::int64_t length, std::span<const std::int64_t> times) {
+    if (std::all_of(times.begin(), times.end(),
+                    [&](std::int64_t time) { return (time - from) % shortest_value == 0; })) {
+        return true;
+    }
+    if (!is_simple(length)) {
+        for (const int parts : {3, 2, 5, 7}) {
+            if (length % (parts * shortest_value) == 0) return divide_parts(from, length, parts, times);
+        }
+        return false;
+    }
+    if (add(from, length, 3, 2, times) || add(from, length, 5, 4, times)) return true;
+    if (length < 2 * shortest_value) return false;
+    const std::size_t before = tuplets_.size();
+    const bool is_exact = divide_parts(from, length, 2, times);
+    const bool is_crossed =
+        length <= ticks_per_quarter && !std::binary_search(times.begin(), times.end(), from + length / 2);
+    if (length > ticks_per_quarter || (is_exact && !is_crossed)) return is_exact;
+    // One tuplet for a whole beat reads better than two that are tied.
+    const std::vector<TupletSpan> parts(tuplets_.begin() + static_cast<std::ptrdiff_t>(before), tuplets_.end());
+    tuplets_.resize(before);
+    if (add(from, length, 6, 4, times) || add(from, length, 10, 8, times) || add(from, length, 12, 8, times))
+        return true;
+    tuplets_.insert(tuplets_.end(), parts.begin(), parts.end());
+    return is_exact;
+}
+
+std::size_t Grid::tuplet_from(std::int64_t time) const {
+    return static_cast<std::size_t>(
+        std::upper_bound(tuplets_.begin(), tuplets_.end(), time,
+                         [](std::int64_t at, const TupletSpan& span) { return at < span.to; }) -
+        tuplets_.begin());
+}
+
+std::int64_t Grid::nearest(std::int64_t time) const {
+    const std::size_t at = tuplet_from(time);
+    const bool is_inside = at < tuplets_.size() && tuplets_[at].from <= time;
+    const std::int64_t origin = is_inside ? tuplets_[at].from : 0;
+    const std::int64_t step = is_inside ? tuplets_[at].step() : shortest_value;
+    return origin + (time - origin + step / 2) / step * step;
+}
+
+std::int64_t Grid::after(std::int64_t time) const {
+    const std::size_t at = tuplet_from(time);
+    return time + (at < tuplets_.size() && tuplets_[at].from <= time ? tuplets_[at].step() : shortest_value);
+}
+
+std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const Meter& meter) {
+    // In 64ths, longest first. A dotted 64th would need 128ths.
+    static constexpr std::array<std::int64_t, 13> lengths = {96, 64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1};
+    const Bar bar(meter);
+    std::vector<WrittenValue> result;
+    while (from < to) {
+        // A 64th always fits.
+        const auto found = std::find_if(lengths.begin(), lengths.end() - 1, [&](std::int64_t candidate) {
+            const std::int64_t end = from + candidate * shortest_value;
+            return end <= to && bar.fits(from, end);
+        });
+        const std::int64_t length = *found * shortest_value;
+        result.push_back({length, note_value(length)});
+        from += length;
+    }
+    return result;
+}
+
+std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet) {
+    const std::int64_t step = tuplet.step();
+    const bool is_odd = tuplet.actual % 2 != 0;
+    std::int64_t at = (from - tuplet.from) / step;
+    const std::int64_t end = (to - tuplet.from) / step;
+    std::vector<WrittenValue> result;
+    while (at < end) {
+        std::int64_t count = 1;
+        for (const std::int64_t candidate : {8, 6, 4, 3, 2}) {
+            const bool is_dotted = candidate % 3 == 0;
+            const bool is_printable =
+                is_dotted ? tuplet.divisor * 2 >= candidate / 3 * 4 : tuplet.divisor >= candidate;
+            const bool is_placed = is_odd || candidate == 2 || at % (is_dotted ? candidate / 3 * 2 : candidate) == 0;
+            if (at + candidate <= end && is_printable && is_placed) {
+                count = candidate;
+                break;
+            }
+        }
+        const bool is_dotted = count % 3 == 0;
+        result.push_back(
+            {count * step, {static_cast<int>(tuplet.divisor / (is_dotted ? count / 3 * 2 : count)), is_dotted}});
+        // Dots on the shortest value of a tuplet do not occur: their count would be a fraction.
+        at += count;
+    }
+    return result;
+}
+
+namespace {
+
+int beams_of(const BeamedNote& note) {
+    int count = 0;
+    for (int divisor = note.value.divisor; note.is_note && divisor >= 8; divisor /= 2) ++count;
+    return count;
+}
+
+/// Sets beams of notes that share at least the first.
+void beam(std::span<BeamedNote> notes) {
+    if (notes.size() < 2) return;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const int count = beams_of(notes[i]);
+        const int before = i > 0 ? beams_of(notes[i - 1]) : 0;
+        const int next = i + 1 < notes.size() ? beams_of(notes[i + 1]) : 0;
+        for (int level = 0; level < count; ++level) {
+            const bool goes_back = before > level;
+            const bool goes_on = next > level;
+            Beam& sign = notes[i].beams[static_cast<std::size_t>(level)];
+            if (goes_back || goes_on) {
+                sign = goes_back && goes_on ? Beam::inside : goes_on ? Beam::begin : Beam::end;
+            } else {
+                // A hook points to the note with which it fills a larger value.
+                const bool is_first = i == 0 || (i + 1 < notes.size() && notes[i].onset % (2 * notes[i].length) == 0);
+                sign = is_first ? Beam::forward_hook : Beam::backward_hook;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter) {
+    const Bar bar(meter);
+    const bool has_quarters = !bar.is_grouped && meter.unit == 4;
+    const std::int64_t wide = !has_quarters          ? 0
+                              : meter.beats == 3     ? bar.length
+                              : meter.beats % 2 == 0 ? whole_note / 2
+                                                     : 0;
+    /// The group in which a note is beamed. Beats of x/4 that hold eighths alone share a wider one.
+    const auto is_plain = [](const BeamedNote& note) {
+        return note.tuplet < 0 && (!note.is_note || note.value.divisor <= 8);
+    };
+    std::vector<std::int64_t> group(notes.size());
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const BeamedNote& note = notes[i];
+        const std::int64_t begin = note.onset / bar.length * bar.length;
+        const std::int64_t beat = std::max<std::int64_t>(whole_note / meter.unit, eighth_note);
+        const std::int64_t within = note.onset - begin;
+        group[i] = begin + (bar.is_grouped ? bar.group_begin(within) : within / beat * beat);
+        if (note.tuplet >= 0) {
+            const TupletSpan& tuplet = tuplets[static_cast<std::size_t>(note.tuplet)];
+            if (tuplet.to - tuplet.from > ticks_per_quarter) group[i] = tuplet.from;
+        }
+    }
+    if (wide > 0) {
+        for (std::size_t i = 0; i < notes.size();) {
+            const auto place = [&](std::size_t k) {
+                return std::pair(notes[k].onset / bar.length, notes[k].onset % bar.length / wide);
+            };
+            std::size_t end = i;
+            while (end < notes.size() && place(end) == place(i)) ++end;
+            if (std::all_of(notes.begin() + static_cast<std::ptrdiff_t>(i),
+                            notes.begin() + static_cast<std::ptrdiff_t>(end), is_plain)) {
+                std::fill(group.begin() + static_cast<std::ptrdiff_t>(i),
+                          group.begin() + static_cast<std::ptrdiff_t>(end), group[i]);
+            }
+            i = end;
+        }
+    }
+    for (std::size_t i = 0; i < notes.size();) {
+        std::size_t end = i;
+        while (end < notes.size() && group[end] == group[i] && beams_of(notes[end]) > 0 &&
+               (end == i || notes[end].onset == notes[end - 1].onset + notes[end - 1].length)) {
+            ++end;
+        }
+        beam(notes.subspan(i, end - i));
+        i = std::max(end, i + 1);
+    }
+}
+
+}  // namespace sikku

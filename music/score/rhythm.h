@@ -1,0 +1,97 @@
+// music/score/rhythm.h: writes durations with note values: groups of a meter, tuplets, beams.
+#pragma once
+
+#include "music/score/score.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// The shortest note value, a 64th, in ticks.
+constexpr std::int64_t shortest_value = ticks_per_quarter / 16;
+
+/// 1 a whole note, 2 a half, … 64.
+struct NoteValue {
+    int divisor = 4;
+    bool dotted = false;
+    bool operator==(const NoteValue&) const = default;
+    std::int64_t ticks() const { return 4 * ticks_per_quarter / divisor * (dotted ? 3 : 2) / 2; }
+};
+
+/// The note value of so many ticks outside tuplets: a power of two from a 64th to a whole, or half as much again.
+NoteValue note_value(std::int64_t length);
+
+/// A stretch of a bar that is divided into `actual` equal notes in the time of `normal` notes of the value
+/// 1/`divisor`.
+struct TupletSpan {
+    std::int64_t from = 0;  ///< ticks from the beginning of the score
+    std::int64_t to = 0;
+    int actual = 3;
+    int normal = 2;
+    int divisor = 8;
+    std::int64_t step() const { return (to - from) / actual; }
+};
+
+/// Groups of a bar in ticks: those of the meter, or twos and a last three for 5/8, 7/8, …, or dotted beats for 6/8,
+/// 9/8 and 12/8, or else beats.
+std::vector<std::int64_t> groups_of(const Meter& meter);
+/// True where groups are neither beats nor dotted beats, so that readers have to be told.
+bool has_groups(const Meter& meter);
+
+/// Where notes of one voice may begin and end: at 64ths, and in tuplets at their notes.
+class Grid {
+public:
+    /// Chooses tuplets so that all `times` (ascending; ticks from the beginning of the score) lie on the grid if
+    /// possible. A tuplet is a bar, a half of it, a group or a beat, or a part of a beat, divided into 3, 5, 6, 10 or
+    /// 12, and the largest that fits is chosen. Cost: O(times · log bar).
+    Grid(std::span<const std::int64_t> times, const Meter& meter);
+
+    const std::vector<TupletSpan>& tuplets() const { return tuplets_; }
+    /// The point of the grid nearest to a time; of two the later one.
+    std::int64_t nearest(std::int64_t time) const;
+    /// The first point of the grid after one.
+    std::int64_t after(std::int64_t time) const;
+    /// The first tuplet that ends after `time`; tuplets().size() if none does.
+    std::size_t tuplet_from(std::int64_t time) const;
+
+private:
+    bool divide(std::int64_t from, std::int64_t length, std::span<const std::int64_t> times);
+    bool divide_parts(std::int64_t from, std::int64_t length, int parts, std::span<const std::int64_t> times);
+    bool add(std::int64_t from, std::int64_t length, int actual, int normal, std::span<const std::int64_t> times);
+
+    std::vector<TupletSpan> tuplets_;
+};
+
+/// A note value of a length.
+struct WrittenValue {
+    std::int64_t length = 0;  ///< ticks
+    NoteValue value;
+};
+
+/// Splits a stretch within one bar and outside tuplets into note values. It crosses neither the middle of the bar nor
+/// the end of a group unless it begins with one and ends with one; off the beat it does not hide the next larger
+/// metrical place. @param from, to  ticks from the bar line, multiples of a 64th
+std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const Meter& meter);
+/// Splits a stretch of a tuplet. @param from, to  on its grid
+std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);
+
+enum class Beam : std::uint8_t { none, begin, inside, end, forward_hook, backward_hook };
+
+/// A note or rest, as far as beams need to know it.
+struct BeamedNote {
+    std::int64_t onset = 0;  ///< ticks from the beginning of the score
+    std::int64_t length = 0;
+    NoteValue value;
+    bool is_note = true;
+    int tuplet = -1;  ///< of Grid::tuplets()
+    std::array<Beam, 4> beams{};
+};
+/// Sets beams: one for eighths, two for 16ths, up to four. Notes are beamed within groups of the meter; eighths alone
+/// within half of 4/4 and all of 2/4 and 3/4. Rests end beams.
+void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter);
+
+}  // namespace sikku

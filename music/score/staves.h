@@ -1,0 +1,45 @@
+// music/score/staves.h: distributes the voices of a part over staves, and chooses clefs and lines of 8va.
+#pragma once
+
+#include "music/score/notation.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// The notes of one voice on one staff.
+struct StaffVoice {
+    int voice = 0;  ///< of the score
+    std::vector<Note> notes;
+};
+struct StaffPlan {
+    std::vector<StaffVoice> voices;
+    std::optional<Clef> clef;  ///< the only one, if phrases change hands instead of clefs
+};
+struct PartPlan {
+    std::vector<StaffPlan> staves;  ///< from the highest; empty if no voice sounds
+    Bracket bracket = Bracket::none;
+    std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
+};
+
+/// Distributes voices (of the score from `first_voice` on) over staves.
+///
+/// Each voice has a staff of its own, up to four voices of a part in the order of their height. Parts for keyboards
+/// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
+/// low ones. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases change hands,
+/// where that saves ledger lines. If more than twelve voices sound, notes that another voice has too are merged, and
+/// the rest share as few staves as possible, two voices each.
+/// @throws ScoreError for more than 24 notes at once
+PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
+                     std::int64_t bar_length);
+
+/// Chooses clefs and lines of 8va for a staff so that ledger lines, changes and octaves read together are fewest;
+/// phrases and bars are the best places for changes. Only times at which every voice begins a symbol and none ties
+/// one are used. Cost: O(notes).
+std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only,
+                                      std::span<const NotatedVoice> voices, std::int64_t bar_length);
+
+}  // namespace sikku

@@ -1,0 +1,126 @@
+#include "music/score/strudel.h"
+
+#include "music/score/comments.h"
+#include "music/score/drums.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+/// A number with at most four decimals.
+std::string number(double value) {
+    std::string text = fmt::format("{:.4f}", value);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+/// `c4`, `f#3`, or a number of a key between two semitones.
+std::string name_of(double key) {
+    static constexpr std::array<std::string_view, 12> names = {"c",  "c#", "d",  "d#", "e",  "f",
+                                                               "f#", "g",  "g#", "a",  "a#", "b"};
+    const auto whole = static_cast<int>(std::lround(key));
+    if (std::fabs(key - whole) > 0.005 || whole < 12) return number(key);
+    return fmt::format("{}{}", names[static_cast<std::size_t>(whole % 12)], whole / 12 - 1);
+}
+
+/// One voice in mini-notation, from 0 to `end`.
+std::string sequence(const std::vector<Note>& notes, std::int64_t end, bool is_drums) {
+    std::int64_t unit = end;
+    for (const Note& note : notes) unit = std::gcd(unit, std::gcd(note.onset, note.duration));
+    std::string text;
+    const auto add = [&](std::string_view what, std::int64_t ticks) {
+        if (ticks <= 0) return;
+        // A line for some notes, for those who read it.
+        constexpr std::size_t line_bytes = 100;
+        const std::size_t line = text.rfind('\n');
+        const bool is_long = text.size() - (line == std::string::npos ? 0 : line) > line_bytes;
+        if (!text.empty()) text += is_long ? "\n  " : " ";
+        text += what;
+        if (ticks != unit) text += fmt::format("@{}", ticks / unit);
+    };
+    std::int64_t here = 0;
+    for (const Note& note : notes) {
+        add("~", note.onset - here);
+        add(is_drums ? std::string(drum_of(static_cast<int>(std::lround(note.key))).strudel) : name_of(note.key),
+            note.duration);
+        here = note.onset + note.duration;
+    }
+    add("~", end - here);
+    return text;
+}
+
+std::string program_of(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end) {
+    const std::int64_t bar = head.meter.bar();
+    const std::int64_t bars = std::max<std::int64_t>(1, (end + bar - 1) / bar);
+    std::string text = fmt::format("// {}\nsetcpm({} / {})\n", single_line(head.title), number(head.tempo),
+                                   number(static_cast<double>(bar) / static_cast<double>(ticks_per_quarter)));
+    std::size_t first = 0;
+    for (const Part& part : head.parts) {
+        for (std::size_t voice = first; voice < first + static_cast<std::size_t>(part.voices); ++voice) {
+            std::vector<Note> line;
+            std::copy_if(notes.begin(), notes.end(), std::back_inserter(line),
+                         [&](const Note& note) { return static_cast<std::size_t>(note.voice) == voice; });
+            if (line.empty()) continue;
+            if (part.is_drums) {
+                fmt::format_to(std::back_inserter(text), "$: sound(`{}`)\n  .slow({})\n",
+                               sequence(line, bars * bar, true), bars);
+                continue;
+            }
+            fmt::format_to(std::back_inserter(text), "$: note(`{}`)\n  .slow({}).sound(\"{}\")\n",
+                           sequence(line, bars * bar, false), bars, part.program < 8 ? "piano" : "triangle");
+        }
+        first += static_cast<std::size_t>(part.voices);
+    }
+    return text;
+}
+
+std::string base64(std::string_view bytes) {
+    static constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63];
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string strudel_link(const std::string& program) {
+    std::string link = "https://strudel.cc/#";
+    for (const char letter : base64(program)) {
+        if (letter == '+') {
+            link += "%2B";
+        } else if (letter == '/') {
+            link += "%2F";
+        } else if (letter == '=') {
+            link += "%3D";
+        } else {
+            link += letter;
+        }
+    }
+    return link;
+}
+
+void write_strudel(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out) {
+    const std::string program = program_of(head, notes, end);
+    out.write(fmt::format("// {}\n\n{}\n{}", strudel_link(program), head_comments(head, "//"), program));
+}
+
+}  // namespace sikku

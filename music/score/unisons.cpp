@@ -1,0 +1,78 @@
+#include "music/score/unisons.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace sikku {
+
+UnisonMerger::UnisonMerger(NoteSink& sink, const ScoreHead& head, std::size_t most, bool merges_all)
+    : sink_(sink), most_(most) {
+    std::size_t next = 0;
+    std::size_t drums = 0;  // all drum parts are one, on one channel
+    for (const Part& part : head.parts) {
+        for (int i = 0; i < part.voices; ++i) {
+            if (part.is_drums && drums == 0) drums = ++next;
+            parts_.push_back(part.is_drums ? drums : merges_all && i > 0 ? next : ++next);
+        }
+    }
+}
+
+void UnisonMerger::notes(std::span<const Note> notes) {
+    if (notes.size() > most_ - notes_.size()) {
+        throw ScoreError(
+            fmt::format("more than {} notes in voices that share channels do not fit into memory; limit "
+                        "the bars or seconds",
+                        most_));
+    }
+    notes_.insert(notes_.end(), notes.begin(), notes.end());
+}
+
+void UnisonMerger::finish(std::int64_t end) {
+    const auto part_of = [&](const Note& note) { return parts_.at(static_cast<std::size_t>(note.voice)); };
+    std::sort(notes_.begin(), notes_.end(), [](const Note& a, const Note& b) {
+        return std::tuple(a.onset, -a.duration, a.voice) < std::tuple(b.onset, -b.duration, b.voice);
+    });
+    std::map<std::pair<std::size_t, double>, Note*> sounding;
+    for (Note& note : notes_) {
+        Note*& last = sounding[{part_of(note), note.key}];
+        if (last && last->onset == note.onset) {
+            last->velocity = std::max(last->velocity, note.velocity);
+            note.duration = 0;
+            continue;
+        }
+        if (last && last->onset + last->duration > note.onset) {
+            note.duration = std::max(note.duration, last->onset + last->duration - note.onset);
+            last->duration = note.onset - last->onset;
+        }
+        last = &note;
+    }
+    notes_.erase(std::remove_if(notes_.begin(), notes_.end(), [](const Note& note) { return note.duration == 0; }),
+                 notes_.end());
+    // A note that goes on for another may meet the next one of its voice; so voices are dealt out again.
+    std::map<std::size_t, std::vector<std::pair<std::int16_t, std::int64_t>>> free_at;  // of the voices of a part
+    std::vector<std::vector<Note>> voices(parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) free_at[parts_[i]].emplace_back(static_cast<std::int16_t>(i), 0);
+    for (Note note : notes_) {
+        auto& places = free_at[part_of(note)];
+        const std::int16_t own = note.voice;
+        auto place = std::find_if(places.begin(), places.end(), [&](const auto& one) { return one.first == own; });
+        if (place->second > note.onset) {
+            place =
+                std::find_if(places.begin(), places.end(), [&](const auto& one) { return one.second <= note.onset; });
+        }
+        // As many notes sound as before at most; so there is a place.
+        place->second = note.onset + note.duration;
+        note.voice = place->first;
+        voices[static_cast<std::size_t>(note.voice)].push_back(note);
+    }
+    for (const std::vector<Note>& voice : voices) {
+        if (!voice.empty()) sink_.notes(voice);
+    }
+    sink_.finish(end);
+}
+
+}  // namespace sikku

@@ -1,0 +1,182 @@
+// Plots as DXF: read back line by line, measured against the drawing, and read by other software.
+#include "art/plotter/dxf.h"
+
+#include "art/prints.h"
+#include "art/provenance/provenance.h"
+#include "engine/base/option.h"
+#include "engine/base/output.h"
+#include "tests/plot_tools.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace sikku {
+namespace {
+
+/// The entities of a drawing; anything that the writer has no reason to write is an error.
+struct Dxf {
+    struct Line {
+        std::string layer;
+        std::vector<glm::dvec2> points;
+        bool is_closed = false;
+    };
+    std::vector<Line> lines;
+    std::map<std::string, int> layers;  ///< colour numbers
+    std::set<std::string> entities;
+};
+
+Dxf read_dxf(const std::string& text) {
+    std::istringstream in(text);
+    Dxf drawing;
+    std::string code, value, section, entity, name;
+    Dxf::Line* line = nullptr;
+    while (std::getline(in, code) && std::getline(in, value)) {
+        if (code == "999") continue;
+        if (code == "0") {
+            entity = value;
+            if (section == "ENTITIES") drawing.entities.insert(value);
+            if (value == "POLYLINE" || value == "LINE" || value == "POINT") {
+                line = &drawing.lines.emplace_back();
+                if (value != "POLYLINE") line->points.emplace_back();
+                if (value == "LINE") line->points.emplace_back();
+            } else if (value == "VERTEX") {
+                line->points.emplace_back();
+            }
+            continue;
+        }
+        if (code == "2") (entity == "SECTION" ? section : name) = value;
+        if (entity == "LAYER" && code == "62") drawing.layers[name] = std::stoi(value);
+        if (section != "ENTITIES") continue;
+        const auto coordinate = [&](std::size_t back) -> glm::dvec2& {
+            return line->points.at(line->points.size() - back);
+        };
+        const bool is_line = entity == "LINE";
+        if (code == "8" && entity != "VERTEX" && entity != "SEQEND") line->layer = value;
+        if (entity == "POLYLINE") {
+            if (code == "70") line->is_closed = value == "1";
+        } else if (code == "10" || code == "20") {
+            coordinate(is_line ? 2 : 1)[code == "20"] = std::stod(value);
+        } else if (code == "11" || code == "21") {
+            coordinate(1)[code == "21"] = std::stod(value);
+        }
+    }
+    EXPECT_EQ(entity, "EOF");
+    return drawing;
+}
+
+std::string dxf_of(const std::string& file, const OptionValues& values = {}) {
+    return draw(load(bundled(file)), "dxf", values);
+}
+
+double length_of(const Dxf& drawing) {
+    double length = 0;
+    for (const Dxf::Line& line : drawing.lines) {
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            length += glm::distance(line.points[i - 1], line.points[i]);
+        }
+        if (line.is_closed) length += glm::distance(line.points.back(), line.points.front());
+    }
+    return length;
+}
+
+TEST(Dxf, EdgesOfTilingsHaveTheirLength) {
+    // A rectangle of 50 by 25 steps with 1250 triangles of sides 1, 2 and the root of 5.
+    const double edges = (1250 * (3 + std::sqrt(5.0)) + 150) / 2 * 10;
+    const Dxf drawing = read_dxf(
+        dxf_of("tilings/pinwheel",
+               {{"derivation length", "4"}, {"step", "10mm"}, {"size", "600x600mm"}, {"tile-edges", "once"}}));
+    EXPECT_NEAR(length_of(drawing), edges, 1e-4 * edges);
+    EXPECT_EQ(drawing.layers, (std::map<std::string, int>{{"0", 7}, {"PEN-1", 7}}));
+    for (const Dxf::Line& line : drawing.lines) {
+        EXPECT_EQ(line.layer, "PEN-1");
+        for (const glm::dvec2 point : line.points) {
+            EXPECT_TRUE(point.x >= 10 && point.y >= 10 && point.x <= 590 && point.y <= 590);
+        }
+    }
+    EXPECT_EQ(drawing.entities, (std::set<std::string>{"LINE", "POLYLINE", "VERTEX", "SEQEND", "ENDSEC", "EOF"}));
+}
+
+TEST(Dxf, CurvesStayWithinAHundredthOfAMillimetre) {
+    const PlacedPattern kolam("kolams/snake-kolam", 3, {105, 148, 10});
+    for (const bool is_kolam : {true, false}) {
+        const Print print = is_kolam ? kolam.print : plain_print();
+        const auto plan = arranged(print, [&](PathSink& sink) { is_kolam ? kolam.read(sink) : draw_curves(sink); });
+        MemoryOutput output;
+        const auto writer = write_dxf(print, output);
+        plan->draw(*writer);
+        writer->finish();
+        const Dxf drawing = read_dxf(output.bytes());
+        constexpr double spacing = 0.005;
+        const auto lines = true_lines(*plan, print, spacing);
+        ASSERT_EQ(drawing.lines.size(), lines.size());
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            Samples samples(spacing);
+            samples.start(drawing.lines[i].points[0]);
+            for (const glm::dvec2 corner : std::span(drawing.lines[i].points).subspan(1)) samples.line(corner);
+            if (drawing.lines[i].is_closed) samples.line(drawing.lines[i].points[0]);
+            EXPECT_LE(hausdorff(samples.points, lines[i]), 0.0105 + spacing / 2) << i;
+        }
+    }
+}
+
+TEST(Dxf, PensHaveLayersAndDotsAreDrawn) {
+    const Dxf drawing = read_dxf(dxf_of("kolams/snake-kolam", {{"border", "kaavi"}, {"dots", "1mm #0000ff"}}));
+    EXPECT_EQ(drawing.layers.size(), 1 + 3u);
+    std::set<std::string> used;
+    for (const Dxf::Line& line : drawing.lines) used.insert(line.layer);
+    EXPECT_EQ(used.size(), 3u);
+    EXPECT_EQ(drawing.layers.begin()->first, "0");
+    EXPECT_TRUE(std::any_of(drawing.layers.begin(), drawing.layers.end(), [](const auto& row) {
+        return row.second == 5;
+    })) << "blue dots";
+}
+
+TEST(Dxf, ContainsItsPattern) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("chair.dxf", dxf_of("tilings/chair"));
+    EXPECT_EQ(known_format(file).value().name, "a DXF file");
+    EXPECT_EQ(read_provenance(file).value().pattern, contents(bundled("tilings/chair")));
+}
+
+TEST(Dxf, SettingsOfPensAreRefused) {
+    for (const auto& [option, value] : OptionValues{{"profile", "grbl"}, {"pen", "1 speed=3"}, {"park", "0,0"}}) {
+        EXPECT_THROW(dxf_of("tilings/chair", {{option, value}}), SettingError) << option;
+    }
+    EXPECT_THROW(dxf_of("tilings/chair", {{"step", "100mm"}}), std::runtime_error) << "off the page";
+}
+
+TEST(Dxf, OtherSoftwareReadsIt) {
+    if (!run("/usr/bin/python3 -c 'import ezdxf'").ok) GTEST_SKIP() << "python3-ezdxf is not installed";
+    const ScratchFolder folder;
+    const std::string file = folder.write(
+        "kolam.dxf", dxf_of("kolams/snake-kolam", {{"border", "kaavi"}, {"dots", "1mm"}, {"size", "200x200mm"}}));
+    const std::string script = folder.write("read.py", R"(
+import sys, ezdxf
+document = ezdxf.readfile(sys.argv[1])
+auditor = document.audit()
+assert not auditor.errors, auditor.errors
+assert not auditor.fixes, auditor.fixes
+assert document.dxfversion == 'AC1009'
+space = document.modelspace()
+low = [1e9, 1e9]
+high = [-1e9, -1e9]
+for line in space.query('POLYLINE'):
+    assert line.dxf.layer in document.layers
+    for vertex in line.points():
+        for axis in (0, 1):
+            low[axis] = min(low[axis], vertex[axis])
+            high[axis] = max(high[axis], vertex[axis])
+print(len(space.query('POLYLINE')), all(10 <= value for value in low), all(value <= 190 for value in high))
+)");
+    const ToolOutcome outcome = run("/usr/bin/python3 '" + script + "' '" + file + "'");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    EXPECT_TRUE(outcome.text.ends_with(" True True\n")) << outcome.text;
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,288 @@
+// tests/music/arrangement_test.cpp: arrangements, compared with what their notes should be by hand, and strict
+// counterpoint with a checker of its own.
+#include "music/arrangement.h"
+
+#include "music/scores.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+// Degrees 0 1 2 1 in notes of 1, 1, 1 and 2 steps: a bar of 5/8.
+const std::string steps = "heading: 0\nturn: left\nangle factor: 4\naxiom: F+F-F+F-F-F+FF\n";
+const std::string hilbert =
+    "title: Hilbert\naxiom: X\nderivation length: 4\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\n";
+
+Arrangement read(const std::string& text) {
+    return read_arrangement("a.toml", text, [](const std::string& name) {
+        if (name == "steps") return NamedPattern{name, steps};
+        if (name == "hilbert") return NamedPattern{name, hilbert};
+        throw std::runtime_error("no pattern named '" + name + "'");
+    });
+}
+
+NoteList notes_of(const std::string& text, const OptionValues& values = {}) {
+    return list_notes(read(text), values, {});
+}
+
+/// `0:60/240`: onset, key and duration of the notes of a voice.
+std::string told(const NoteList& list, int voice = 0) {
+    std::string text;
+    for (const Note& note : list.notes) {
+        if (note.voice != voice) continue;
+        text += fmt::format("{}{}:{}/{}", text.empty() ? "" : " ", note.onset, note.key, note.duration);
+    }
+    return text;
+}
+
+std::string track(const std::string& keys, const std::string& pattern = "steps") {
+    return "[[track]]\npattern = \"" + pattern + "\"\n" + keys;
+}
+
+TEST(Arrangement, TracksHaveKeysOfTheirOwn) {
+    EXPECT_EQ(told(notes_of(track(""))), "0:60/240 240:62/240 480:64/240 720:62/480");
+    EXPECT_EQ(told(notes_of(track("start = 2\ntransposition = -12\n"))),
+              "3840:48/240 4080:50/240 4320:52/240 4560:50/480");
+    EXPECT_EQ(told(notes_of(track("augmentation = \"1/2\"\n"))), "0:60/120 120:62/120 240:64/120 360:62/240");
+    EXPECT_EQ(told(notes_of(track("augmentation = 2\n"))), "0:60/480 480:62/480 960:64/480 1440:62/960");
+    EXPECT_EQ(told(notes_of(track("inversion = true\n"))), "0:60/240 240:59/240 480:57/240 720:59/480");
+    EXPECT_EQ(told(notes_of(track("retrograde = true\n"))), "0:62/480 480:64/240 720:62/240 960:60/240");
+    EXPECT_EQ(told(notes_of(track("tempo-ratio = \"3:2\"\n"))), "0:60/160 160:62/160 320:64/160 480:62/320");
+    EXPECT_EQ(told(notes_of(track("unit = \"1/16\"\nscale = \"minor\"\n"))),
+              "0:60/120 120:62/120 240:63/120 360:62/240");
+    EXPECT_EQ(told(notes_of("meter = \"3/8\"\n" + track("excerpt = \"2-2\"\n"))), "0:62/480");
+}
+
+TEST(Arrangement, LoopsRepeatWholeBarsOfTheirOwnMeter) {
+    EXPECT_EQ(told(notes_of(track("meter = \"5/8\"\nloop = 2\n"))),
+              "0:60/240 240:62/240 480:64/240 720:62/480 1200:60/240 1440:62/240 1680:64/240 1920:62/480");
+    // 5/8 against 3/8: together after 15 eighths.
+    const NoteList common = notes_of(track("meter = \"5/8\"\nloop = \"common\"\n") +
+                                     track("meter = \"3/8\"\nexcerpt = \"1-1\"\nloop = \"common\"\n"));
+    EXPECT_EQ(common.end, 15 * 240);
+    EXPECT_EQ(
+        std::count_if(common.notes.begin(), common.notes.end(), [](const Note& note) { return note.voice == 0; }),
+        3 * 4);
+    EXPECT_EQ(
+        std::count_if(common.notes.begin(), common.notes.end(), [](const Note& note) { return note.voice == 1; }),
+        5 * 3);
+    // The loop ends with the longest part.
+    const NoteList filled = notes_of(track("", "hilbert") + track("meter = \"5/8\"\nloop = \"fill\"\n"));
+    EXPECT_EQ(filled.end, notes_of(track("", "hilbert")).end);
+    EXPECT_THROW(notes_of(track("loop = \"common\"\nmeter = \"61/64\"\n") +
+                          track("loop = \"common\"\nmeter = \"59/64\"\ntempo-ratio = \"64:63\"\n") +
+                          track("loop = \"common\"\nmeter = \"53/64\"\ntempo-ratio = \"62:61\"\n")),
+                 ScoreError);
+    EXPECT_THROW(notes_of(track("loop = 10000\nn = 7\n", "hilbert")), ScoreError);
+}
+
+TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
+    const NoteList list =
+        notes_of("meter = \"5/8\"\n" + track("canon = [\"1 -12\", \"2 third\", \"0.5 octave below\"]\n"));
+    EXPECT_EQ(list.parts.size(), 4u);
+    EXPECT_EQ(told(list, 1), "1200:48/240 1440:50/240 1680:52/240 1920:50/480");
+    EXPECT_EQ(told(list, 2), "2400:64/240 2640:65/240 2880:67/240 3120:65/480");
+    EXPECT_EQ(told(list, 3), "600:48/240 840:50/240 1080:52/240 1320:50/480");
+}
+
+TEST(Arrangement, FormsAreMadeOfSubCurves) {
+    const NoteList plain = notes_of(track("", "hilbert"));
+    const NoteList formed = notes_of(track("form = \"ABCD\"\n", "hilbert"));
+    EXPECT_EQ(told(formed), told(plain));
+    const NoteList again = notes_of(track("form = \"AABA\"\n", "hilbert"));
+    std::vector<double> first;
+    std::vector<double> keys;
+    for (const Note& note : again.notes) keys.push_back(note.key);
+    for (const Note& note : notes_of(track("form = \"A\"\n", "hilbert")).notes) first.push_back(note.key);
+    ASSERT_GT(keys.size(), 3 * first.size());
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), keys.begin()));
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), keys.begin() + static_cast<std::ptrdiff_t>(first.size())));
+    EXPECT_TRUE(std::equal(first.rbegin(), first.rend(), keys.rbegin()));
+    // Endings: the first leads to the fifth, the second to the tonic, and all before them is the same.
+    const NoteList endings = notes_of(track("form = \"A1 A2\"\n", "hilbert"));
+    keys.clear();
+    for (const Note& note : endings.notes) keys.push_back(note.key);
+    ASSERT_EQ(keys.size(), 2 * first.size());
+    EXPECT_EQ(std::fmod(keys[first.size() - 1], 12), 7);
+    EXPECT_EQ(std::fmod(keys.back(), 12), 0);
+    EXPECT_TRUE(
+        std::equal(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(first.size()) - 3, first.begin()));
+    for (std::size_t i = keys.size() - 2; i < keys.size(); ++i) EXPECT_LE(std::fabs(keys[i] - keys[i - 1]), 2);
+    EXPECT_THROW(notes_of(track("form = \"AZ\"\n", "hilbert")), ScoreError);
+    EXPECT_NO_THROW(notes_of(track("form = \"AZ order 1\"\n", "hilbert")));
+}
+
+TEST(Arrangement, SectionsFollowTheForm) {
+    const NoteList list = notes_of("meter = \"5/8\"\nform = \"A B A2\"\n" + track("section = \"A\"\n") +
+                                   track("section = \"B\"\ntransposition = 12\n") + track("loop = \"fill\"\n"));
+    EXPECT_EQ(told(list, 0),
+              "0:60/240 240:62/240 480:64/240 720:62/480 2400:60/240 2640:64/240 2880:62/240 3120:60/480");
+    EXPECT_EQ(told(list, 1), "1200:72/240 1440:74/240 1680:76/240 1920:74/480");
+    EXPECT_EQ(list.end, 3600);
+    EXPECT_EQ(std::count_if(list.notes.begin(), list.notes.end(), [](const Note& note) { return note.voice == 2; }),
+              12);
+}
+
+TEST(Arrangement, PiecesFromTheMiddle) {
+    const std::string text = "meter = \"5/8\"\n" + track("loop = 4\nretrograde = true\n") + track("start = 1\n");
+    const NoteList whole = notes_of(text);
+    const NoteList piece = notes_of(text, {{"from-bar", "2"}, {"bars", "1"}});
+    std::vector<std::tuple<std::int64_t, int, double>> expected;
+    std::vector<std::tuple<std::int64_t, int, double>> found;
+    for (const Note& note : whole.notes) {
+        if (note.onset >= 1200 && note.onset < 2400) expected.emplace_back(note.onset - 1200, note.voice, note.key);
+    }
+    for (const Note& note : piece.notes) found.emplace_back(note.onset, note.voice, note.key);
+    EXPECT_EQ(found, expected);
+}
+
+TEST(Arrangement, TheTextContainsEveryPattern) {
+    const Arrangement first =
+        read("title = \"x\"\n# a remark\n" + track("n = 3\n", "hilbert") + track("start = 1\n"));
+    const auto nothing = [](const std::string&) -> NamedPattern { throw std::runtime_error("not needed"); };
+    const Arrangement second = read_arrangement("b.toml", first.text, nothing);
+    EXPECT_EQ(second.text, first.text);
+    EXPECT_NE(first.text.find("# a remark"), std::string::npos);
+    EXPECT_EQ(told(list_notes(first, {}, {})), told(list_notes(second, {}, {})));
+    // Patterns with any letters.
+    for (const std::string& odd : {std::string("axiom: F\n// '''\n"), std::string("axiom: F\r\n"),
+                                   std::string("// \x01 \"\\\naxiom: F\n"), std::string("\naxiom: F'")}) {
+        const Document document = parse("odd \"name\"", odd);
+        const std::vector<Document> two = {document, document.with({part_setting("start", "2")})};
+        const Arrangement stored = arrangement_of(two);
+        const Arrangement again = read_arrangement("c.toml", stored.text, nothing);
+        EXPECT_EQ(again.tracks.front().document.source().text(), odd);
+        EXPECT_EQ(again.tracks.back().document.text("start"), "2");
+    }
+}
+
+TEST(Arrangement, MistakesHavePlaces) {
+    const auto refused = [](const std::string& text, std::string_view message) {
+        try {
+            notes_of(text);
+            ADD_FAILURE() << text;
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+        }
+    };
+    refused("", "a.toml: an arrangement has at least one [[track]]");
+    refused("titel = \"x\"\n" + track(""), "a.toml:1:1: unknown key 'titel'; did you mean 'title'?");
+    refused(track("strat = 2\n"), "a.toml:3:1: unknown key 'strat'; did you mean 'start'?");
+    refused(track("tempo = 90\n"), "a.toml:3:1: tempo belongs to the whole piece");
+    refused("tempo = 0\n" + track(""), "a.toml:1:1: tempo: expected quarter notes a minute");
+    refused(track("tempo-ratio = \"0:1\"\n"), "a.toml:3:1: speed: expected a ratio");
+    refused(track("speed = \"3:0\"\n"), "expected a ratio");
+    refused(track("augmentation = 0\n"), "augmentation: expected how many times longer");
+    refused(track("augmentation = \"1/64\"\nunit = \"1/64\"\n"), "no whole numbers of ticks");
+    refused(track("loop = 0\n"), "loop: expected how often");
+    refused(track("loop = -3\n"), "loop: expected how often");
+    refused(track("rhythm = \"\"\n"), "a.toml:3:1: rhythm: ");
+    refused(track("canon = \"2 x\"\n"), "canon: expected bars and an interval");
+    refused(track("canon = \"" + std::string(100, ',') + "\"\n"), "canon: expected");
+    refused(track("form = \"aaba\"\n"), "form: expected the order of sub-curves");
+    refused(track("instrument = \"kazooo\"\n"), "a.toml:3:1: instrument: ");
+    refused(track("n = -1\n"), "a.toml:3:1: derivation length: expected");
+    refused(track("set = { nothing = 1 }\n"), "a.toml:3:");
+    refused(track("", "missing"), "a.toml:2:1: no pattern named 'missing'");
+    refused(track("", "other.toml"), "a.toml:2:1: other.toml: a track plays a pattern, not another arrangement");
+    refused(track("transpos = 2\n"), "a.toml:3:1: unknown key 'transpos'; did you mean 'transpose'?");
+    refused("[[track]]\nstart = 1\n", "this track has no pattern");
+    refused("form = \"A\"\n" + track(""), "a.toml:1:1: no track has section A");
+    refused(track("section = \"A\"\n"), "section A is not in the form");
+    refused("track = 3\n", "at least one [[track]]");
+    refused("[[pattern]]\nname = \"x\"\n" + track(""), "a [[pattern]] has a name and a text");
+    refused("[[pattern]]\nname = \"x\"\ntext = \"axiom: F(\"\n" + track("", "x"), "x:1:");
+    std::string many;
+    for (int i = 0; i < 501; ++i) many += track("");
+    refused(many, "too many tracks");
+    std::string million;
+    for (int i = 0; i < 1'000'000; ++i) million += "[[track]]\n";
+    refused(million, "too many");
+}
+
+// ---- strict counterpoint, checked tick by tick
+
+struct Faults {
+    int dissonances = 0;
+    int parallels = 0;
+    int strong = 0;  ///< strong beats on which two voices sound
+};
+
+/// Looks at every strong beat and at every tick at which two voices begin notes. @param strong  ticks between strong
+/// beats
+Faults faults_of(const NoteList& list, std::int64_t strong) {
+    std::map<int, std::map<std::int64_t, const Note*>> voices;
+    for (const Note& note : list.notes) voices[note.voice][note.onset] = &note;
+    const auto sounding = [](const std::map<std::int64_t, const Note*>& voice, std::int64_t tick) -> const Note* {
+        for (const auto& [onset, note] : voice) {
+            if (onset <= tick && tick < onset + note->duration) return note;
+        }
+        return nullptr;
+    };
+    Faults result;
+    const std::set<int> consonant = {0, 3, 4, 7, 8, 9};
+    for (auto a = voices.begin(); a != voices.end(); ++a) {
+        for (auto b = std::next(a); b != voices.end(); ++b) {
+            for (std::int64_t tick = 0; tick < list.end; tick += strong) {
+                const Note* one = sounding(a->second, tick);
+                const Note* other = sounding(b->second, tick);
+                if (!one || !other) continue;
+                ++result.strong;
+                if (!consonant.contains(static_cast<int>(std::abs(one->key - other->key)) % 12)) ++result.dissonances;
+            }
+            for (auto note = a->second.begin(); note != a->second.end(); ++note) {
+                const auto other = b->second.find(note->first);
+                if (note == a->second.begin() || other == b->second.end() || other == b->second.begin()) continue;
+                const double before = std::abs(std::prev(note)->second->key - std::prev(other)->second->key);
+                const double now = std::abs(note->second->key - other->second->key);
+                const bool both_move = std::prev(note)->second->key != note->second->key &&
+                                       std::prev(other)->second->key != other->second->key;
+                const int interval = static_cast<int>(now) % 12;
+                if (both_move && (interval == 0 || interval == 7) && static_cast<int>(before) % 12 == interval) {
+                    ++result.parallels;
+                }
+            }
+        }
+    }
+    return result;
+}
+
+TEST(Counterpoint, StrictPartsGiveWay) {
+    int worst = 0;
+    for (const char* second : {"start = 2\n", "inversion = true\n", "retrograde = true\n", "augmentation = 2\n",
+                               "start = 1\ntransposition = -12\n", "set = { heading = 90 }\n"}) {
+        for (const char* scale : {"major", "dorian", "harmonic minor"}) {
+            const std::string head = fmt::format("scale = \"{}\"\n", scale);
+            const std::string text = head + track("", "hilbert") + track(second, "hilbert");
+            const Faults before = faults_of(notes_of(text), 960);
+            const Faults after = faults_of(notes_of(text + "counterpoint = \"strict\"\n"), 960);
+            EXPECT_GT(after.strong, 10);
+            EXPECT_EQ(after.dissonances, 0) << second << scale;
+            EXPECT_EQ(after.parallels, 0) << second << scale;
+            worst = std::max(worst, before.dissonances + before.parallels);
+        }
+    }
+    EXPECT_GT(worst, 10) << "there is something to mend";
+    // The bass of a melody gives way to it.
+    const NoteList bass =
+        notes_of(track("harmony = \"bass 2\"\ncounterpoint = \"strict\"\nphrases = \"none\"\n", "hilbert"));
+    const Faults with_bass = faults_of(bass, 960);
+    EXPECT_EQ(with_bass.parallels, 0);
+    // A long note sounds over many strong beats and cannot agree with all that the melody does there.
+    EXPECT_LT(with_bass.dissonances, with_bass.strong / 2);
+    // The first part stays.
+    EXPECT_EQ(told(notes_of(track("counterpoint = \"strict\"\n", "hilbert"))), told(notes_of(track("", "hilbert"))));
+}
+
+}  // namespace
+}  // namespace sikku

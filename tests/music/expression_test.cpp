@@ -1,0 +1,267 @@
+// tests/music/expression_test.cpp: curves of velocity, tempo, pan, controllers and pitch, as a reader of MIDI sees
+// them.
+#include "music/score/curves.h"
+#include "music/scores.h"
+#include "tests/midi_tools.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// Degrees 0, 1, 2, 1 in notes of 1, 1, 1 and 2 steps; x goes from 0 to 5.
+const std::string steps = "heading: 0\nturn: left\nangle factor: 4\naxiom: F+F-F+F-F-F+FF\n";
+/// Eight notes in sub-curves of two, four and eight.
+const std::string nested =
+    "mapping: symbols\nnote A: degree 0 1/4\nderivation length: 3\naxiom: X\nX --> YY\nY --> ZZ\nZ --> AA\n";
+
+MidiFile midi_of(const std::string& text, const OptionValues& values = {}) {
+    const std::string bytes = play(parse("e.lsys", text), "mid", values);
+    EXPECT_EQ(midi_faults(bytes), "");
+    return read_midi(bytes);
+}
+
+struct Point {
+    std::int64_t tick;
+    double value;
+    bool operator==(const Point&) const = default;
+};
+
+std::vector<Point> controller(const MidiFile& file, int number) {
+    std::vector<Point> points;
+    for (const MidiEvent& event : file.events) {
+        if ((event.status & 0xF0) == 0xB0 && event.data[0] == number) {
+            points.push_back({event.tick, static_cast<double>(event.data[1])});
+        }
+    }
+    return points;
+}
+
+/// Quarters a minute.
+std::vector<Point> tempos(const MidiFile& file) {
+    std::vector<Point> points;
+    for (const MidiEvent& event : file.events) {
+        if (event.status != 0xFF || event.type != 0x51) continue;
+        double micro = 0;
+        for (const char byte : event.data) micro = micro * 256 + static_cast<unsigned char>(byte);
+        points.push_back({event.tick, 60e6 / micro});
+    }
+    return points;
+}
+
+/// Semitones, in a bend range of 12.
+std::vector<Point> bends(const MidiFile& file) {
+    std::vector<Point> points;
+    for (const MidiEvent& event : file.events) {
+        if ((event.status & 0xF0) != 0xE0) continue;
+        const int value = static_cast<unsigned char>(event.data[0]) + 128 * static_cast<unsigned char>(event.data[1]);
+        points.push_back({event.tick, 12.0 * (value - 8192) / 8192});
+    }
+    return points;
+}
+
+std::string error_of(const std::string& text) {
+    try {
+        play(parse("e.lsys", steps + text), "mid");
+    } catch (const PatternError& error) {
+        return error.diagnostics().front().message;
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(Expression, VelocityFollowsTheCurve) {
+    const auto velocities = [](const std::string& text) {
+        std::vector<int> all;
+        for (const MidiNote& note : midi_of(text).notes) all.push_back(note.velocity);
+        return all;
+    };
+    EXPECT_EQ(velocities(steps + "velocity: by y 40-80\n"), (std::vector<int>{40, 60, 80, 60}));
+    EXPECT_EQ(velocities(steps + "velocity: by y 80-40\n"), (std::vector<int>{80, 60, 40, 60}));
+    EXPECT_EQ(velocities(steps + "velocity: by length 50-100\n"), (std::vector<int>{50, 50, 50, 100}));
+    // Middles of the runs: 0.5, 1.5, 2.5 and 4 of 5 steps.
+    EXPECT_EQ(velocities(steps + "velocity: by x 1-101\n"), (std::vector<int>{11, 31, 51, 81}));
+}
+
+TEST(Expression, LevelsAreOrdersOfSubCurves) {
+    std::vector<int> velocities;
+    for (const MidiNote& note : midi_of(nested + "velocity: by level 10-100\n").notes) {
+        velocities.push_back(note.velocity);
+    }
+    EXPECT_EQ(velocities, (std::vector<int>{100, 10, 40, 10, 70, 10, 40, 10}));
+}
+
+TEST(Expression, DepthCountsBrackets) {
+    std::vector<int> velocities;
+    const MidiFile file = midi_of(
+        "mapping: symbols\nbrackets: sequence\nnote A:\naxiom: A[A[A]A]A\n"
+        "velocity: by depth 100-60\n");
+    for (const MidiNote& note : file.notes) velocities.push_back(note.velocity);
+    EXPECT_EQ(velocities, (std::vector<int>{100, 80, 60, 80, 100}));
+}
+
+TEST(Expression, PanAndControllerAreRampsAlongTheRun) {
+    const MidiFile file = midi_of(steps + "pan: by x 0-100\ncontroller: 74 by y 0-100\n");
+    const std::vector<Point> pan = controller(file, 10);
+    ASSERT_FALSE(pan.empty());
+    // A note of a step is 240 ticks and a fifth of the width: 20 in 8 points, 2.5 apart.
+    EXPECT_EQ(pan[0], (Point{0, 0}));
+    EXPECT_EQ(pan[1], (Point{30, 3}));
+    EXPECT_EQ(pan[2], (Point{60, 5}));
+    for (const Point& point : pan) {
+        EXPECT_NEAR(point.value, 100 * static_cast<double>(point.tick) / 1200, 0.501) << point.tick;
+    }
+    EXPECT_EQ(controller(file, 74), (std::vector<Point>{{0, 0}, {240, 50}, {480, 100}, {720, 50}}));
+    EXPECT_EQ(file.notes.size(), 4u);
+    EXPECT_TRUE(controller(midi_of(steps), 10).empty());
+}
+
+TEST(Expression, TempoIsAMapOfBeats) {
+    // All at one height: the middle of the range.
+    const std::string flat = "heading: 0\naxiom: FfFfFf\n";
+    for (const Point& point : tempos(midi_of(flat + "tempo: 100 by y 80-120\n"))) EXPECT_EQ(point.value, 100);
+    std::string rising = "heading: 0\nturn: left\nunit: 1/4\naxiom: ";
+    for (int i = 0; i < 12; ++i) rising += "F+F-";
+    const MidiFile file = midi_of(rising + "\ntempo: 100 by y 80-125\n");
+    const std::vector<Point> map = tempos(file);
+    ASSERT_EQ(map.size(), 13u);  // the tempo itself, and one for each of 12 quarters
+    for (std::size_t i = 2; i < map.size(); ++i) {
+        EXPECT_GT(map[i].value, map[i - 1].value);
+        EXPECT_EQ(map[i].tick - map[i - 1].tick, 480);
+    }
+    // In the midst smoothing changes nothing of a straight line: the seventh of twelve heights.
+    EXPECT_NEAR(map[7].value, 80 + 45.0 * 6 / 11, 0.01);
+}
+
+TEST(Expression, PagesHaveTheTemposOfMidi) {
+    const std::string text = steps + "vertical: extend\nunit: 1/2\nending: ritardando\ntempo: 90 by y 70-110\n";
+    const std::vector<Point> map = tempos(midi_of(text));
+    const std::string page = play(parse("e.lsys", text), "html");
+    const std::size_t begin = page.find("id=\"score\">") + 11;
+    const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+    ASSERT_EQ(data["tempos"].size() + 1, map.size());
+    ASSERT_GT(map.size(), 9u);
+    for (std::size_t i = 1; i < map.size(); ++i) {
+        EXPECT_EQ(data["tempos"][i - 1][0].get<std::int64_t>(), map[i].tick);
+        EXPECT_NEAR(data["tempos"][i - 1][1].get<double>() * 90, map[i].value, 0.01);
+    }
+    EXPECT_LT(map.back().value, 0.61 * 110);
+}
+
+TEST(Expression, SecondsAreThoseOfTheMap) {
+    const std::vector<TempoPoint> map = {{480, 0.5}, {960, 2}};
+    EXPECT_DOUBLE_EQ(seconds_at(240, 120, map), 0.25);
+    EXPECT_DOUBLE_EQ(seconds_at(960, 120, map), 0.5 + 1);
+    EXPECT_DOUBLE_EQ(seconds_at(1920, 120, map), 0.5 + 1 + 0.5);
+    ScoreHead head;
+    head.ritardando = 3840;
+    const std::vector<TempoPoint> falls = tempo_map(head, {}, 9600);
+    ASSERT_EQ(falls.size(), 8u);
+    EXPECT_EQ(falls.front().tick, 5760);
+    EXPECT_DOUBLE_EQ(falls.back().factor, 0.6);
+    // The number of points does not depend on the end, which a stream of notes does not know.
+    Curves curves;
+    curves.tempo = {{0, 1.1}, {480, 0.9}, {9000, 1}};
+    EXPECT_EQ(tempo_map(head, curves, 0).size(), tempo_map(head, curves, 9600).size());
+}
+
+TEST(Expression, KampitaSwingsToTheDegreeAbove) {
+    // A note of two seconds on degree 1, D; E is a tone above.
+    const std::string text = "mapping: symbols\ntempo: 60\nnote A: degree 1 1/2\nnote B: degree 0 1/2\naxiom: AB\n";
+    const std::vector<Point> points = bends(midi_of(text + "gamaka: kampita 1\n"));
+    ASSERT_FALSE(points.empty());
+    int tops = 0;
+    double highest = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        highest = std::max(highest, points[i].value);
+        if (points[i].value > points[i - 1].value && points[i].value >= points[i + 1].value) ++tops;
+        EXPECT_LE(points[i].tick, 960);
+        EXPECT_GE(points[i].value, 0);
+    }
+    EXPECT_EQ(tops, 10);  // five a second
+    EXPECT_NEAR(highest, 2, 0.15);
+    EXPECT_EQ(points.back(), (Point{960, 0}));
+    EXPECT_TRUE(bends(midi_of(text)).empty());
+}
+
+TEST(Expression, SlidesMeetTheirNeighbours) {
+    const std::string text = "mapping: symbols\ntempo: 60\nnote A: C4 1/2\nnote B: G4 1/2\naxiom: AB\n";
+    const std::vector<Point> into = bends(midi_of(text + "gamaka: jaru 4\n"));
+    ASSERT_GT(into.size(), 4u);
+    EXPECT_EQ(into.front().tick, 960);
+    EXPECT_NEAR(into.front().value, -7, 0.01);
+    EXPECT_EQ(into.back(), (Point{960 + 120, 0}));  // a quarter of a second
+    const std::vector<Point> out = bends(midi_of(text + "gamaka: meend all\n"));
+    EXPECT_GT(out.front().tick, 960 - 120);
+    EXPECT_TRUE(
+        std::is_sorted(out.begin(), out.end() - 1, [](const Point& a, const Point& b) { return a.value < b.value; }));
+    EXPECT_NEAR((out.end() - 2)->value, 7, 0.4);
+    EXPECT_EQ(out.back(), (Point{960, 0}));
+    // In print a line leads from note to note, from the last of those that are tied.
+    EXPECT_NE(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly").find("c'2\\glissando\\mf g'2"),
+              std::string::npos);
+    pugi::xml_document xml;
+    const std::string tied = "mapping: symbols\nnote A: C4 3/4\nnote B: G4 3/4\naxiom: AB\ngamaka: jaru all\n";
+    ASSERT_TRUE(xml.load_string(play(parse("e.lsys", tied), "musicxml").c_str()));
+    std::vector<std::string> slides;
+    for (const auto& note : xml.select_nodes("//note[pitch]")) {
+        const pugi::xml_node slide = note.node().child("notations").child("slide");
+        slides.push_back(std::string(note.node().child("pitch").child_value("step")) +
+                         slide.attribute("type").value());
+    }
+    EXPECT_EQ(slides, (std::vector<std::string>{"Cstart", "Gstop", "G"}));
+    EXPECT_EQ(play(parse("e.lsys", text + "gamaka: kampita all\n"), "ly").find("gliss"), std::string::npos);
+}
+
+TEST(Expression, AllFormsOfMidiHaveTheCurves) {
+    const std::string text = steps + "scale: 31-edo\npan: by x 0-100\n";
+    const std::vector<Point> pan = controller(midi_of(text), 10);
+    EXPECT_EQ(controller(midi_of(text, {{"midi-format", "0"}}), 10), pan);
+    EXPECT_EQ(controller(midi_of(text, {{"tuning", "mts"}}), 10), pan);
+    std::vector<double> keys;
+    for (const MidiFile& file : {midi_of(text), midi_of(text, {{"tuning", "mts"}})}) {
+        for (const MidiNote& note : file.notes) keys.push_back(note.key + note.bend);
+    }
+    ASSERT_EQ(keys.size(), 8u);
+    const std::vector<double> degrees = {0, 1, 2, 1};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(keys[i], 60 + degrees[i] * 12 / 31, 0.01);
+        EXPECT_NEAR(keys[i], keys[i + 4], 0.01);
+    }
+    // With MPE channels belong to notes, and the curves are left out.
+    EXPECT_TRUE(controller(midi_of(text, {{"tuning", "mpe"}}), 10).empty());
+}
+
+TEST(Expression, ErrorsSayWhatIsExpected) {
+    EXPECT_EQ(error_of("velocity: by y 0-300\n"),
+              "expected velocities from 1 to 127, such as by y 50-110; by x, y, depth, turn, length or level");
+    EXPECT_EQ(error_of("velocity: by z 10-20\n"),
+              "expected velocities from 1 to 127, such as by y 50-110; by x, y, depth, turn, length or level");
+    EXPECT_EQ(
+        error_of("tempo: 100 by y 2-90\n"),
+        "expected quarters a minute from 4 to 1000, such as 96 by y 84-108; by x, y, depth, turn, length or level");
+    EXPECT_EQ(
+        error_of("pan: left\n"),
+        "expected none, or places from 0, left, to 127, right, such as by x 14-114; by x, y, depth, turn, length "
+        "or level");
+    EXPECT_EQ(error_of("controller: 101 by y\n"),
+              "controller 101 has a fixed use; expected another such as 1 (modulation), 11 (expression) or 74 "
+              "(brightness)");
+    EXPECT_EQ(error_of("gamaka: kampita 7\n"), "degree 7 is not in the scale; expected 0 to 6");
+    EXPECT_EQ(error_of("gamaka: shake 2\n"),
+              "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, such as "
+              "kampita 2 6, meend all");
+    EXPECT_THROW(play(parse("e.lsys", steps + "gamaka: meend all\n"), "mid", {{"tuning", "mts"}}), SettingError);
+}
+
+}  // namespace
+}  // namespace sikku

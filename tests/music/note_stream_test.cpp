@@ -1,0 +1,194 @@
+#include "music/note_stream.h"
+
+#include "music/scores.h"
+#include "tests/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+const std::string hilbert =
+    "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 5\nunit: 1/16\n";
+const std::string arrowhead =
+    "angle factor: 6\naxiom: YF\nX --> YF+XF+Y\nY --> XF-YF-X\nderivation length: 6\nmapping: runs\n";
+
+Document document_of(const std::string& text) {
+    Diagnostics diagnostics;
+    Document document = Document::compile("test", text, {}, diagnostics);
+    diagnostics.throw_if_errors();
+    return document;
+}
+
+using Heard = std::tuple<std::int64_t, int, std::int64_t, double, int>;  // onset, voice, end, key, velocity
+
+/// The notes of the windows of one pass from `tick` on, put together.
+std::vector<Heard> collect(NoteStream& stream, std::int64_t* end = nullptr, std::size_t* most = nullptr) {
+    std::vector<Heard> heard;
+    std::map<int, std::size_t> open;  // of voices
+    std::int64_t at = -1;
+    for (;;) {
+        const NoteWindow window = stream.next();
+        EXPECT_TRUE(at < 0 || window.from == at) << window.from;
+        at = window.to;
+        if (most) *most = std::max(*most, window.notes.size());
+        for (const NoteWindow::End& one : window.ends) {
+            EXPECT_TRUE(open.contains(one.voice)) << "a note ends that was not open";
+            std::get<2>(heard[open[one.voice]]) = one.tick;
+            open.erase(one.voice);
+        }
+        for (const Note& note : window.notes) {
+            EXPECT_GE(note.onset, window.from);
+            EXPECT_LT(note.onset, window.is_last ? INT64_MAX : window.to);
+            if (note.duration == 0) open[note.voice] = heard.size();
+            heard.emplace_back(note.onset, note.voice, note.onset + note.duration, note.key, note.velocity);
+        }
+        if (!window.is_last) continue;
+        EXPECT_TRUE(open.empty()) << "a note does not end";
+        if (end) *end = window.end.value();
+        std::sort(heard.begin(), heard.end());
+        return heard;
+    }
+}
+
+std::vector<Heard> heard_in(const NoteList& list) {
+    std::vector<Heard> heard;
+    for (const Note& note : list.notes) {
+        heard.emplace_back(note.onset, note.voice, note.onset + note.duration, note.key, note.velocity);
+    }
+    std::sort(heard.begin(), heard.end());
+    return heard;
+}
+
+/// What the windows hold is what the whole score holds.
+TEST(NoteStream, WindowsMakeTheWhole) {
+    const std::vector<OptionValues> all = {
+        {},
+        {{"unit", "1/1"}},
+        {{"unit", "7/4"}},
+        {{"vertical", "voice"}},
+        {{"vertical", "glissando"}},
+        {{"vertical", "extend"}},
+        {{"mapping", "counterpoint"}},
+        {{"mapping", "counterpoint"}, {"unit", "3/2"}},
+        {{"mapping", "symbols"}},
+        {{"rhythm", "E(3,8)"}, {"swing", "67"}},
+        {{"phrases", "2"}, {"cadence", "alternate"}},
+        {{"harmony", "drone"}},
+        {{"harmony", "triads"}},
+        {{"harmony", "progression I-IV-V7-I"}, {"meter", "3/4"}},
+        {{"harmony", "bass 2"}},
+        {{"canon", "2 -12, 3.5 fifth below"}},
+        {{"anchor", "lowest note"}},
+        {{"anchor", "centre"}, {"range", "reflect C4-C5"}},
+        {{"anchor", "piece"}},
+        {{"anchor", "piece"}, {"from-bar", "7"}, {"inversion", "yes"}},
+        {{"anchor", "piece"}, {"from-bar", "7"}, {"mapping", "symbols"}},
+        {{"anchor", "piece"}, {"from-bar", "7"}, {"harmony", "triads"}, {"cadence", "tonic"}},
+        {{"anchor", "piece"}, {"from-bar", "7"}, {"mapping", "counterpoint"}},
+        {{"from-bar", "9"}, {"bars", "13"}, {"ending", "ritardando"}},
+        {{"seconds", "17.3"}},
+        {{"speed", "3:2"}},
+        {{"speed", "11:7"}, {"start", "1.5"}},
+        {{"speed", "64:61"}},
+        {{"start", "9"}},
+        {{"excerpt", "3-9"}},
+        {{"retrograde", "yes"}},
+        {{"loop", "3"}},
+        {{"augmentation", "3/2"}},
+        {{"humanise", "1"}, {"seed", "4"}},
+        {{"scale", "hamsadhwani"}, {"articulation", "detached"}, {"velocity", "by length"}},
+    };
+    for (const std::string& text : {hilbert, arrowhead}) {
+        const std::vector<Document> documents = {document_of(text)};
+        for (const OptionValues& values : all) {
+            std::string name;
+            for (const OptionValue& value : values) name += value.name + " " + value.text + ", ";
+            SCOPED_TRACE(name + (text == hilbert ? "hilbert" : "arrowhead"));
+            NoteList list;
+            try {
+                list = list_notes(documents, values, {});
+            } catch (const ScoreError& error) {
+                EXPECT_THROW(stream_notes(documents, values), ScoreError) << error.what();
+                continue;
+            }
+            const auto stream = stream_notes(documents, values);
+            std::int64_t end = 0;
+            const std::vector<Heard> whole = heard_in(list);
+            ASSERT_EQ(collect(*stream, &end), whole);
+            EXPECT_EQ(end, list.end);
+            // It begins again.
+            ASSERT_EQ(collect(*stream), whole);
+            // And from any tick.
+            for (const std::int64_t from : {1LL, 1919LL, 1920LL, 10'000LL, 27'001LL}) {
+                if (from >= list.end) continue;
+                stream->seek(from);
+                const std::vector<Heard> later(std::lower_bound(whole.begin(), whole.end(), Heard{from, 0, 0, 0, 0}),
+                                               whole.end());
+                ASSERT_EQ(collect(*stream), later) << from;
+            }
+        }
+    }
+}
+
+TEST(NoteStream, PartsOfAnArrangement) {
+    const std::vector<Document> documents = {
+        document_of(hilbert), document_of(hilbert + "start: 3\nmeter: 3/4\nspeed: 4:3\nharmony: triads\n"),
+        document_of(arrowhead + "start: 30\n")};
+    const NoteList list = list_notes(documents, {}, {});
+    const auto stream = stream_notes(documents, {});
+    std::int64_t end = 0;
+    EXPECT_EQ(collect(*stream, &end), heard_in(list));
+    EXPECT_EQ(end, list.end);
+}
+
+TEST(NoteStream, BranchesAreReadWhole) {
+    const std::vector<Document> documents = {
+        document_of("angle factor: 16\naxiom: F\nF --> FF-[-F+F+F]+[+F-F-F]\nderivation length: 2\n")};
+    const NoteList list = list_notes(documents, {}, {});
+    EXPECT_GT(list.parts.front().voices, 1);
+    EXPECT_EQ(collect(*stream_notes(documents, {})), heard_in(list));
+}
+
+/// A note is longer than what is read after a window.
+TEST(NoteStream, ALongNoteEndsOnce) {
+    const std::vector<Document> documents = {document_of("axiom: +" + std::string(4000, 'F') + "-F+F\n")};
+    const NoteList list = list_notes(documents, {}, {});
+    ASSERT_EQ(list.notes.front().duration, 4000 * 240);
+    EXPECT_EQ(collect(*stream_notes(documents, {})), heard_in(list));
+}
+
+TEST(NoteStream, SilenceIsAnError) {
+    const std::vector<Document> documents = {document_of("axiom: F\n")};
+    EXPECT_THROW(stream_notes(documents, {}), ScoreError);
+}
+
+/// Four to the power of forty steps.
+TEST(NoteStream, AnEndlessCurveBeginsAtOnce) {
+    const std::vector<Document> documents = {document_of(hilbert).with({{"-n", "derivation length", "40"}})};
+    const auto stream = stream_notes(documents, {{"anchor", "piece"}, {"from-bar", "1000000000"}});
+    const NoteList list =
+        list_notes(documents, {{"anchor", "piece"}, {"from-bar", "1000000000"}, {"bars", "100"}}, {});
+    std::vector<Heard> heard;
+    std::vector<Heard> expected = heard_in(list);
+    while (heard.size() < expected.size()) {
+        const NoteWindow window = stream->next();
+        ASSERT_LT(window.notes.size(), 1000u);
+        ASSERT_FALSE(window.end);
+        for (const Note& note : window.notes) {
+            heard.emplace_back(note.onset, note.voice, note.onset + note.duration, note.key, note.velocity);
+        }
+    }
+    // The last note is cut in the list.
+    heard.resize(expected.size() - 1);
+    expected.pop_back();
+    EXPECT_EQ(heard, expected);
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,234 @@
+// The formats that need little code: ABC, Csound, Strudel, compressed MusicXML.
+#include "music/score/abc.h"
+#include "music/score/csound.h"
+#include "music/score/musicxml.h"
+#include "music/score/mxl.h"
+#include "music/score/strudel.h"
+#include "tests/files.h"
+#include "tests/notation_tools.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+std::string abc_of(const TestScore& score) {
+    MemorySink sink;
+    write_abc(notate(score), score.head, sink);
+    return sink.text;
+}
+
+/// Signs of the letters from C in a key of ABC, by counting fifths.
+std::map<char, double> key_of(const std::string& name) {
+    static const std::map<std::string, int> modes = {{"lyd", 0}, {"", 1},    {"mix", 2}, {"dor", 3},
+                                                     {"min", 4}, {"phr", 5}, {"loc", 6}};
+    const std::string order = "FCGDAEB";
+    const std::size_t sign = name.find_first_of("#b", 1) == 1 ? 1 : 0;
+    int fifths = static_cast<int>(order.find(name[0])) - (sign == 0 ? 0 : name[1] == '#' ? -7 : 7);
+    fifths -= modes.at(name.substr(1 + sign));
+    std::map<char, double> signs;
+    for (int i = 0; i < 7; ++i) {
+        if (i < fifths) signs[order[static_cast<std::size_t>(i)]] = 1;
+        if (i < -fifths) signs[order[static_cast<std::size_t>(6 - i)]] = -1;
+    }
+    return signs;
+}
+
+/// Reads the notes of a tune: lengths in eighths, tuplets count notes and rests, accidentals hold to the bar line for
+/// their letter in all octaves if `wide`, else for the note alone.
+std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool wide) {
+    static const std::map<char, int> semitones = {{'C', 0}, {'D', 2}, {'E', 4}, {'F', 5},
+                                                  {'G', 7}, {'A', 9}, {'B', 11}};
+    static const std::map<std::string, double> signs = {{"__", -2},   {"_3/2", -1.5}, {"_", -1},
+                                                        {"_/", -0.5}, {"=", 0},       {"^/", 0.5},
+                                                        {"^", 1},     {"^3/2", 1.5},  {"^^", 2}};
+    static const std::regex token(
+        R"(^(?:(\[K:([A-G][^\]]*)\])|(\[K:clef=\w+\])|(\|\]?)|(!![^!]*!|![^!]*!)|("[^"]*")|\((\d+):(\d+):(\d+)|)"
+        R"((__|\^\^|_3/2|\^3/2|_/|\^/|_|\^|=)?([A-Ga-g])([',]*)(\d*)(?:/(\d+))?(-)?|([zx])(\d*)(?:/(\d+))?|([ \n]+)))");
+    std::vector<PlainNote> list;
+    std::istringstream stream(text);
+    std::string row;
+    std::string voice;
+    std::map<char, double> key;
+    std::map<char, double> in_force;
+    std::int64_t here = 0;
+    std::int64_t actual = 1;
+    std::int64_t normal = 1;
+    int left = 0;
+    bool tied = false;
+    for (bool in_voice = false; std::getline(stream, row);) {
+        if (row.starts_with("V:")) {
+            EXPECT_FALSE(tied);
+            in_voice = true;
+            here = 0;
+            continue;
+        }
+        if (!in_voice || row.starts_with("%")) continue;
+        row += "\n";
+        for (std::smatch match; !row.empty(); row = match.suffix()) {
+            if (!std::regex_search(row, match, token) || match.length() == 0) {
+                ADD_FAILURE() << "what is " << row;
+                return list;
+            }
+            const auto length = [&](std::size_t above, std::size_t below) {
+                std::int64_t ticks = 240 * (match[above].length() > 0 ? std::stoi(match[above]) : 1);
+                if (match[below].matched) ticks /= std::stoi(match[below]);
+                if (left > 0) {
+                    EXPECT_EQ(ticks * normal % actual, 0);
+                    ticks = ticks * normal / actual;
+                    --left;
+                }
+                return ticks;
+            };
+            if (match[2].matched) {
+                key = key_of(match[2]);
+            } else if (match[4].matched) {
+                EXPECT_EQ(here % bar, 0);
+                EXPECT_EQ(left, 0);
+                in_force.clear();
+            } else if (match[7].matched) {
+                EXPECT_EQ(left, 0);
+                actual = std::stoi(match[7]);
+                normal = std::stoi(match[8]);
+                left = std::stoi(match[9]);
+            } else if (match[11].matched) {
+                const char letter = match[11].str()[0];
+                const char upper = static_cast<char>(std::toupper(letter));
+                double sign = key.contains(upper) ? key[upper] : 0;
+                if (wide && in_force.contains(upper)) sign = in_force[upper];
+                if (match[10].matched) sign = in_force[upper] = signs.at(match[10]);
+                double pitch = (letter == upper ? 60 : 72) + semitones.at(upper) + sign;
+                for (const char mark : match[12].str()) pitch += mark == '\'' ? 12 : -12;
+                const std::int64_t ticks = length(13, 14);
+                if (tied) {
+                    EXPECT_EQ(list.back().key, pitch);
+                    list.back().duration += ticks;
+                } else {
+                    list.push_back({here, ticks, pitch});
+                }
+                tied = match[15].matched;
+                here += ticks;
+            } else if (match[16].matched) {
+                here += length(17, 18);
+            }
+        }
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+TEST(Abc, RandomScoresAreReadBack) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        const TestScore score = random_score(seed, seed % 3 == 0);
+        for (const bool wide : {false, true}) {
+            ASSERT_EQ(read_abc(abc_of(score), score.head.meter.bar(), wide), plain(score.notes)) << seed;
+        }
+    }
+}
+
+TEST(Abc, TupletsAreReadBack) {
+    for (const std::int64_t unit : {160, 80, 96, 192}) {
+        std::vector<std::int64_t> lengths;
+        for (int i = 0; i < 30; ++i) lengths.push_back(unit * (1 + i * i % 4));
+        const TestScore score = line({4, 4}, lengths);
+        EXPECT_EQ(read_abc(abc_of(score), 1920, true), plain(score.notes));
+    }
+}
+
+TEST(Abc, TellsWhatTheScoreIs) {
+    TestScore score = line({7, 8, {3, 2, 2}}, {240, 240, 1200});
+    score.head.title = "100% \\ title\nK:x";
+    score.head.composer = "Peano";
+    score.head.made = "sikku 0.1.0, -n 2";
+    score.head.pattern = "axiom: X\n\nX --> F\n";
+    score.head.parts[0].key = KeySignature{-3, true};
+    score.head.parts[0].program = 40;
+    const std::string text = abc_of(score);
+    EXPECT_TRUE(text.starts_with("%abc-2.1\n\n% sikku 0.1.0, -n 2\n% axiom: X\n%\n% X --> F\n\nX:1\n")) << text;
+    for (const char* row : {"T:100\\% \\\\ title K:x\n", "C:Peano\n", "M:(3+2+2)/8\n", "K:Cmin\n",
+                            "%%MIDI program 40\n", "V:1 clef=treble name=\"Voice\"\n"}) {
+        EXPECT_NE(text.find(row), std::string::npos) << row << text;
+    }
+}
+
+TEST(Csound, StatementsAreTheNotes) {
+    const TestScore score = random_score(5, true);
+    MemorySink sink;
+    write_csound_score(score.head, score.notes, score.end, sink);
+    std::istringstream stream(sink.text);
+    std::vector<PlainNote> read;
+    for (std::string row; std::getline(stream, row);) {
+        if (!row.starts_with("i ")) continue;
+        std::istringstream fields(row.substr(2));
+        double instrument = 0, onset = 0, duration = 0, frequency = 0, amplitude = 0;
+        fields >> instrument >> onset >> duration >> frequency >> amplitude;
+        EXPECT_GT(amplitude, 0);
+        read.push_back({std::llround(onset * 480), std::llround(duration * 480),
+                        std::round(2 * (69 + 12 * std::log2(frequency / 440))) / 2});
+    }
+    std::sort(read.begin(), read.end());
+    EXPECT_EQ(read, plain(score.notes));
+}
+
+TEST(Csound, PlaysTheFile) {
+    NEEDS("csound");
+    const ScratchFolder folder;
+    TestScore score = random_score(5, true);
+    score.head.pattern = "</CsScore>\naxiom: X\n";
+    MemorySink sink;
+    write_csound_file(score.head, score.notes, score.end, sink);
+    const auto outcome =
+        run("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    EXPECT_NE(outcome.text.find("0 errors in performance"), std::string::npos) << outcome.text;
+}
+
+TEST(Strudel, WeightsAreDurations) {
+    const TestScore score = line({4, 4}, {480, 240, -240, 960, 480});
+    MemorySink sink;
+    write_strudel(score.head, score.notes, score.end, sink);
+    EXPECT_NE(sink.text.find("setcpm(120 / 4)\n$: note(`c5@2 c5 ~ c5@4 c5@2 ~@6`)\n  .slow(2).sound(\"piano\")\n"),
+              std::string::npos)
+        << sink.text;
+    EXPECT_TRUE(sink.text.starts_with("// https://strudel.cc/#"));
+    // RFC 4648, section 10, with the signs that links reserve escaped.
+    EXPECT_EQ(strudel_link("foobar"), "https://strudel.cc/#Zm9vYmFy");
+    EXPECT_EQ(strudel_link("fooba"), "https://strudel.cc/#Zm9vYmE%3D");
+    EXPECT_EQ(strudel_link("foob"), "https://strudel.cc/#Zm9vYg%3D%3D");
+    EXPECT_EQ(strudel_link("\xFF\xEF\xBE"), "https://strudel.cc/#%2F%2B%2B%2B");
+}
+
+TEST(Mxl, IsReadByOthers) {
+    NEEDS("python3");
+    const ScratchFolder folder;
+    TestScore score = random_score(4, true);
+    score.head.pattern = "axiom: X\n";
+    MemorySink xml;
+    write_musicxml(notate(score), score.head, xml);
+    MemorySink packed;
+    write_mxl(xml.text, packed);
+    EXPECT_LT(packed.text.size(), xml.text.size() / 4);
+    folder.write("x.mxl", packed.text);
+    folder.write("x.musicxml", xml.text);
+    const auto outcome =
+        run("cd '" + folder.path().string() +
+            "' && python3 -c \"import zipfile; z = zipfile.ZipFile('x.mxl'); assert z.testzip() is None; "
+            "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
+            "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+}
+
+}  // namespace
+}  // namespace sikku

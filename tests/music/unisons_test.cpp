@@ -1,0 +1,118 @@
+#include "music/score/unisons.h"
+
+#include "music/score/midi.h"
+#include "tests/midi_reader.h"
+#include "tests/notation_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+class Collector : public NoteSink {
+public:
+    void notes(std::span<const Note> block) override { list.insert(list.end(), block.begin(), block.end()); }
+    void finish(std::int64_t at) override { end = at; }
+    std::vector<Note> list;
+    std::int64_t end = 0;
+};
+
+TestScore random_voices(unsigned seed, int parts, int voices) {
+    std::mt19937 random(seed);
+    TestScore score;
+    std::int16_t voice = 0;
+    for (int part = 0; part < parts; ++part) {
+        score.head.parts.push_back(plain_part("Part", voices));
+        for (int i = 0; i < voices; ++i, ++voice) {
+            std::int64_t here = 0;
+            for (int n = 0; n < 30; ++n) {
+                Note note;
+                note.onset = here + static_cast<std::int64_t>(random() % 3) * 60;
+                note.duration = 60 * (1 + static_cast<std::int64_t>(random() % 5));
+                note.key = 60 + static_cast<double>(random() % 6);
+                note.velocity = static_cast<std::uint8_t>(60 + random() % 40);
+                note.voice = voice;
+                here = note.onset + note.duration;
+                score.notes.push_back(note);
+            }
+            score.end = std::max(score.end, here);
+        }
+    }
+    return score;
+}
+
+/// Where a key of a part sounds, sixteenth by sixteenth, and where it is struck.
+using Sound = std::set<std::tuple<int, int, std::int64_t>>;
+std::pair<Sound, Sound> heard(const std::vector<Note>& notes, int voices) {
+    std::pair<Sound, Sound> result;
+    for (const Note& note : notes) {
+        const int part = note.voice / voices;
+        const int key = static_cast<int>(note.key);
+        result.second.emplace(part, key, note.onset);
+        for (std::int64_t at = note.onset; at < note.onset + note.duration; at += 60)
+            result.first.emplace(part, key, at);
+    }
+    return result;
+}
+
+TEST(Unisons, KeysSoundOnceAndNothingIsLost) {
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        const TestScore score = random_voices(seed, 2, 10);
+        Collector collector;
+        UnisonMerger merger(collector, score.head, 10'000);
+        merger.notes(score.notes);
+        merger.finish(score.end);
+        EXPECT_EQ(collector.end, score.end);
+        EXPECT_EQ(heard(collector.list, 10), heard(score.notes, 10));
+        std::map<std::pair<int, double>, std::int64_t> key_ends;
+        std::map<int, std::int64_t> voice_ends;
+        std::sort(collector.list.begin(), collector.list.end(),
+                  [](const Note& a, const Note& b) { return a.onset < b.onset; });
+        for (const Note& note : collector.list) {
+            auto& key_end = key_ends[{note.voice / 10, note.key}];
+            EXPECT_LE(key_end, note.onset);
+            key_end = note.onset + note.duration;
+            EXPECT_LE(voice_ends[note.voice], note.onset);
+            voice_ends[note.voice] = note.onset + note.duration;
+            EXPECT_GT(note.duration, 0);
+        }
+    }
+}
+
+TEST(Unisons, VoicesOfAPartShareItsChannel) {
+    const TestScore score = random_voices(1, 2, 12);
+    MemorySink sink;
+    MidiOptions options;
+    options.share_channels = true;
+    const auto writer = write_midi(score.head, sink, options);
+    UnisonMerger merger(*writer, score.head, 10'000);
+    merger.notes(score.notes);
+    merger.finish(score.end);
+    std::set<int> channels;
+    std::size_t notes = 0;
+    const MidiFile read = read_midi(sink.text);
+    for (const MidiNote& note : read.notes) {
+        channels.insert(note.channel);
+        ++notes;
+    }
+    EXPECT_EQ(channels, (std::set<int>{0, 1}));
+    EXPECT_GT(notes, 300u);
+}
+
+TEST(Unisons, HasALimit) {
+    const TestScore score = random_voices(1, 1, 2);
+    Collector collector;
+    UnisonMerger merger(collector, score.head, 59);
+    EXPECT_THROW(merger.notes(score.notes), ScoreError);
+}
+
+}  // namespace
+}  // namespace sikku

@@ -1,0 +1,118 @@
+// tests/program/arrangement_program_test.cpp: `sikku play` with arrangements, and what scores contain of them.
+#include "tests/files.h"
+#include "tests/midi_reader.h"
+#include "tests/program.h"
+#include "tests/tools.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+const std::string piece =
+    "title = \"A \\\"piece\\\" #(ly:exit) \\\\ } % --> ]]>\"\ntempo = 100\nscale = \"dorian\"\n\n"
+    "[[track]]\npattern = \"hilbert\"\nn = 3\n\n"
+    "[[track]]\npattern = \"mine.lsys\"\nstart = 1\ninversion = true\nloop = \"fill\"\ncounterpoint = \"strict\"\n";
+const std::string mine = "title: Mine\naxiom: X\nderivation length: 2\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n";
+
+TEST(ArrangementProgram, EveryScoreContainsTheArrangement) {
+    const ScratchFolder folder;
+    folder.write("mine.lsys", mine);
+    const std::string file = folder.write("piece.toml", piece);
+    std::string first;
+    for (const char* ending : {"mid", "musicxml", "mxl", "ly", "abc", "csd", "sco", "strudel", "svg", "html"}) {
+        const std::string score = folder.file(std::string("x.") + ending);
+        const Outcome played = run(Arguments{"play", file, "-o", score});
+        ASSERT_EQ(played.status, 0) << ending << played.errors;
+        EXPECT_NE(played.errors.find("counterpoint: "), std::string::npos) << played.errors;
+        const Outcome shown = run(Arguments{"-q", "show", score});
+        EXPECT_TRUE(shown.output.starts_with(piece)) << ending;
+        if (first.empty()) first = shown.output;
+        EXPECT_EQ(shown.output, first) << ending;
+    }
+    // It plays again without the pattern file.
+    const ScratchFolder other;
+    const std::string again = other.write("again.toml", first);
+    ASSERT_EQ(run(Arguments{"play", again, "-o", other.file("x.mid")}).status, 0);
+    EXPECT_EQ(contents(other.file("x.mid")), contents(folder.file("x.mid")));
+    EXPECT_EQ(run(Arguments{"check", again, other.file("x.mid")}).output, "");
+}
+
+TEST(ArrangementProgram, PartsOfTheCommandLineAreRecovered) {
+    const ScratchFolder folder;
+    const Outcome played =
+        run(Arguments{"play", "hilbert-in-c", "hilbert-in-c@n=3,loop=2,tempo-ratio=3:2,retrograde=yes",
+                      "dragon@unit=1/16,angle factor=8", "--tempo", "90", "-o", folder.file("x.mid")});
+    ASSERT_EQ(played.status, 0) << played.errors;
+    const Outcome shown = run(Arguments{"show", folder.file("x.mid")});
+    for (const char* text : {"loop = \"2\"", "speed = \"3:2\"", "retrograde = \"yes\"", "n = \"3\"",
+                             "unit = \"1/16\"", "name = \"dragon", "Hilbert in C major"}) {
+        EXPECT_NE(shown.output.find(text), std::string::npos) << text << "\n" << shown.output;
+    }
+    EXPECT_NE(shown.errors.find("--tempo '90'"), std::string::npos) << shown.errors;
+    const std::string again = folder.write("again.toml", shown.output);
+    const Outcome replayed = run(Arguments{"play", again, "--tempo", "90", "-o", folder.file("y.mid")});
+    ASSERT_EQ(replayed.status, 0) << replayed.errors;
+    EXPECT_EQ(contents(folder.file("y.mid")), contents(folder.file("x.mid")));
+}
+
+TEST(ArrangementProgram, MistakesWriteNothing) {
+    const ScratchFolder folder;
+    const auto refused = [&](const std::string& text, const std::string& message,
+                             const std::string& score = "x.mid") {
+        const std::string file = folder.write("bad.toml", text);
+        const Outcome outcome = run(Arguments{"play", file, "-o", folder.file(score)});
+        EXPECT_EQ(outcome.status, 2) << outcome.errors;
+        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder.file(score)));
+        EXPECT_EQ(run(Arguments{"check", file}).status, score == "x.mid" ? 2 : 0);
+    };
+    refused("[[track]]\npattern = \"hilbet\"\n", "bad.toml:2:1: no file or pattern named 'hilbet'");
+    refused("[[track]]\npattern = \"bad.toml\"\n", "not another arrangement");
+    refused("[[track]]\npattern = hilbert\n", "text needs quotes");
+    refused("tempo = 0\n[[track]]\npattern = \"hilbert\"\n", "bad.toml:1:1: tempo: expected quarter notes");
+    refused("[[track]]\npattern = \"hilbert\"\nspeed = \"3:2\"\n", "cannot be printed", "x.ly");
+    const Outcome two = run(Arguments{"play", "invention", "hilbert"});
+    EXPECT_EQ(two.status, 2);
+    EXPECT_NE(two.errors.find("played alone"), std::string::npos) << two.errors;
+    EXPECT_EQ(run(Arguments{"play", "hilbert", "invention"}).status, 2);
+    EXPECT_EQ(run(Arguments{"play", "invention", "-n", "3"}).status, 2);
+    EXPECT_EQ(run(Arguments{"play", "missing.toml"}).status, 2);
+    for (const char* command : {"measure", "derive"}) {
+        const Outcome other = run(Arguments{command, "canon"});
+        EXPECT_EQ(other.status, 2);
+        EXPECT_NE(other.errors.find("canon: this is an arrangement; `sikku play` plays it"), std::string::npos);
+    }
+    refused("[[track]]\npattern = \"canon\"\n", "canon: a track plays a pattern, not another arrangement");
+    EXPECT_NE(run(Arguments{"patterns", "arrangement"}).errors.find("did you mean 'arrangements'?"),
+              std::string::npos);
+    // `transpose` is another name of `transposition`.
+    const std::string one = folder.file("one.mid");
+    const std::string two_names = folder.file("two.mid");
+    EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@transpose=-12,start=4", "-o", one}).status, 0);
+    EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@transposition=-12,start=4", "-o", two_names}).status, 0);
+    EXPECT_EQ(contents(one), contents(two_names));
+}
+
+TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
+    const ScratchFolder folder;
+    const Outcome names = run(Arguments{"patterns", "arrangements", "--names"});
+    EXPECT_EQ(names.output, "canon\ngamelan\ninvention\n");
+    for (const char* name : {"canon", "gamelan", "invention"}) {
+        const std::string score = folder.file(std::string(name) + ".mid");
+        const Outcome played = run(Arguments{"play", name, "-o", score});
+        EXPECT_EQ(played.status, 0) << played.errors;
+        EXPECT_NE(played.errors.find("s, 1 min "), std::string::npos) << played.errors;
+        EXPECT_EQ(run(Arguments{"check", score, name}).output, "");
+        EXPECT_EQ(run(Arguments{"play", name, "-o", folder.file("x.ly")}).status, 0);
+    }
+}
+
+}  // namespace
+}  // namespace sikku

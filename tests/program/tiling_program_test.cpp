@@ -1,0 +1,170 @@
+// tests/program/tiling_program_test.cpp: `sikku tiling` as text and as JSON.
+#include "tests/maps.h"
+#include "tests/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+using Json = nlohmann::json;
+using Point = std::pair<double, double>;
+
+Json tiling(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"tiling", "--json"});
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return Json::parse(outcome.output);
+}
+
+Point point(const Json& json) {
+    return {json[0].get<double>(), json[1].get<double>()};
+}
+double area(const Json& corners) {
+    double twice = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Point a = point(corners[i]), b = point(corners[(i + 1) % corners.size()]);
+        twice += a.first * b.second - a.second * b.first;
+    }
+    return twice / 2;
+}
+
+TEST(TilingCommand, ReportsTheCertificate) {
+    const Outcome outcome = run({"tiling", "penrose-rhombs"});
+    EXPECT_EQ(outcome.status, 0);
+    for (const char* line :
+         {"Penrose rhombs, n = 5\n", "tiling     yes: 445 tiles, one region, no gap, no overlap\n",
+          "shapes     2: 170 rhombs 36 144, in 5 orientations; 275 rhombs 72 108, in 5 orientations\n",
+          "edges      935, edge-to-edge; 845 inner, 90 on the border, one loop\n",
+          "vertices   491; 401 inner with 7 figures: 108.108.144 160, 36.72.36.108.108 90, 72.144.144 60, ",
+          "neighbours 845 pairs; 4 for 380 tiles, 3 for 40, 2 for 25; 3 colours suffice, 2 do not\n",
+          "symmetry   C5 about 0 0\n",
+          "growth     1.618034 a step in length, τ; rhombs 36 144 0.381966, rhombs 72 108 0.618034 in the limit",
+          "exact      yes\n"}) {
+        EXPECT_NE(outcome.output.find(line), std::string::npos) << line << "is not in\n" << outcome.output;
+    }
+    const Outcome no = run({"tiling", "koch-island", "-n", "1"});
+    EXPECT_EQ(no.status, 0);
+    EXPECT_NE(no.output.find("tiling     no: "), std::string::npos) << no.output;
+}
+
+/// Reads the tiles back: corners from their whole coordinates, areas, and neighbours from the edges that tiles share.
+TEST(TilingCommand, WritesTilesAsJson) {
+    for (const char* name : {"penrose-rhombs", "ammann-beenker", "gosper-islands"}) {
+        const Json json = tiling({name, "-n", "3"});
+        EXPECT_TRUE(json["tiling"].get<bool>());
+        const Json& list = json["list"];
+        ASSERT_EQ(list.size(), json["tiles"].get<std::size_t>());
+        const Json& basis = json["lattice"]["basis"];
+        ASSERT_EQ(basis.size(), json["lattice"]["rank"].get<std::size_t>());
+        std::map<std::pair<std::string, std::string>, int> owner;  // of edges in their direction
+        double sum = 0;
+        std::map<int, int> shapes;
+        std::set<std::pair<int, std::string>> orientations;
+        for (const Json& tile : list) {
+            const Json &corners = tile["corners"], &exact = tile["exact"];
+            ASSERT_EQ(corners.size(), exact.size());
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                double x = 0, y = 0;
+                for (std::size_t j = 0; j < basis.size(); ++j) {
+                    x += exact[i][j].get<double>() * basis[j][0].get<double>();
+                    y += exact[i][j].get<double>() * basis[j][1].get<double>();
+                }
+                EXPECT_NEAR(x, corners[i][0].get<double>(), 1e-6);
+                EXPECT_NEAR(y, corners[i][1].get<double>(), 1e-6);
+                const auto edge = std::pair(exact[i].dump(), exact[(i + 1) % exact.size()].dump());
+                EXPECT_TRUE(owner.emplace(edge, tile["tile"].get<int>()).second);
+            }
+            EXPECT_GT(area(corners), 0);
+            sum += area(corners);
+            ++shapes[tile["shape"].get<int>()];
+        }
+        EXPECT_NEAR(sum, json["area"].get<double>(), 1e-6);
+        for (std::size_t i = 0; i < json["shapes"].size(); ++i) {
+            EXPECT_EQ(json["shapes"][i]["tiles"].get<int>(), shapes[static_cast<int>(i)]);
+        }
+        double inside = 0;
+        std::size_t border = 0;
+        for (const Json& loop : json["border"]) {
+            inside += area(loop);
+            border += loop.size();
+        }
+        EXPECT_NEAR(inside, sum, 1e-6);
+        EXPECT_EQ(border, json["border_edges"].get<std::size_t>());
+        std::map<int, std::set<int>> neighbours;
+        std::map<int, int> colours;
+        std::size_t inner = 0;
+        for (const auto& [edge, tile] : owner) {
+            const auto other = owner.find({edge.second, edge.first});
+            if (other == owner.end()) continue;
+            neighbours[tile].insert(other->second);
+            ++inner;
+        }
+        EXPECT_EQ(inner, 2 * json["inner_edges"].get<std::size_t>());
+        for (const Json& tile : list) colours[tile["tile"].get<int>()] = tile["neighbour_colour"].get<int>();
+        for (const Json& tile : list) {
+            const int number = tile["tile"].get<int>();
+            EXPECT_EQ(tile["neighbours"].get<std::set<int>>(), neighbours[number]);
+            for (const int other : neighbours[number]) EXPECT_NE(colours[number], colours[other]);
+        }
+    }
+}
+
+TEST(TilingCommand, WritesViolationsAsJson) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("two.lsys",
+                                          "derivation length: 0\nangle factor: 4\nturn: left\nheading: 0\n"
+                                          "axiom: [{FF+FF+FF+FF}][f+f-{FF+FF+FF+FF}][ffff{F+F}]\n");
+    const Json json = tiling({file});
+    EXPECT_FALSE(json["tiling"].get<bool>());
+    ASSERT_EQ(json["violation_list"].size(), 2U);
+    EXPECT_EQ(json["violation_list"][0]["fault"], "open");
+    EXPECT_EQ(json["violation_list"][0]["tile"], 3);
+    EXPECT_EQ(json["violation_list"][1]["fault"], "overlap");
+    EXPECT_EQ(json["violation_list"][1]["tile"], 2);
+    EXPECT_EQ(json["violation_list"][1]["other"], 1);
+    const Outcome text = run({"tiling", file});
+    EXPECT_NE(text.output.find("violation  tiles 1 and 2 overlap at "), std::string::npos) << text.output;
+    EXPECT_NE(text.output.find(", drawn by 5:21 and 5:40\n"), std::string::npos) << text.output;
+    EXPECT_NE(
+        text.output.find("violation  polygon 3 is open: it does not end where it began; it ends at 5 1, drawn by "),
+        std::string::npos)
+        << text.output;
+}
+
+TEST(TilingCommand, CountsWithoutDeriving) {
+    const Outcome outcome = run({"tiling", "chair", "-n", "60", "--counts"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.output.find("tiles      1329227995784915872903807060280344576\n"), std::string::npos)
+        << outcome.output;
+    const Json json = tiling({"chair", "-n", "60", "--counts"});
+    EXPECT_EQ(json["growth"]["counts"][0]["count"], "1329227995784915872903807060280344576");
+    EXPECT_LT(outcome.seconds, 1.0);
+}
+
+TEST(TilingCommand, RefusesInOneLine) {
+    const Outcome many = run({"tiling", "chair", "-n", "40"});
+    EXPECT_EQ(many.status, 1);
+    EXPECT_NE(many.errors.find("n = 40 makes about 1.21e+24 tiles; at most 10000000 are examined"), std::string::npos)
+        << many.errors;
+    EXPECT_NE(many.errors.find("--counts"), std::string::npos) << many.errors;
+    EXPECT_EQ(run({"tiling", "penrose-rhombs", "--budget", "100"}).status, 1);
+    const ScratchFolder folder;
+    const Outcome map = run({"tiling", folder.write("layer.lsys", maps::layer)});
+    EXPECT_EQ(map.status, 2);
+    EXPECT_NE(map.errors.find("a map has no turtle, so it draws no tiles"), std::string::npos) << map.errors;
+    EXPECT_NE(run({"tiling", "bush-3d"}).errors.find("a tiling lies in the plane"), std::string::npos);
+    EXPECT_EQ(run({"tiling"}).status, 2);
+    EXPECT_EQ(run({"tiling", "no-such-pattern"}).status, 2);
+}
+
+}  // namespace
+}  // namespace sikku
