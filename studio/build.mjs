@@ -94,13 +94,13 @@ function deflated(contents) {
     }
 }
 
-// Data that the page unpacks when it opens: deflated, with four bytes in five characters. See page/embedded.ts.
+// Data that the page unpacks when it opens: deflated, with six bytes in seven characters. See page/embedded.ts.
 function packed(contents) {
     const bytes = deflated(contents);
-    const padded = Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3)]);
-    const letters = Buffer.alloc((padded.length / 4) * 5);
-    for (let from = 0, to = 0; from < padded.length; from += 4, to += 5) {
-        for (let place = 4, number = padded.readUInt32BE(from); place >= 0; --place) {
+    const padded = Buffer.concat([bytes, Buffer.alloc(5)]);
+    const letters = Buffer.alloc(7 * Math.ceil(bytes.length / 6));
+    for (let from = 0, to = 0; from < bytes.length; from += 6, to += 7) {
+        for (let place = 6, number = padded.readUIntBE(from, 6); place >= 0; --place) {
             letters[to + place] = alphabet.charCodeAt(number % alphabet.length);
             number = Math.floor(number / alphabet.length);
         }

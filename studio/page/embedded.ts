@@ -6,11 +6,12 @@ function decode(text: string): Uint8Array<ArrayBuffer> {
     for (let index = 0; index < alphabet.length; ++index) values[alphabet.charCodeAt(index)] = index;
     const start = text.indexOf(" ") + 1;
     const size = Number.parseInt(text, 10);
-    const words = new DataView(new ArrayBuffer((size + 3) & ~3));
-    for (let from = start, to = 0; to < size; from += 5, to += 4) {
+    const words = new DataView(new ArrayBuffer(6 * Math.ceil(size / 6)));
+    for (let from = start, to = 0; to < size; from += 7, to += 6) {
         let word = 0;
-        for (let place = 0; place < 5; ++place) word = word * alphabet.length + values[text.charCodeAt(from + place)]!;
-        words.setUint32(to, word);
+        for (let place = 0; place < 7; ++place) word = word * alphabet.length + values[text.charCodeAt(from + place)]!;
+        words.setUint16(to, Math.floor(word / 2 ** 32));
+        words.setUint32(to + 2, word % 2 ** 32);
     }
     return new Uint8Array(words.buffer, 0, size);
 }
