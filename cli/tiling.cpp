@@ -1,22 +1,88 @@
-// cli/tiling.cpp: `sikku tiling`: examines whether the polygons of a pattern tile a region.
+// cli/tiling.cpp: `sikku tiling`: examines whether the polygons of a pattern or a file tile a region.
 #include "engine/tiling/tiling.h"
+#include "art/reading/polygon_files.h"
 #include "cli/command.h"
+#include "engine/base/input_file.h"
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/tiling_text.h"
 
 #include <fmt/format.h>
 
 namespace sikku {
+namespace {
+
+/// How a file of polygons is named.
+bool has_polygons(const std::string& name) {
+    const std::string extension = lower_case(std::filesystem::path(name).extension().string());
+    return extension == ".json" || extension == ".svg";
+}
+
+void write_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                const TileGrowth& growth, const Monitor& monitor) {
+    write_tiling_json(title, n, result, growth, [&monitor](std::string_view text) {
+        monitor.check();
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    });
+}
+
+/// Examines the polygons of a file. @param tolerance  0: the usual one
+void examine_file(const std::string& file, double tolerance, bool as_json, bool quiet) {
+    Progress progress(quiet);
+    TilingOptions how;
+    how.monitor = progress.monitor();
+    const std::string text = read_file(file, file, most_polygon_bytes, how.monitor);
+    const auto examine = [&] {
+        if (text.size() > most_polygon_bytes) {
+            throw std::runtime_error(fmt::format("larger than {} MB", most_polygon_bytes >> 20U));
+        }
+        const bool is_svg = lower_case(std::filesystem::path(file).extension().string()) == ".svg";
+        const PolygonList polygons =
+            is_svg ? read_polygons_svg(text, how.monitor) : read_polygons_json(text, how.monitor);
+        for (const std::string& note : polygons.notes) tell_unless(quiet, "{}: {}\n", file, note);
+        const double within = tolerance > 0 || polygons.size() == 0 ? tolerance : usual_tolerance(polygons);
+        if (polygons.size() == 0) throw std::runtime_error("the list has no polygons");
+        return std::pair(polygons.title, examine_polygons(polygons, within, how));
+    };
+    const auto result = [&] {
+        try {
+            return examine();
+        } catch (const Stopped&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
+        }
+    }();
+    const std::string title = result.first.empty() ? std::filesystem::path(file).filename().string() : result.first;
+    TileGrowth growth;
+    growth.unknown = growth.no_limit = growth.no_length = "a file of polygons has no productions";
+    if (as_json) return write_json(title, std::nullopt, result.second, growth, how.monitor);
+    fmt::print("{}", tiling_text(title, std::nullopt, result.second.examination, growth));
+}
+
+}  // namespace
 
 void add_tiling(CLI::App& app, bool& quiet) {
-    auto* command = app.add_subcommand("tiling", "Examine whether the polygons of a pattern tile a region");
+    auto* command = app.add_subcommand("tiling", "Examine whether the polygons of a pattern or a file tile a region");
     auto options = std::make_shared<PatternOptions>();
     auto counts = std::make_shared<bool>(false);
     auto as_json = std::make_shared<bool>(false);
     auto budget = std::make_shared<double>(200e6);
+    auto tolerance = std::make_shared<double>(0);
     add_pattern_options(*command, *options);
+    command->get_option("PATTERN")->description(
+        "pattern file, name of a bundled pattern, studio link, - for standard input, or a .json or .svg file of "
+        "polygons");
     command->add_flag("--counts", *counts, "count the tiles and find their growth from the productions alone");
     command->add_flag("--json", *as_json, "print one line of JSON, with all tiles");
+    command
+        ->add_option("--tolerance", *tolerance,
+                     "distance within which corners of a .json or .svg file are one, in its units (a 500th of the "
+                     "median edge)")
+        ->type_name("LENGTH")
+        ->check([](const std::string& text) {
+            double value = 0;
+            return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
+        });
     add_budget_option(*command, *budget);
     command->footer(
         "A tile is a closed polygon { }; its corners are the points where it turns. Tiles form a tiling of a region "
@@ -29,6 +95,12 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "The growth is found from the productions: the factor of lengths, where the moves are multiplied by one "
         "number, and the frequencies of shapes in the limit. Up to 10,000,000 tiles are examined; --counts derives "
         "nothing, so that n = 60 costs as little as n = 6.\n\n"
+        "The polygons of other programs are examined with a tolerance, because their corners are rounded. A .json "
+        "file is a list of polygons, each a list of corners [x, y], or what --json writes. Of an .svg file, the "
+        "filled "
+        "polygons are the tiles: paths of straight lines, polygon and rect, with their transforms; without fills, "
+        "all "
+        "closed lines. Curves are refused with their line. Such a file has no n and no growth.\n\n"
         "The exit status is 0 whether or not the drawing is a tiling. Keys of --json: title, n, tiling, exact, "
         "tolerance, lattice (k, rank, basis: where the coordinates' units point), polygons, tiles, violations, "
         "violation_list (fault: open, empty, crossing, duplicate or overlap; tile, other, at, origins: lines and "
@@ -42,8 +114,19 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "  sikku tiling penrose-rhombs\n"
         "  sikku tiling hat -n 4\n"
         "  sikku tiling spectre -n 60 --counts\n"
-        "  sikku tiling chair --json");
-    command->callback([options, counts, as_json, budget, &quiet] {
+        "  sikku tiling chair --json\n"
+        "  sikku tiling polygons.svg --tolerance 0.01");
+    command->callback([command, options, counts, as_json, budget, tolerance, &quiet] {
+        if (has_polygons(options->pattern)) {
+            for (const char* name : {"--steps", "--set", "--variant", "--seed", "--counts", "--budget"}) {
+                if (command->count(name) == 0) continue;
+                throw UsageError(fmt::format("{} applies to patterns, not to a file of polygons", name));
+            }
+            return examine_file(options->pattern, *tolerance, *as_json, quiet);
+        }
+        if (*tolerance > 0) {
+            throw UsageError("--tolerance applies to a .json or .svg file of polygons, not to patterns");
+        }
         const Document loaded = load(*options, quiet);
         require_turtle(loaded, "it draws no tiles");
         const std::string title = loaded.text("title");
@@ -70,10 +153,7 @@ void add_tiling(CLI::App& app, bool& quiet) {
             fmt::print("{}", tiling_text(title, n, result.examination, growth));
             return;
         }
-        write_tiling_json(title, n, result, growth, [&how](std::string_view text) {
-            how.monitor.check();
-            std::fwrite(text.data(), 1, text.size(), stdout);
-        });
+        write_json(title, n, result, growth, how.monitor);
     });
 }
 

@@ -216,6 +216,10 @@ private:
 
 }  // namespace
 
+std::size_t first_curve(std::string_view data) {
+    return data.find_first_of("CcSsQqTtAa");
+}
+
 std::vector<FlatPath> flatten_path(std::string_view data, std::size_t most_points) {
     return PathReader(data, most_points).read();
 }

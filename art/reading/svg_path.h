@@ -1,6 +1,7 @@
 // art/reading/svg_path.h: the path data of SVG as polylines.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <string_view>
 #include <vector>
@@ -17,5 +18,8 @@ struct FlatPath {
 /// @param most_points  limit over all subpaths
 /// @throws std::runtime_error for damaged data, and for more points
 std::vector<FlatPath> flatten_path(std::string_view data, std::size_t most_points);
+
+/// The place of the first curve or arc, as an index into the data, or npos. Cost: linear.
+std::size_t first_curve(std::string_view data);
 
 }  // namespace sikku

@@ -40,18 +40,6 @@ std::vector<glm::dvec2> true_corners(std::span<const glm::dvec2> given) {
     return corners;
 }
 
-/// A side of each corner and the angle to the next one, alternately.
-std::vector<std::int64_t> sides_and_angles(const std::vector<glm::dvec2>& corners) {
-    std::vector<std::int64_t> result;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
-        const glm::dvec2 next = corners[(i + 2) % corners.size()] - corners[(i + 1) % corners.size()];
-        result.push_back(rounded(glm::length(side)));
-        result.push_back(rounded(std::atan2(cross(side, next), glm::dot(side, next))));
-    }
-    return result;
-}
-
 /// The same polygon seen from behind: its sides in reverse order, each with the angle at its other end.
 std::vector<std::int64_t> reflected(const std::vector<std::int64_t>& sides) {
     const std::size_t count = sides.size() / 2;
@@ -90,6 +78,30 @@ std::vector<std::int64_t> turned_to(const std::vector<std::int64_t>& sides, std:
 }
 
 }  // namespace
+
+double angle_error(double tolerance, double first_side, double second_side) {
+    return std::min(2 * tolerance * (1 / first_side + 1 / second_side), 0.02);
+}
+
+/// A side of each corner and the angle to the next one, alternately: rounded, or numbered.
+PolygonClasses::Signature PolygonClasses::sides_and_angles(const std::vector<glm::dvec2>& corners) {
+    Signature result;
+    const auto ignore = [](std::uint32_t) {};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
+        const glm::dvec2 next = corners[(i + 2) % corners.size()] - corners[(i + 1) % corners.size()];
+        const double angle = std::atan2(cross(side, next), glm::dot(side, next));
+        if (tolerance_ > 0) {
+            result.push_back(lengths_.number(glm::length(side), tolerance_, ignore));
+            const double error = angle_error(tolerance_, glm::length(side), glm::length(next));
+            result.push_back(angles_.number(angle, error, ignore));
+        } else {
+            result.push_back(rounded(glm::length(side)));
+            result.push_back(rounded(angle));
+        }
+    }
+    return result;
+}
 
 PolygonClass PolygonClasses::classify(std::span<const glm::dvec2> given) {
     const std::vector<glm::dvec2> corners = true_corners(given);

@@ -86,7 +86,7 @@ private:
         CellLists<std::uint32_t> lists(grid.cells());
         const auto visit = [&](std::uint32_t side, auto&& take) {
             pulse_();
-            grid.along(start(side), end(side), TilePlane::tolerance, take);
+            grid.along(start(side), end(side), plane_.tolerance(), take);
         };
         for (const std::uint32_t side : result_.sides) visit(side, [&](std::size_t cell) { lists.count(cell); });
         lists.start();
@@ -106,7 +106,7 @@ private:
         const glm::dvec2 from = plane_.at(p), way = plane_.at(q) - from;
         const double first = determinant(way, plane_.at(r) - from), second = determinant(way, plane_.at(s) - from);
         // Both far on the same side?
-        const double margin = TilePlane::tolerance * std::sqrt(scalar_product(way, way));
+        const double margin = plane_.tolerance() * std::sqrt(scalar_product(way, way));
         if ((first > margin && second > margin) || (first < -margin && second < -margin)) return std::nullopt;
         if (plane_.side(p, q, r) * plane_.side(p, q, s) >= 0) return std::nullopt;
         if (plane_.side(r, s, p) * plane_.side(r, s, q) >= 0) return std::nullopt;
@@ -184,10 +184,23 @@ private:
 
     bool areas_agree() const {
         if (!plane_.is_exact()) {
-            double of_tiles = 0, of_loops = 0;
-            for (const std::uint32_t in_class : tiles_.in_class) of_tiles += tiles_.classes[in_class].area;
+            // Tiles of a class differ from the first one by the tolerance along their outlines.
+            std::vector<double> outlines;
+            for (const TileClass& each : tiles_.classes) {
+                double length = 0;
+                for (const std::uint32_t vector : each.vectors) {
+                    const glm::dvec2 side = plane_.vector_at(vector);
+                    length += std::sqrt(scalar_product(side, side));
+                }
+                outlines.push_back(length);
+            }
+            double of_tiles = 0, of_loops = 0, length = 0;
+            for (const std::uint32_t in_class : tiles_.in_class) {
+                of_tiles += tiles_.classes[in_class].area;
+                length += outlines[in_class];
+            }
             for (const TileLoop& loop : result_.loops) of_loops += loop.area;
-            return std::fabs(of_tiles - of_loops) <= 1e-6 * std::fabs(of_tiles);
+            return std::fabs(of_tiles - of_loops) <= 1e-6 * std::fabs(of_tiles) + 2 * plane_.tolerance() * length;
         }
         const Cyclotomic& numbers = plane_.numbers();
         using Wide = std::array<Int128, 8>;

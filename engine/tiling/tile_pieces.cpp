@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sikku {
 namespace {
@@ -57,7 +58,7 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
     const auto cut = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t to) {
         const glm::dvec2 start = plane.at(from), side = plane.at(to) - start;
         const double square = scalar_product(side, side);
-        const double margin = TilePlane::tolerance;
+        const double margin = plane.tolerance();
         const double most = 4 * margin * margin * square;
         grid.along(start, plane.at(to), margin, [&](std::size_t cell) {
             compared += lists.size(cell) + 1;
@@ -98,21 +99,51 @@ void list_sides(TilePieces& pieces, std::size_t points) {
     for (std::size_t i = 0; i < points; ++i) {
         const auto begin = pieces.out.begin() + pieces.out_begin[i],
                    end = pieces.out.begin() + pieces.out_begin[i + 1];
-        std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-            return pieces.direction[a] != pieces.direction[b] ? pieces.direction[a] < pieces.direction[b] : a < b;
-        });
+        const auto order = [&](const auto& towards) {
+            std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
+                return towards[a] != towards[b] ? towards[a] < towards[b] : a < b;
+            });
+        };
+        pieces.heading.empty() ? order(pieces.direction) : order(pieces.heading);
     }
+}
+
+/// Of each side, from its ends: the sides of a piece then have exactly opposite ones.
+void find_headings(const TilePlane& plane, TilePieces& pieces) {
+    pieces.heading.reserve(pieces.sides());
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
+        const glm::dvec2 way = plane.at(pieces.to(side)) - plane.at(pieces.from[side]);
+        pieces.heading.push_back(std::atan2(way.y, way.x));
+    }
+}
+
+/// Decides for sides around a point of a plane that is not exact whether the sector of a tile reaches into the next.
+bool reaches(const TilePlane& plane, const TilePieces& pieces, std::uint32_t side, std::uint32_t before,
+             std::uint32_t next) {
+    const glm::dvec2 at = plane.at(pieces.from[side]);
+    const auto turned = [&](std::uint32_t point) {
+        const glm::dvec2 way = plane.at(point) - at;
+        const double angle = std::atan2(way.y, way.x) - pieces.heading[side];
+        return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    };
+    const auto slack = [&](std::uint32_t point) {
+        const glm::dvec2 way = plane.at(point) - at;
+        return plane.tolerance() / std::sqrt(scalar_product(way, way));
+    };
+    const std::uint32_t in = pieces.from[before], out = pieces.to(next);
+    const double room = turned(out);
+    return room == 0 || (in != out && turned(in) > room + slack(in) + slack(out));
 }
 
 }  // namespace
 
 TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor) {
-    plane.sort_directions();
+    if (plane.is_exact()) plane.sort_directions();
     const std::vector<Cut> cuts = find_cuts(plane, tiles, monitor);
     TilePieces pieces;
     const std::size_t sides = tiles.corner.size() + cuts.size();
     pieces.from.reserve(sides);
-    pieces.direction.reserve(sides);
+    if (plane.is_exact()) pieces.direction.reserve(sides);
     pieces.angle.reserve(sides);
     pieces.tile.reserve(sides);
     pieces.begin.reserve(tiles.begin.size());
@@ -122,10 +153,10 @@ TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor
         const TileClass& in_class = tiles.class_of(tile);
         for (std::uint32_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i) {
             const std::size_t edge = i - tiles.begin[tile];
-            const std::uint32_t direction = plane.direction(in_class.vectors[edge]);
+            const std::uint32_t direction = plane.is_exact() ? plane.direction(in_class.vectors[edge]) : 0;
             const auto add = [&](std::uint32_t from, std::uint32_t angle) {
                 pieces.from.push_back(from);
-                pieces.direction.push_back(direction);
+                if (plane.is_exact()) pieces.direction.push_back(direction);
                 pieces.angle.push_back(angle);
                 pieces.tile.push_back(tile);
             };
@@ -135,6 +166,7 @@ TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor
         }
         pieces.begin.push_back(pieces.sides());
     }
+    if (!plane.is_exact()) find_headings(plane, pieces);
     list_sides(pieces, plane.points());
     pieces.twin.assign(pieces.from.size(), no_number);
     for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
@@ -166,10 +198,14 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
             if (pieces.twin[before] == no_number) ++ends;
             if (sides.size() == 1) continue;
             const std::uint32_t next = sides[i + 1 < sides.size() ? i + 1 : 0];
-            const std::uint32_t begin = pieces.direction[sides[i]];
-            const std::uint32_t extent = (pieces.direction[before] + turn / 2 + turn - begin) % turn;
-            const std::uint32_t room = (pieces.direction[next] + turn - begin) % turn;
-            if (extent <= room && room > 0) continue;
+            if (plane.is_exact()) {
+                const std::uint32_t begin = pieces.direction[sides[i]];
+                const std::uint32_t extent = (pieces.direction[before] + turn / 2 + turn - begin) % turn;
+                const std::uint32_t room = (pieces.direction[next] + turn - begin) % turn;
+                if (extent <= room && room > 0) continue;
+            } else if (!reaches(plane, pieces, sides[i], before, next)) {
+                continue;
+            }
             const std::uint32_t first = pieces.tile[sides[i]], second = pieces.tile[next];
             if (!pairs.insert(first, second)) continue;
             ++result.overlap_count;

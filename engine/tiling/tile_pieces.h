@@ -11,13 +11,14 @@
 namespace sikku {
 
 /// The parts of edges between corners, each as one side of its tile, which lies on the left. Sides of a tile follow
-/// each other anticlockwise. Memory: 24 bytes a side.
+/// each other anticlockwise. Memory: 24 bytes a side, 28 if the plane is not exact.
 struct TilePieces {
     /// For each tile; one more than there are.
     std::vector<std::uint32_t> begin;
     /// For each side:
     std::vector<std::uint32_t> from;       ///< the point where it begins
-    std::vector<std::uint32_t> direction;  ///< of TilePlane::directions()
+    std::vector<std::uint32_t> direction;  ///< of TilePlane::directions(), if the plane is exact
+    std::vector<double> heading;           ///< else: radians, -π to π
     std::vector<std::uint32_t> angle;      ///< of the tile where the side begins, as index into TileSet::angles
     std::vector<std::uint32_t> tile;
     std::vector<std::uint32_t> twin;  ///< the same piece in the opposite direction, or no_number
@@ -42,8 +43,8 @@ struct TilePieces {
     }
 };
 
-/// Cuts the edges of tiles and finds the sides of each piece. Sorts the directions of the plane. Cost: linear for
-/// tiles of similar sizes. @throws BudgetError if the tiles are of so different sizes that it would take minutes
+/// Cuts the edges of tiles and finds the sides of each piece. Sorts the directions of an exact plane. Cost: linear
+/// for tiles of similar sizes. @throws BudgetError if the tiles are of so different sizes that it would take minutes
 TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor);
 
 /// Pairs of overlapping tiles, each once as far as the first 100,000.

@@ -11,7 +11,6 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t largest_coordinate = std::int64_t{1} << 26;
-constexpr double same_direction = 1e-6;  // radians, of edges in doubles
 constexpr double cell_in_tolerances = 64;
 /// Relative error of determinants in doubles that counts as certain.
 constexpr double certain = 1e-9;
@@ -102,8 +101,12 @@ TilePlane::TilePlane(const Lattice& lattice, bool exact)
     : lattice_(lattice),
       numbers_(exact && lattice.rank > 0 ? std::optional<Cyclotomic>(lattice) : std::nullopt),
       rank_(numbers_ ? numbers_->rank() : 0),
-      points_(rank_, tolerance),
-      vectors_(rank_, 4 * tolerance) {}
+      tolerance_(least_tolerance),
+      points_(rank_, tolerance_),
+      vectors_(rank_, 4 * tolerance_) {}
+
+TilePlane::TilePlane(double tolerance)
+    : rank_(0), tolerance_(tolerance), points_(0, tolerance), vectors_(0, 4 * tolerance) {}
 
 std::uint32_t TilePlane::point(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
     std::array<std::int32_t, 8> small{};
@@ -164,7 +167,7 @@ int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to)
     const glm::dvec2 a = at(along) - at(origin), b = at(to) - at(origin);
     const double length = std::sqrt(scalar_product(a, a));
     const double height = determinant(a, b) / length;
-    if (!is_exact()) return height > tolerance ? 1 : height < -tolerance ? -1 : 0;
+    if (!is_exact()) return height > tolerance_ ? 1 : height < -tolerance_ ? -1 : 0;
     const double size = length + std::sqrt(scalar_product(b, b));
     if (std::fabs(height) > certain * (1 + size)) return height > 0 ? 1 : -1;
     Cyclotomic::Number first{}, second{};
@@ -179,7 +182,6 @@ int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to)
 int TilePlane::turn(std::uint32_t first, std::uint32_t second) const {
     const glm::dvec2 a = vector_at(first), b = vector_at(second);
     const double sine = determinant(a, b) / std::sqrt(scalar_product(a, a) * scalar_product(b, b));
-    if (!is_exact()) return sine > same_direction ? 1 : sine < -same_direction ? -1 : 0;
     if (std::fabs(sine) > 1e-3) return sine > 0 ? 1 : -1;
     return numbers_->sign_imaginary(
         numbers_->conjugate_product(vector_coordinates(first), vector_coordinates(second)));
@@ -209,7 +211,7 @@ void TilePlane::sort_directions() {
         return sign != 0 ? sign > 0 : a.vector < b.vector;
     };
     constexpr double close = 1e-9;
-    for (auto begin = rays.begin(); is_exact() && begin != rays.end();) {
+    for (auto begin = rays.begin(); begin != rays.end();) {
         auto end = begin + 1;
         while (end != rays.end() && end->angle - (end - 1)->angle < close) ++end;
         std::sort(begin, end, order);

@@ -58,18 +58,25 @@ private:
 };
 
 /// Points and edges of tiles in the plane. Exact on a lattice: equality and collinearity are decided by whole
-/// numbers, signs by intervals that are refined until they exclude 0. Otherwise points within `tolerance` steps are
-/// one.
+/// numbers, signs by intervals that are refined until they exclude 0. Otherwise points within tolerance() of each
+/// other are one.
 class TilePlane {
 public:
     /// Thrown by point(): coordinates of the lattice are larger than 2^26.
     struct OutOfRange {};
-    static constexpr double tolerance = 1e-6;
+    /// Tolerance for positions that a turtle computed, in steps.
+    static constexpr double least_tolerance = 1e-6;
 
     /// @param exact  use the lattice, if it has coordinates
     TilePlane(const Lattice& lattice, bool exact);
+    /// A plane for points that were measured or rounded. @param tolerance  greater than 0
+    explicit TilePlane(double tolerance);
 
     bool is_exact() const { return numbers_.has_value(); }
+    /// Positions were measured or rounded, not computed.
+    bool is_rough() const { return !is_exact() && tolerance_ > least_tolerance; }
+    /// Distance within which points are one, if the plane is not exact.
+    double tolerance() const { return tolerance_; }
     const Lattice& lattice() const { return lattice_; }
     /// Only of an exact plane.
     const Cyclotomic& numbers() const { return *numbers_; }
@@ -92,10 +99,12 @@ public:
 
     /// 1 if `to` lies left of the line from `origin` through `along`, 0 on it, -1 right of it.
     int side(std::uint32_t origin, std::uint32_t along, std::uint32_t to) const;
-    /// The same for two vectors: 1 if the second is turned to the left of the first by less than 180 degrees.
+    /// The same for two vectors of an exact plane: 1 if the second is turned to the left of the first by less than
+    /// 180 degrees.
     int turn(std::uint32_t first, std::uint32_t second) const;
 
-    /// Sorts the directions of all vectors and their opposites anticlockwise. Cost: v log v.
+    /// Sorts the directions of all vectors and their opposites anticlockwise. Only of an exact plane: rounded ones
+    /// have no clear number of directions. Cost: v log v.
     void sort_directions();
     /// Number of different directions, even; the opposite of d is d + directions() / 2.
     std::uint32_t directions() const { return directions_; }
@@ -109,6 +118,7 @@ private:
     Lattice lattice_;
     std::optional<Cyclotomic> numbers_;
     std::size_t rank_;
+    double tolerance_;
     PlaceTable points_;
     PlaceTable vectors_;
     std::vector<std::uint32_t> direction_;  // of vectors

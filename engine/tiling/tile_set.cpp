@@ -8,6 +8,7 @@
 #include "engine/geometry/turtle.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,7 @@ std::optional<std::uint32_t> find_crossing(const TilePlane& plane, const Points&
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t a = corners[i], b = corners[(i + 1) % count];
         const glm::dvec2 from = plane.at(a), to = plane.at(b);
-        const double margin = TilePlane::tolerance;
+        const double margin = plane.tolerance();
         const double left = std::min(from.x, to.x) - margin, right = std::max(from.x, to.x) + margin;
         const double low = std::min(from.y, to.y) - margin, high = std::max(from.y, to.y) + margin;
         for (std::size_t j = i + 2; j < count && j - i < count - 1; ++j) {
@@ -87,9 +88,13 @@ std::uint64_t hash_of(std::span<const std::uint32_t> sequence) {
 class TileCollector::Implementation {
 public:
     Implementation(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)
-        : plane_(plane), tiles_(tiles), most_corners_(most_corners), monitor_(monitor) {
+        : plane_(plane),
+          tiles_(tiles),
+          most_corners_(most_corners),
+          monitor_(monitor),
+          shapes_(plane_.is_rough() ? 4 * plane.tolerance() : 0) {
         tiles_.begin.assign(1, 0);
-        angle_number(180);
+        angle_number(180, 0);
     }
 
     /// Adds a polygon of an exact plane by its coordinates. Outlines like earlier ones need no examination.
@@ -156,7 +161,7 @@ public:
                 if (const auto crossing = find_crossing(plane_, corners_, monitor_)) {
                     return fault(TileFault::crossing, *crossing);
                 }
-                if (std::fabs(area) < TilePlane::tolerance * TilePlane::tolerance) {
+                if (std::fabs(area) < plane_.tolerance() * plane_.tolerance()) {
                     return fault(TileFault::empty, corners_.front());
                 }
                 in_class = add_class();
@@ -207,7 +212,9 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t before = outline_[(i + count - 1) % count], here = outline_[i],
                                 after = outline_[(i + 1) % count];
-            const bool is_straight = before == after || plane_.side(before, here, after) == 0;
+            // A rounded point near a long edge may lie far from the line through a short one.
+            const bool is_straight = before == after || (plane_.is_rough() ? plane_.side(before, after, here)
+                                                                           : plane_.side(before, here, after)) == 0;
             const glm::dvec2 a = plane_.at(here) - plane_.at(before), b = plane_.at(after) - plane_.at(here);
             if (is_straight && scalar_product(a, b) < 0) {
                 has_spike_ = true;
@@ -257,8 +264,9 @@ private:
             const glm::dvec2 before = -plane_.vector_at(vectors_[(i + vectors_.size() - 1) % vectors_.size()]);
             const glm::dvec2 after = plane_.vector_at(vectors_[i]);
             const double angle = std::atan2(determinant(after, before), scalar_product(after, before));
+            const double error = angle_error(plane_.tolerance(), glm::length(before), glm::length(after));
             added.angles.push_back(
-                angle_number((angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi));
+                angle_number((angle < 0 ? angle + 2 * std::numbers::pi : angle) * 180 / std::numbers::pi, error));
             if (i > 0) added.area += determinant(places[i], places[(i + 1) % places.size()]) / 2;
         }
         if (plane_.is_exact()) {
@@ -279,7 +287,12 @@ private:
         return number;
     }
 
-    std::uint32_t angle_number(double degrees) {
+    /// @param error  radians by which equal angles may differ, if positions are rough
+    std::uint32_t angle_number(double degrees, double error) {
+        if (plane_.is_rough()) {
+            return rough_angles_.number(degrees, error * 180 / std::numbers::pi,
+                                        [&](std::uint32_t) { tiles_.angles.push_back(degrees); });
+        }
         constexpr double parts = 1e4;  // of a degree that are distinguished
         const auto key = static_cast<std::int64_t>(std::floor(degrees * parts + 0.3183));
         const auto [found, is_new] = angles_.try_emplace(key, static_cast<std::uint32_t>(tiles_.angles.size()));
@@ -322,6 +335,7 @@ private:
     PolygonClasses shapes_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::unordered_map<std::int64_t, std::uint32_t> angles_;
+    RoughNumbers rough_angles_;
     std::vector<std::uint32_t> table_;  // tiles by class and first corner, open addressing
 };
 
@@ -391,12 +405,16 @@ void require_few_tiles(const Grammar& grammar, const TileLimits& limits) {
 
 }  // namespace
 
+double most_corners(const TileLimits& limits) {
+    const double bytes = limits.bytes > 0 ? limits.bytes : static_cast<double>(available_memory()) / 2;
+    return std::min(bytes / bytes_of_corner, 1e9);
+}
+
 TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, const Monitor& monitor) {
     require_few_tiles(grammar, limits);
     require_affordable(grammar, true, limits.nodes);
     TileSet tiles;
-    const double bytes = limits.bytes > 0 ? limits.bytes : static_cast<double>(available_memory()) / 2;
-    TileCollector collector(plane, tiles, std::min(bytes / bytes_of_corner, 1e9), monitor);
+    TileCollector collector(plane, tiles, most_corners(limits), monitor);
     TileReader reader(plane, collector);
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
     DerivationOptions options;

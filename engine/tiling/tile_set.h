@@ -102,6 +102,9 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
+/// Number of corners that fit into the memory of the limits.
+double most_corners(const TileLimits& limits);
+
 /// The largest outline that is searched for crossings.
 constexpr std::size_t most_corners_of_tile = 20'000;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <unordered_map>
@@ -18,6 +19,9 @@ struct Motion {
     int root = 0;
     glm::dvec2 turn{1.0, 0.0};
 };
+
+/// Rotations that differ by fewer radians are one.
+constexpr double same_turn = 1e-3;
 
 /// A set of pairs of numbers.
 class PairSet {
@@ -85,12 +89,14 @@ private:
     void find_on_lattice(TileSymmetry& result) {
         const int roots = plane_.numbers().roots();
         for (int order = roots; order > 1; --order) {
-            if (roots % order != 0 || !maps_onto_itself({false, roots / order, {}})) continue;
+            Motion turn{false, roots / order, {}};
+            if (roots % order != 0 || !maps_onto_itself(turn)) continue;
             result.rotations = static_cast<std::uint32_t>(order);
             break;
         }
         for (int root = 0; root < roots / static_cast<int>(result.rotations); ++root) {
-            if (!maps_onto_itself({true, root, {}})) continue;
+            Motion mirror{true, root, {}};
+            if (!maps_onto_itself(mirror)) continue;
             result.mirrors = result.rotations;
             break;
         }
@@ -104,7 +110,7 @@ private:
         const TileClass& from = tiles_.classes[rarest];
         const glm::dvec2 side = unit(from.vectors.front());
         std::set<std::int64_t> tried;
-        std::uint32_t rotations = 0;
+        std::vector<glm::dvec2> found;  // different rotations
         for (const bool reflects : {false, true}) {
             tried.clear();
             for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -114,7 +120,7 @@ private:
                     // The turn that maps one side onto the other; reflected sides run backwards.
                     const glm::dvec2 target = unit(vector);
                     const glm::dvec2 source = reflects ? glm::dvec2(-side.x, side.y) : side;
-                    const Motion motion{reflects, 0, {scalar_product(source, target), determinant(source, target)}};
+                    Motion motion{reflects, 0, {scalar_product(source, target), determinant(source, target)}};
                     const double angle = std::atan2(motion.turn.y, motion.turn.x);
                     const double turned = angle < -1e-5 ? angle + 2 * std::numbers::pi : angle;
                     if (!tried.insert(static_cast<std::int64_t>(std::floor(turned * 1e4 + 0.5))).second) continue;
@@ -123,14 +129,49 @@ private:
                         result.mirrors = result.rotations;
                         return;
                     }
-                    ++rotations;
+                    const bool is_known = std::any_of(found.begin(), found.end(), [&](glm::dvec2 turn) {
+                        return std::fabs(determinant(turn, motion.turn)) < same_turn &&
+                               scalar_product(turn, motion.turn) > 0;
+                    });
+                    if (!is_known) found.push_back(motion.turn);
                 }
             }
-            if (!reflects) result.rotations = std::max(rotations, 1U);
+            if (!reflects) result.rotations = std::max(static_cast<std::uint32_t>(found.size()), 1U);
         }
     }
 
-    bool maps_onto_itself(const Motion& motion) {
+    /// Turns by the angle between a far corner and the corner nearest to its image: the sides that suggested the
+    /// motion are short, and what they are wrong by grows with the distance.
+    void refine(Motion& motion) {
+        if (far_ == no_number) {
+            double most = 0;
+            for (const std::uint32_t point : tiles_.corner) {
+                const glm::dvec2 arm = plane_.at(point) - centre_;
+                if (scalar_product(arm, arm) > most * (1 + 1e-9)) {
+                    most = scalar_product(arm, arm);
+                    far_ = point;
+                }
+            }
+        }
+        if (far_ == no_number) return;
+        glm::dvec2 arm = plane_.at(far_) - centre_;
+        const glm::dvec2 image = turned(motion, arm);
+        glm::dvec2 nearest(0.0);
+        double least = std::numeric_limits<double>::max();
+        for (const std::uint32_t point : tiles_.corner) {
+            pulse_();
+            const glm::dvec2 gap = plane_.at(point) - centre_ - image;
+            if (scalar_product(gap, gap) >= least) continue;
+            least = scalar_product(gap, gap);
+            nearest = plane_.at(point) - centre_;
+        }
+        if (motion.reflects) arm.y = -arm.y;
+        const double length = std::sqrt(scalar_product(arm, arm) * scalar_product(nearest, nearest));
+        if (length > 0) motion.turn = {scalar_product(arm, nearest) / length, determinant(arm, nearest) / length};
+    }
+
+    /// Refines a motion of a plane that is not exact.
+    bool maps_onto_itself(Motion& motion) {
         std::vector<ClassImage> images;
         for (const TileClass& each : tiles_.classes) {
             pulse_();
@@ -138,6 +179,7 @@ private:
             if (!find_image(motion, each, image)) return false;
             images.push_back(image);
         }
+        if (!plane_.is_exact()) refine(motion);
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
             pulse_();
             const ClassImage& image = images[tiles_.in_class[tile]];
@@ -216,6 +258,7 @@ private:
     std::int64_t count_;  ///< corners, at most 2^32, so that products stay below 2^62
     Cyclotomic::Number sum_{};
     glm::dvec2 centre_{0.0};
+    std::uint32_t far_ = no_number;  ///< the corner farthest from the centre
 };
 
 }  // namespace

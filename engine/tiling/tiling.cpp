@@ -5,9 +5,14 @@
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/vertex_figures.h"
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 namespace sikku {
@@ -27,6 +32,7 @@ std::vector<TileShape> shapes_of(const TilePlane& plane, const TileSet& tiles) {
                 shape.sides.push_back(std::sqrt(scalar_product(side, side)));
             }
             shape.area = each.area;
+            if (plane.is_rough()) shape.tolerance = plane.tolerance();
         }
         shape.tiles += counts[i];
         if (each.is_reflected) shape.reflected += counts[i];
@@ -65,17 +71,20 @@ void examine_border(TilingPatch& patch, const TileVertices& vertices, const Moni
     result.figures = find_figures(patch.plane, patch.tiles, patch.pieces, patch.figure_of, monitor);
 }
 
-TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact, const TilingOptions& options) {
-    TilingResult both{{}, {TilePlane(lattice, exact), {}, {}, {}, TileNeighbours(0, {}), {}, {}}};
+/// A result whose tiles are collected in a plane; then examine() finds the facts.
+TilingResult result_in(TilePlane plane) {
+    return {{}, {std::move(plane), {}, {}, {}, TileNeighbours(0, {}), {}, {}}};
+}
+
+void examine(TilingResult& both, const TilingOptions& options) {
     auto& [result, patch] = both;
-    patch.tiles = collect_tiles(grammar, patch.plane, options.limits, options.monitor);
     const TileSet& tiles = patch.tiles;
     result.is_exact = patch.plane.is_exact();
-    result.tolerance = result.is_exact ? 0 : TilePlane::tolerance;
+    result.tolerance = result.is_exact ? 0 : patch.plane.tolerance();
     result.polygons = tiles.polygons;
     result.tiles = tiles.tiles();
     result.violations = tiles.violations;
-    if (tiles.tiles() == 0) return both;
+    if (tiles.tiles() == 0) return;
     options.monitor.check();
     result.shapes = shapes_of(patch.plane, tiles);
     for (const std::uint32_t in_class : tiles.in_class) result.area += tiles.classes[in_class].area;
@@ -103,6 +112,12 @@ TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact,
     result.most_colours = colouring.at_most;
     patch.colours = std::move(colouring.colours);
     result.symmetry = find_symmetry(patch.plane, tiles, options.monitor);
+}
+
+TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact, const TilingOptions& options) {
+    TilingResult both = result_in(TilePlane(lattice, exact));
+    both.patch.tiles = collect_tiles(grammar, both.patch.plane, options.limits, options.monitor);
+    examine(both, options);
     return both;
 }
 
@@ -122,6 +137,79 @@ TilingResult examine_tiling(const Grammar& given, const TilingOptions& options) 
     } catch (const TilePlane::OutOfRange&) {
         return examine(grammar, lattice, false, options);
     }
+}
+
+double usual_tolerance(const PolygonList& polygons) {
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        const auto corners = polygons.polygon(i);
+        for (std::size_t j = 0; j < corners.size(); ++j) {
+            const double length = glm::distance(corners[j], corners[(j + 1) % corners.size()]);
+            if (length > 0) lengths.push_back(length);
+        }
+    }
+    if (lengths.empty()) throw std::runtime_error("the polygons have no edges with a length");
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle / 500;
+}
+
+namespace {
+
+/// Replaces each angle, that of the first corner which has it, by the mean of all.
+void average_angles(const TilePlane& plane, TileSet& tiles) {
+    std::vector<double> sum(tiles.angles.size(), 0), count(tiles.angles.size(), 0);
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        const auto corners = tiles.corners(tile);
+        const auto& angles = tiles.class_of(tile).angles;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 at = plane.at(corners[i]);
+            const glm::dvec2 before = plane.at(corners[(i + corners.size() - 1) % corners.size()]) - at;
+            const glm::dvec2 after = plane.at(corners[(i + 1) % corners.size()]) - at;
+            const double angle =
+                std::atan2(determinant(after, before), scalar_product(after, before)) * 180 / std::numbers::pi;
+            sum[angles[i]] += angle < 0 ? angle + 360 : angle;
+            ++count[angles[i]];
+        }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (count[i] > 0) tiles.angles[i] = sum[i] / count[i];
+    }
+}
+
+}  // namespace
+
+TilingResult examine_polygons(const PolygonList& polygons, double tolerance, const TilingOptions& options) {
+    if (static_cast<double>(polygons.size()) > options.limits.tiles) {
+        throw BudgetError(
+            fmt::format("there are {} polygons; at most {:.0f} are examined", polygons.size(), options.limits.tiles));
+    }
+    glm::dvec2 low(0.0), high(0.0);
+    if (!polygons.corners.empty()) low = high = polygons.corners.front();
+    for (const glm::dvec2 corner : polygons.corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    const double size = std::max(high.x - low.x, high.y - low.y);
+    if (!(tolerance >= 1e-12 && tolerance <= size / 1000 && tolerance >= size * 1e-13)) {
+        throw std::runtime_error(fmt::format(
+            "a tolerance of {:g} does not suit polygons that extend over {:g}; expected 1e-12 or more, and a 10^13th "
+            "to a thousandth of their size",
+            tolerance, size));
+    }
+    TilingResult both = result_in(TilePlane(tolerance));
+    TilingPatch& patch = both.patch;
+    TileCollector collector(patch.plane, patch.tiles, most_corners(options.limits), options.monitor);
+    std::vector<std::uint32_t> points;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        options.monitor.advance(1);
+        points.clear();
+        for (const glm::dvec2 corner : polygons.polygon(i)) points.push_back(patch.plane.point({}, corner));
+        if (!points.empty()) collector.add(points, polygons.colour[i], true);
+    }
+    average_angles(patch.plane, patch.tiles);
+    examine(both, options);
+    return both;
 }
 
 namespace {
@@ -171,6 +259,7 @@ void find_origins(const Document& document, TilingExamination& examination, cons
     options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     derive(grammar, *turtle, options);
     std::vector<std::uint64_t> positions;
+    positions.reserve(wanted.size());
     for (const auto& [tile, position] : wanted) positions.push_back(position);
     const std::vector<Origin> found = origins(document, positions, monitor);
     std::map<std::uint32_t, std::string> places;

@@ -3,6 +3,7 @@
 
 #include "engine/language/document.h"
 #include "engine/tiling/colour_search.h"
+#include "engine/tiling/polygon_list.h"
 #include "engine/tiling/tile_border.h"
 #include "engine/tiling/tile_symmetry.h"
 
@@ -23,6 +24,7 @@ struct TileShape {
     std::vector<double> angles;  ///< degrees, anticlockwise, of the first tile of the shape
     std::vector<double> sides;   ///< steps; the first one follows the first angle
     double area = 0;             ///< steps squared
+    double tolerance = 0;        ///< steps by which sides may be wrong; 0: they were computed
 };
 
 /// Vertices with tiles all around that have the same angles of the same shapes, up to rotation and reflection.
@@ -92,6 +94,16 @@ struct TilingResult {
 /// Derives a word and examines its polygons. Cost: about 3 s and 1 GB for a million tiles.
 /// @throws BudgetError, WordError, Stopped; std::runtime_error if the drawing lies in space
 TilingResult examine_tiling(const Grammar& grammar, const TilingOptions& options);
+
+/// A tolerance for polygons whose corners were rounded: a five hundredth of the median length of their edges.
+/// Cost: linear. @throws std::runtime_error if no edge has a length
+double usual_tolerance(const PolygonList& polygons);
+
+/// Examines polygons of any origin; none is exact. Corners within `tolerance` of each other are one, and a corner
+/// that near an edge lies on it. Cost: as above. @param tolerance  greater than 0, in the units of the polygons
+/// @throws BudgetError, Stopped; std::runtime_error if the tolerance is not between 1e-12 and a thousandth of the
+/// size of all polygons
+TilingResult examine_polygons(const PolygonList& polygons, double tolerance, const TilingOptions& options);
 
 /// Names the places in the pattern that drew the tiles of the first violations, by line and column, as far as words
 /// without contexts, parameters and random choices allow it. Cost: the word is walked again. @throws Stopped

@@ -97,8 +97,8 @@ std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
     const TilingExamination& t = result.examination;
     std::string text = fmt::format(
         "\"tiling\": {}, \"exact\": {}, \"tolerance\": {}, \"lattice\": {}, \"polygons\": {}, \"tiles\": {}, ",
-        json(t.is_tiling()), json(t.is_exact), number(t.tolerance), lattice_json(result.patch.plane), t.polygons,
-        t.tiles);
+        json(t.is_tiling()), json(t.is_exact), fmt::format("{}", t.tolerance), lattice_json(result.patch.plane),
+        t.polygons, t.tiles);
     text += fmt::format(
         "\"violations\": {}, \"violation_list\": {}, ", t.violations.count,
         array(t.violations.list, [](const TileViolation& violation) {
@@ -167,15 +167,17 @@ std::string loop_json(const TilingPatch& patch, const TileLoop& loop) {
     return text + "]";
 }
 
-std::string head(const std::string& title, std::int64_t n) {
+std::string head(const std::string& title, std::optional<std::int64_t> n) {
     return fmt::format("{{\"title\": {}, \"n\": {}, ", json_string(title),
-                       n < (std::int64_t{1} << 53) ? fmt::format("{}", n) : fmt::format("\"{}\"", n));
+                       !n                             ? "null"
+                       : *n < (std::int64_t{1} << 53) ? fmt::format("{}", *n)
+                                                      : fmt::format("\"{}\"", *n));
 }
 
 }  // namespace
 
-void write_tiling_json(const std::string& title, std::int64_t n, const TilingResult& result, const TileGrowth& growth,
-                       const std::function<void(std::string_view)>& write) {
+void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                       const TileGrowth& growth, const std::function<void(std::string_view)>& write) {
     write(head(title, n) + facts_json(result, growth));
     const TilingPatch& patch = result.patch;
     write(", \"border\": [");

@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/polygon_classes.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string_view>
 
 namespace sikku {
@@ -29,25 +31,37 @@ std::string degrees(double value) {
     return fmt::format("{}", std::round(value * 100) / 100);
 }
 
-bool near(double a, double b) {
-    return std::fabs(a - b) < 1e-4;
+constexpr double computed = 1e-4;  // equal values that were computed differ by less
+
+bool near(double a, double b, double slack = computed) {
+    return std::fabs(a - b) < slack;
+}
+/// Difference of equal sides.
+double side_slack(const TileShape& shape) {
+    return std::max(computed, 4 * shape.tolerance);
+}
+/// Difference of equal angles, in degrees.
+double angle_slack(const TileShape& shape) {
+    if (shape.sides.empty()) return computed;
+    const double shortest = *std::min_element(shape.sides.begin(), shape.sides.end());
+    return std::max(computed, angle_error(shape.tolerance, shortest, shortest) * 180 / std::numbers::pi);
 }
 
 /// The shortest part whose repetition is the cyclic list.
-std::vector<double> period(const std::vector<double>& list) {
+std::vector<double> period(const std::vector<double>& list, double slack) {
     for (std::size_t length = 1; length < list.size(); ++length) {
         if (list.size() % length != 0) continue;
         bool repeats = true;
-        for (std::size_t i = 0; i < list.size(); ++i) repeats = repeats && near(list[i], list[i % length]);
+        for (std::size_t i = 0; i < list.size(); ++i) repeats = repeats && near(list[i], list[i % length], slack);
         if (repeats) return {list.begin(), list.begin() + static_cast<std::ptrdiff_t>(length)};
     }
     return list;
 }
 
 /// The rotation that is least.
-std::vector<double> least(std::vector<double> list) {
+std::vector<double> least(std::vector<double> list, double slack) {
     std::vector<double> best = list;
-    const auto less = [](double a, double b) { return a < b && !near(a, b); };
+    const auto less = [slack](double a, double b) { return a < b && !near(a, b, slack); };
     for (std::size_t i = 0; i < list.size(); ++i) {
         std::rotate(list.begin(), list.begin() + 1, list.end());
         if (std::lexicographical_compare(list.begin(), list.end(), best.begin(), best.end(), less)) best = list;
@@ -61,11 +75,18 @@ std::string listed(const std::vector<double>& values, std::string (*format)(doub
     return text;
 }
 
+std::string angles_of(const TileShape& shape) {
+    return listed(period(least(shape.angles, angle_slack(shape)), angle_slack(shape)), degrees);
+}
+std::string sides_of(const TileShape& shape) {
+    return listed(period(least(shape.sides, side_slack(shape)), side_slack(shape)), number);
+}
+
 /// `170 rhombs 36 144`: sides are listed if angles do not distinguish the shape.
 std::string shape_text(const TileShape& shape, bool with_sides) {
     const std::string name = shape_name(shape);
-    std::string text = fmt::format("{} {}", counted(shape.tiles, name), listed(period(least(shape.angles)), degrees));
-    if (with_sides) text += ", sides " + listed(period(least(shape.sides)), number);
+    std::string text = fmt::format("{} {}", counted(shape.tiles, name), angles_of(shape));
+    if (with_sides) text += ", sides " + sides_of(shape);
     if (shape.is_chiral)
         text += fmt::format(", {} + {} by handedness", shape.tiles - shape.reflected, shape.reflected);
     return text + fmt::format(", in {}", counted(shape.orientations, "orientation"));
@@ -73,9 +94,7 @@ std::string shape_text(const TileShape& shape, bool with_sides) {
 
 std::string shapes_text(const TilingExamination& t) {
     std::map<std::string, int> titles;
-    const auto title = [](const TileShape& shape) {
-        return shape_name(shape) + listed(period(least(shape.angles)), degrees);
-    };
+    const auto title = [](const TileShape& shape) { return shape_name(shape) + angles_of(shape); };
     for (const TileShape& shape : t.shapes) ++titles[title(shape)];
     std::string text = fmt::format("{}: ", t.shapes.size());
     for (std::size_t i = 0; i < std::min(t.shapes.size(), most_listed); ++i) {
@@ -84,8 +103,9 @@ std::string shapes_text(const TilingExamination& t) {
     return text + (t.shapes.size() > most_listed ? "; …" : "");
 }
 
-std::string heading(const std::string& title, std::int64_t n) {
-    return fmt::format("{}, n = {}\n", title.empty() ? "(untitled)" : printable(title), n);
+std::string heading(const std::string& title, std::optional<std::int64_t> n) {
+    const std::string name = title.empty() ? "(untitled)" : printable(title);
+    return n ? fmt::format("{}, n = {}\n", name, *n) : name + "\n";
 }
 
 std::string violation_text(const TileViolation& violation) {
@@ -143,11 +163,11 @@ std::vector<std::string> kind_names(const std::vector<TileShape>& shapes) {
     std::map<std::string, int> times;
     std::vector<std::string> names;
     for (const TileShape& shape : shapes) {
-        names.push_back(fmt::format("{}s {}", shape_name(shape), listed(period(least(shape.angles)), degrees)));
+        names.push_back(fmt::format("{}s {}", shape_name(shape), angles_of(shape)));
         ++times[names.back()];
     }
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (times[names[i]] > 1) names[i] += ", sides " + listed(period(least(shapes[i].sides)), number);
+        if (times[names[i]] > 1) names[i] += ", sides " + sides_of(shapes[i]);
     }
     return names;
 }
@@ -195,19 +215,20 @@ std::string verdict(const TilingExamination& t) {
 }  // namespace
 
 std::string shape_name(const TileShape& shape) {
-    const auto equal = [](const std::vector<double>& list) { return period(list).size() == 1; };
+    const double angle = angle_slack(shape), side = side_slack(shape);
     const std::size_t corners = shape.angles.size();
     if (corners == 4) {
         const auto& s = shape.sides;
-        const bool right = equal(shape.angles);
-        if (equal(s)) return right ? "square" : "rhomb";
+        const bool right = period(shape.angles, angle).size() == 1;
+        if (period(s, side).size() == 1) return right ? "square" : "rhomb";
         if (right) return "rectangle";
-        if (near(s[0], s[2]) && near(s[1], s[3])) return "parallelogram";
-        if ((near(s[0], s[1]) && near(s[2], s[3])) || (near(s[1], s[2]) && near(s[3], s[0]))) {
+        if (near(s[0], s[2], side) && near(s[1], s[3], side)) return "parallelogram";
+        if ((near(s[0], s[1], side) && near(s[2], s[3], side)) ||
+            (near(s[1], s[2], side) && near(s[3], s[0], side))) {
             return *std::max_element(shape.angles.begin(), shape.angles.end()) > 180 ? "dart" : "kite";
         }
         const auto& a = shape.angles;
-        return near(a[0] + a[1], 180) || near(a[1] + a[2], 180) ? "trapezoid" : "quadrilateral";
+        return near(a[0] + a[1], 180, angle) || near(a[1] + a[2], 180, angle) ? "trapezoid" : "quadrilateral";
     }
     constexpr std::array<std::string_view, 13> names = {"",         "",        "",         "triangle", "",
                                                         "pentagon", "hexagon", "heptagon", "octagon",  "enneagon",
@@ -215,7 +236,7 @@ std::string shape_name(const TileShape& shape) {
     return corners < names.size() ? std::string(names[corners]) : fmt::format("{}-gon", corners);
 }
 
-std::string tiling_text(const std::string& title, std::int64_t n, const TilingExamination& t,
+std::string tiling_text(const std::string& title, std::optional<std::int64_t> n, const TilingExamination& t,
                         const TileGrowth& growth) {
     std::string text = heading(title, n);
     const auto line = [&](std::string_view name, const std::string& value) {
@@ -251,12 +272,15 @@ std::string tiling_text(const std::string& title, std::int64_t n, const TilingEx
     }
     line("neighbours", counted(t.neighbours, "pair") + counts + "; " + colours_text(t));
     line("symmetry", t.symmetry.name() + " about " + place(t.symmetry.centre));
-    line("growth", growth_text(growth));
-    line("exact", t.is_exact
-                      ? "yes"
-                      : fmt::format("no: angles or lengths do not fit a lattice; points within {:.6f} steps of "
-                                    "each other count as one",
-                                    t.tolerance));
+    if (n) line("growth", growth_text(growth));
+    line("exact",
+         t.is_exact ? "yes"
+         : !n       ? fmt::format("no: corners within {:.3g} of each other count as one, and so do points that near "
+                                        "an edge and points on it",
+                                  t.tolerance)
+                    : fmt::format("no: angles or lengths do not fit a lattice; points within {:.6f} steps of "
+                                        "each other count as one",
+                                  t.tolerance));
     return text;
 }
 
@@ -273,8 +297,7 @@ std::string tile_counts_text(const std::string& title, std::int64_t n, const Til
     for (const TileKindCount& each : growth.counts) sum += each.count;
     line("tiles", sum.str());
     const std::vector<std::string> names = kind_names(growth.shapes);
-    for (std::size_t i = 0; i < growth.counts.size(); ++i) {
-        const TileKindCount& each = growth.counts[i];
+    for (const TileKindCount& each : growth.counts) {
         if (each.count == 0) continue;
         line("", fmt::format("{} {}{}, by {}", each.count.str(), names[each.shape],
                              each.is_reflected ? " of the other hand" : "", printable(each.letters)));

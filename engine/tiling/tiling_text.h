@@ -5,18 +5,20 @@
 #include "engine/tiling/tiling.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace sikku {
 
-/// Text with one line for each fact. @param title  title of the pattern  @param n  derivation length
-std::string tiling_text(const std::string& title, std::int64_t n, const TilingExamination& examination,
+/// Text with one line for each fact. @param title  title of the pattern or the file of polygons
+/// @param n  derivation length; of polygons from a file: none
+std::string tiling_text(const std::string& title, std::optional<std::int64_t> n, const TilingExamination& examination,
                         const TileGrowth& growth);
 /// Writes one line of JSON in parts: the facts, then all tiles with their corners in steps and, on a lattice, in
 /// whole coordinates.
-void write_tiling_json(const std::string& title, std::int64_t n, const TilingResult& result, const TileGrowth& growth,
-                       const std::function<void(std::string_view)>& write);
+void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                       const TileGrowth& growth, const std::function<void(std::string_view)>& write);
 
 /// Numbers of tiles that were not derived, and their growth.
 std::string tile_counts_text(const std::string& title, std::int64_t n, const TileGrowth& growth);

@@ -5,6 +5,8 @@
 #include "art/reading/kolam_csv.h"
 #include "art/reading/kolam_json.h"
 #include "art/reading/kolam_svg.h"
+#include "art/reading/polygon_files.h"
+#include "engine/tiling/tiling.h"
 #include "tests/fuzz/file_targets.h"
 
 #include <stdexcept>
@@ -47,6 +49,14 @@ inline void try_reading(std::string_view text) {
              "a kolam does not come back from gestures");
     });
     attempt([&] { check(read_kolam_svg(copy)); });
+    const auto tiles = [](const PolygonList& list) {
+        must(list.begin.back() == list.corners.size(), "a polygon is not complete");
+        if (list.corners.size() > 2000 || list.size() == 0) return;
+        const TilingExamination t = examine_polygons(list, usual_tolerance(list), {}).examination;
+        must(t.tiles <= list.size(), "there are more tiles than polygons");
+    };
+    attempt([&] { tiles(read_polygons_json(copy)); });
+    attempt([&] { tiles(read_polygons_svg(copy)); });
 }
 
 }  // namespace sikku

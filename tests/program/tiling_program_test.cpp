@@ -150,6 +150,61 @@ TEST(TilingCommand, CountsWithoutDeriving) {
     EXPECT_LT(outcome.seconds, 1.0);
 }
 
+/// Rounded to a micrometre and read back, tilings have the same tiles, edges and figures.
+TEST(TilingCommand, CertifiesItsOwnPicturesAndLists) {
+    const ScratchFolder folder;
+    const std::string picture = (folder.path() / "tiles.svg").string();
+    for (const char* name : {"penrose-rhombs", "penrose-kite-dart", "ammann-beenker", "pinwheel", "hat", "spectre",
+                             "chair", "snub-square", "pythagorean", "danzer"}) {
+        SCOPED_TRACE(name);
+        const Json exact = tiling({name, "-n", "3"});
+        ASSERT_EQ(run({"draw", name, "-n", "3", "--name-tiles", "-o", picture}).status, 0);
+        const std::string list = folder.write("tiles.json", exact.dump());
+        for (const std::string& file : {picture, list}) {
+            const Json read = tiling({file});
+            EXPECT_TRUE(read["tiling"].get<bool>());
+            EXPECT_FALSE(read["exact"].get<bool>());
+            EXPECT_GT(read["tolerance"].get<double>(), 0);
+            EXPECT_TRUE(read["n"].is_null());
+            for (const char* key :
+                 {"polygons", "tiles", "violations", "regions", "edges", "inner_edges", "border_edges", "edges_cut",
+                  "vertices", "inner_vertices", "neighbours", "neighbour_counts", "symmetry"}) {
+                EXPECT_EQ(read[key], exact[key]) << key;
+            }
+            ASSERT_EQ(read["shapes"].size(), exact["shapes"].size());
+            for (std::size_t i = 0; i < exact["shapes"].size(); ++i) {
+                for (const char* key : {"name", "tiles", "reflected", "orientations"}) {
+                    EXPECT_EQ(read["shapes"][i][key], exact["shapes"][i][key]) << key;
+                }
+            }
+            std::multiset<int> figures, read_figures;
+            for (const Json& figure : exact["figures"]) figures.insert(figure["count"].get<int>());
+            for (const Json& figure : read["figures"]) read_figures.insert(figure["count"].get<int>());
+            EXPECT_EQ(read_figures, figures);
+        }
+    }
+    const Outcome text = run({"tiling", picture});
+    EXPECT_EQ(text.output.find("growth"), std::string::npos) << text.output;
+    EXPECT_NE(text.output.find("exact      no: corners within 0.0"), std::string::npos) << text.output;
+    EXPECT_NE(text.errors.find("1 ground left out\n"), std::string::npos) << text.errors;
+}
+
+TEST(TilingCommand, RefusesDamagedFilesOfPolygons) {
+    const ScratchFolder folder;
+    const std::string bad = folder.write("bad.json", "[[[0,0],[1,0],\n[0]]]");
+    const Outcome outcome = run({"tiling", bad});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.errors.find("bad.json: polygon 1: corner 3: expected [x, y], not 1 number\n"),
+              std::string::npos)
+        << outcome.errors;
+    EXPECT_EQ(run({"tiling", folder.write("none.json", "[]")}).status, 1);
+    EXPECT_EQ(run({"tiling", "no-such-file.svg"}).status, 1);
+    EXPECT_EQ(run({"tiling", bad, "-n", "3"}).status, 2);
+    EXPECT_EQ(run({"tiling", bad, "--counts"}).status, 2);
+    EXPECT_EQ(run({"tiling", "chair", "--tolerance", "0.1"}).status, 2);
+    EXPECT_EQ(run({"tiling", bad, "--tolerance", "0"}).status, 2);
+}
+
 TEST(TilingCommand, RefusesInOneLine) {
     const Outcome many = run({"tiling", "chair", "-n", "40"});
     EXPECT_EQ(many.status, 1);

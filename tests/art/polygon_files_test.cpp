@@ -1,0 +1,194 @@
+// Polygons of other programs: what is read, and where faults are.
+#include "art/reading/polygon_files.h"
+#include "engine/tiling/tiling.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+std::string svg(const std::string& body) {
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\">\n" + body + "\n</svg>\n";
+}
+std::string refusal(const std::function<void()>& read) {
+    try {
+        read();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "none";
+}
+std::string json_refusal(const std::string& text) {
+    return refusal([&] { read_polygons_json(text); });
+}
+std::string svg_refusal(const std::string& body) {
+    return refusal([&] { read_polygons_svg(svg(body)); });
+}
+
+TEST(PolygonFiles, ReadListsAndObjects) {
+    const PolygonList plain = read_polygons_json("[[[0,0],[1,0],[1,1.5]], [[1,0],[2,0],[2e0,-1],[1,-1]]]");
+    ASSERT_EQ(plain.size(), 2U);
+    EXPECT_EQ(plain.polygon(0).size(), 3U);
+    EXPECT_EQ(plain.polygon(0)[2], glm::dvec2(1, 1.5));
+    EXPECT_EQ(plain.polygon(1)[2], glm::dvec2(2, -1));
+    const PolygonList full = read_polygons_json(
+        R"({"title": "Two", "n": null, "shapes": [{"corners": 7}], "list": [
+            {"tile": 1, "colour": 3, "corners": [[0,0],[1,0],[0,1]], "exact": [[1,2,3]], "more": {"corners": []}},
+            {"corners": [[0,0],[1,0],[0,1]]}, [[5,5],[6,5],[5,6]]], "tail": [[[[1]]]]})");
+    EXPECT_EQ(full.title, "Two");
+    ASSERT_EQ(full.size(), 3U);
+    EXPECT_EQ(full.colour, (std::vector<std::int32_t>{3, 0, 0}));
+    EXPECT_EQ(full.polygon(2)[0], glm::dvec2(5, 5));
+    EXPECT_EQ(read_polygons_json("[]").size(), 0U);
+}
+
+TEST(PolygonFiles, NameThePlaceOfAFaultInJson) {
+    EXPECT_EQ(json_refusal("[\n [[0,0],[1,0],[0 1]]]"), "line 2, column 18: this is not valid JSON");
+    EXPECT_EQ(json_refusal(""), "line 1, column 1: this is not valid JSON");
+    EXPECT_EQ(json_refusal("[[[0,0],[1,0],[0,1]],[[0,0],[1,0,2],[0,1]]]"),
+              "polygon 2: corner 2: expected [x, y], not 3 numbers");
+    EXPECT_EQ(json_refusal("[[[0,0],[1,\"a\"],[0,1]]]"), "polygon 1: corner 2: expected [x, y], not a text");
+    EXPECT_EQ(json_refusal("[[[0,0],[1,0],null]]"), "polygon 1: corner 3: expected [x, y], not null");
+    EXPECT_EQ(json_refusal("[[[0,0],[1,0],[[1,1],2]]]"), "polygon 1: corner 3: expected [x, y], not a list");
+    EXPECT_EQ(json_refusal("[[[0,0],[1,0]]]"), "polygon 1: a polygon has three corners or more");
+    EXPECT_EQ(json_refusal("[1]"), "polygon 1: expected a list of corners, not a number");
+    EXPECT_EQ(json_refusal("[{\"tile\": 1}]"), "polygon 1: 'corners' is missing");
+    EXPECT_EQ(json_refusal("[{\"corners\": 4}]"), "polygon 1: 'corners' is a number, not a list of corners");
+    EXPECT_EQ(json_refusal("[{\"corners\": {}}]"), "polygon 1: 'corners' is an object, not a list of corners");
+    EXPECT_EQ(json_refusal("[{\"corners\": [[0,0],[1,0],[0,1]], \"corners\": [[0,0],[1,0],[0,1]]}]"),
+              "polygon 1: 'corners' occurs twice");
+    EXPECT_EQ(json_refusal("{\"list\": 1}"), "'list' is a number, not a list of polygons");
+    EXPECT_EQ(json_refusal("{\"tiles\": []}"),
+              "expected a list of polygons, or an object with such a list as 'list'");
+    EXPECT_EQ(json_refusal("7"), "expected a list of polygons, not a number");
+    EXPECT_EQ(json_refusal("[[[0,0],[1e300,0],[0,1]]]"),
+              "polygon 1: corner 2: expected [x, y], not 1e+300, which is larger than 1e+09");
+    EXPECT_NE(json_refusal("[[[0,0],[1e999,0],[0,1]]]"), "none");
+    EXPECT_EQ(json_refusal("{\"a\": " + std::string(100'000, '[')), "more than 50 nested brackets");
+}
+
+TEST(PolygonFiles, ReadElementsWithTheirTransforms) {
+    const PolygonList list =
+        read_polygons_svg(svg("<title>Mine</title><defs><rect width=\"9\" height=\"9\"/></defs>\n"
+                              "<g transform=\"translate(10 0) scale(2)\"><g transform=\"rotate(90)\" fill=\"red\">\n"
+                              "<rect x=\"1\" y=\"0\" width=\"2\" height=\"1\"/></g>\n"
+                              "<polygon points=\"0,0 1,0 1,1 0,0\" style=\"fill: #00f\"/></g>\n"
+                              "<path fill=\"red\" d=\"M0 0h1v1zm5 5l1 0 0 1z\"/><path fill=\"none\" d=\"M0 "
+                              "0h1v1z\"/><path d=\"M0 0h1v1\"/>\n"
+                              "<text>a</text>"));
+    EXPECT_EQ(list.title, "Mine");
+    ASSERT_EQ(list.size(), 4U);
+    // (1, 0) turned is (0, 1), doubled (0, 2), moved (10, 2); y points up.
+    EXPECT_NEAR(list.polygon(0)[0].x, 10, 1e-12);
+    EXPECT_NEAR(list.polygon(0)[0].y, -2, 1e-12);
+    EXPECT_NEAR(list.polygon(0)[2].x, 8, 1e-12);
+    EXPECT_NEAR(list.polygon(0)[2].y, -6, 1e-12);
+    EXPECT_EQ(list.polygon(1).size(), 3U);
+    EXPECT_EQ(list.polygon(3)[0], glm::dvec2(5, -5));
+    EXPECT_EQ(list.colour, (std::vector<std::int32_t>{0, 1, 0, 0}));
+    EXPECT_EQ(list.notes, (std::vector<std::string>{"1 outline without a fill left out", "1 open line left out",
+                                                    "1 text or picture left out"}));
+    EXPECT_EQ(read_polygons_svg(svg("<g fill=\"none\"><path d=\"M0 0h1v1z\"/></g>")).size(), 1U);
+}
+
+TEST(PolygonFiles, NameThePlaceOfAFaultInAnSvg) {
+    EXPECT_EQ(svg_refusal("<g>\n<path d=\"M0 0h1q1 1 2 2z\"/></g>"),
+              "line 3, column 2, <path>: byte 7 of its path is the curve 'q'; tiles have straight edges");
+    EXPECT_EQ(svg_refusal("<circle r=\"1\"/>"),
+              "line 2, column 2, <circle>: this is a curve; tiles have straight edges");
+    EXPECT_EQ(svg_refusal("<rect width=\"3\" height=\"3\" rx=\"1\"/>"),
+              "line 2, column 2, <rect>: it has round corners; tiles have straight edges");
+    EXPECT_NE(svg_refusal("<use href=\"#a\"/>").find("<use>: copies of elements are not supported"),
+              std::string::npos);
+    EXPECT_NE(svg_refusal("<polygon points=\"1 2 3\"/>").find("odd number"), std::string::npos);
+    EXPECT_NE(svg_refusal("<g transform=\"turn(3)\"/>").find("<g>: 'turn(3)': unknown transform"), std::string::npos);
+    EXPECT_NE(svg_refusal("<path d=\"M0 0 h\"/>").find("<path>: damaged path data"), std::string::npos);
+    EXPECT_NE(
+        svg_refusal("<g transform=\"scale(1e11)\"><rect width=\"9\" height=\"9\"/></g>").find("larger than 1e+09"),
+        std::string::npos);
+    EXPECT_EQ(svg_refusal("<line x1=\"3\"/>"), "the SVG has no closed polygons");
+    EXPECT_NE(refusal([] { read_polygons_svg("<svg>\n<g></svg>"); }).find("line 2, column "), std::string::npos);
+    std::string deep;
+    for (int i = 0; i < 10'000; ++i) deep += "<g>";
+    std::string close;
+    for (int i = 0; i < 10'000; ++i) close += "</g>";
+    EXPECT_NE(svg_refusal(deep + "<rect width=\"1\" height=\"1\"/>" + close).find("nested too deeply"),
+              std::string::npos);
+}
+
+/// Squares of a grid, each corner moved by up to `noise`.
+PolygonList squares(int rows, double noise) {
+    PolygonList list;
+    std::uint32_t state = 1;
+    const auto jitter = [&] {
+        state = state * 1664525U + 1013904223U;
+        return noise * (static_cast<double>(state >> 8U) / 8388608.0 - 1);
+    };
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < rows; ++x) {
+            for (const glm::dvec2 at :
+                 {glm::dvec2(x, y), glm::dvec2(x + 1, y), glm::dvec2(x + 1, y + 1), glm::dvec2(x, y + 1)}) {
+                list.corners.push_back(at + glm::dvec2(jitter(), jitter()));
+            }
+            list.end_polygon(0);
+        }
+    }
+    return list;
+}
+
+TEST(PolygonFiles, AreTilesWithinTheTolerance) {
+    const TilingExamination t = examine_polygons(squares(8, 0.0006), 0.002, {}).examination;
+    EXPECT_TRUE(t.is_tiling());
+    EXPECT_FALSE(t.is_exact);
+    EXPECT_EQ(t.tolerance, 0.002);
+    EXPECT_EQ(t.tiles, 64U);
+    EXPECT_EQ(t.edges, 144U);
+    EXPECT_EQ(t.inner_vertices, 49U);
+    ASSERT_EQ(t.shapes.size(), 1U);
+    EXPECT_EQ(t.figures.size(), 1U);
+    EXPECT_EQ(t.symmetry.name(), "D4");
+    // The same squares with a tolerance that is too small, and with corners that are too far off.
+    EXPECT_FALSE(examine_polygons(squares(8, 0.0006), 0.0001, {}).examination.is_tiling());
+    EXPECT_FALSE(examine_polygons(squares(8, 0.02), 0.002, {}).examination.is_tiling());
+    EXPECT_NEAR(usual_tolerance(squares(3, 0)), 0.002, 1e-12);
+}
+
+TEST(PolygonFiles, FindGapsOverlapsAndDuplicates) {
+    const auto examined = [](const char* text) {
+        return examine_polygons(read_polygons_json(text), 0.001, {}).examination;
+    };
+    // Four rectangles around a square.
+    const TilingExamination gap = examined(
+        "[[[0,0],[2,0],[2,1],[0,1]],[[2,0],[3,0],[3,2],[2,2]],[[1,2],[3,2],[3,3],[1,3]],[[0,1],[1,1],[1,3],[0,3]]]");
+    EXPECT_FALSE(gap.is_tiling());
+    ASSERT_EQ(gap.gaps.size(), 1U);
+    EXPECT_NEAR(gap.gaps[0].area, -1, 1e-9);
+    EXPECT_NEAR(gap.gaps[0].centre.x, 1.5, 1e-9);
+    const TilingExamination over = examined("[[[0,0],[2,0],[2,2],[0,2]],[[1,1],[3,1],[3,3],[1,3]]]");
+    EXPECT_EQ(over.violations.count, 1U);
+    EXPECT_EQ(over.violations.list[0].fault, TileFault::overlap);
+    const TilingExamination within = examined("[[[0,0],[9,0],[9,9],[0,9]],[[1,1],[3,1],[3,3],[1,3]]]");
+    EXPECT_EQ(within.violations.list.at(0).fault, TileFault::overlap);
+    const TilingExamination corner = examined("[[[0,0],[2,0],[2,2]],[[0,0],[2,1],[0,2]]]");
+    EXPECT_EQ(corner.violations.list.at(0).fault, TileFault::overlap);
+    EXPECT_EQ(examined("[[[0,0],[2,0],[2,2]],[[2,2],[0,0],[2,0]]]").violations.list.at(0).fault,
+              TileFault::duplicate);
+    EXPECT_EQ(examined("[[[0,0],[2,0],[0,2],[2,2]]]").violations.list.at(0).fault, TileFault::crossing);
+    EXPECT_EQ(examined("[[[0,0],[2,0],[4,0]]]").violations.list.at(0).fault, TileFault::empty);
+}
+
+TEST(PolygonFiles, RefuseTolerancesThatDoNotSuit) {
+    EXPECT_THROW(examine_polygons(squares(2, 0), 0.1, {}), std::runtime_error);
+    EXPECT_THROW(examine_polygons(squares(2, 0), 1e-14, {}), std::runtime_error);
+    EXPECT_THROW(usual_tolerance(read_polygons_json("[[[1,1],[1,1],[1,1]]]")), std::runtime_error);
+    TilingOptions few;
+    few.limits.tiles = 3;
+    EXPECT_THROW(examine_polygons(squares(2, 0), 0.001, few), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sikku
