@@ -1,6 +1,7 @@
 #include "music/ensemble.h"
 
 #include "music/form/block.h"
+#include "music/score/glides.h"
 
 #include <fmt/format.h>
 
@@ -42,6 +43,9 @@ public:
         for (Note& note : moved_) {
             note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
             const std::int64_t end = ratio_.of(note.onset + note.duration);
+            if (note.glide.ticks > 0) {
+                note.glide.ticks = end - ratio_.of(note.onset + note.duration - note.glide.ticks);
+            }
             note.onset = ratio_.of(note.onset);
             note.duration = std::max<std::int64_t>(1, end - note.onset);
             note.onset += later_;
@@ -125,7 +129,7 @@ public:
         report_.highest = PlayReport().highest;
         report_.notes = 0;
         std::int64_t end = 0;
-        for (const WholePart& part : parts_) {
+        for (WholePart& part : parts_) {
             write(part, sink);
             end = std::max(end, part.end);
         }
@@ -262,7 +266,7 @@ private:
             for (FormNote one : block.notes.empty() ? part.block.notes : block.notes) {
                 one.note.onset += from;
                 if (one.note.onset >= part.until) continue;
-                one.note.duration = std::min(one.note.duration, part.until - one.note.onset);
+                sikku::cut(one.note, one.note.onset, part.until);
                 one.note.onset += at;
                 one.note.voice = static_cast<std::int16_t>(one.note.voice + part.player->first_voice);
                 part.notes.push_back(one);
@@ -298,15 +302,14 @@ private:
         report_.is_strict = true;
     }
 
-    void write(const WholePart& part, NoteSink& sink) {
+    void write(WholePart& part, NoteSink& sink) {
+        link_glides(part.notes);
         std::vector<Note> notes;
         for (const FormNote& one : part.notes) {
             Note note = one.note;
-            const std::int64_t from = std::max(note.onset, playing_.from);
-            const std::int64_t to = std::min(note.onset + note.duration, playing_.to);
-            if (from >= to) continue;
-            note.onset = from - playing_.from;
-            note.duration = to - from;
+            if (std::max(note.onset, playing_.from) >= std::min(note.onset + note.duration, playing_.to)) continue;
+            cut(note, playing_.from, playing_.to);
+            note.onset -= playing_.from;
             if (!is_drum(part, one)) {
                 report_.lowest = std::min(report_.lowest, note.key);
                 report_.highest = std::max(report_.highest, note.key);
@@ -388,6 +391,12 @@ bool Ensemble::has_bends() const {
                        [](const Player& player) { return !player.melody.expression.gamakas.empty(); });
 }
 
+bool Ensemble::has_glides() const {
+    return std::any_of(players.begin(), players.end(), [](const Player& player) {
+        return player.melody.mapping == Mapping::runs && player.melody.vertical == Vertical::glissando;
+    });
+}
+
 bool Ensemble::has_tempo_ratio() const {
     return std::any_of(players.begin(), players.end(),
                        [](const Player& player) { return !player.melody.layout.tempo.is_one(); });
@@ -432,7 +441,7 @@ EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, 
 }
 
 EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
-    const EnsembleReport all = play_parts(ensemble, playing, sink);
+    EnsembleReport all = play_parts(ensemble, playing, sink);
     if (all.notes == 0) refuse_silence(ensemble, playing, all);
     sink.finish(all.end);
     return all;

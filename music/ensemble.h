@@ -21,8 +21,10 @@ struct Ensemble {
     bool needs_whole() const;
     /// True if a key of a part makes velocity, tempo, pan or pitch follow the curve.
     bool has_expression() const;
-    /// True if notes of a part are bent.
+    /// True if notes of a part have gamakas.
     bool has_bends() const;
+    /// True if notes of a part slide to the next.
+    bool has_glides() const;
     /// True if a part has a tempo of its own.
     bool has_tempo_ratio() const;
 };

@@ -30,6 +30,7 @@ public:
             const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
             note.onset += delay;
             note.duration -= delay;
+            note.glide.ticks = std::min(note.glide.ticks, note.duration);
             note.velocity = static_cast<std::uint8_t>(
                 std::clamp(static_cast<int>(note.velocity) + static_cast<int>(loud * amount_ * 24), 1, 127));
         }

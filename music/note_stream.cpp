@@ -5,6 +5,7 @@
 #include "music/humaniser.h"
 #include "music/performance.h"
 #include "music/players.h"
+#include "music/score/glides.h"
 #include "music/score/music_page.h"
 
 #include <fmt/format.h>
@@ -54,6 +55,19 @@ protected:
     PlayOptions playing_;
 };
 
+/// Adds the slide of a note from a tick on.
+void add_pitches(const Note& note, double tempo, std::int64_t from, NoteWindow& window) {
+    if (note.glide.ticks == 0) return;
+    for (const GlidePoint& point : glide_points(note, tempo)) {
+        if (point.tick >= from) window.pitches.push_back({point.tick, note.voice, point.key});
+    }
+}
+
+void sort_pitches(NoteWindow& window) {
+    std::stable_sort(window.pitches.begin(), window.pitches.end(),
+                     [](const NoteWindow::Pitch& a, const NoteWindow::Pitch& b) { return a.tick < b.tick; });
+}
+
 /// All notes in memory.
 class WholeStream final : public Stream {
 public:
@@ -65,7 +79,7 @@ public:
             NoteSink& sink = score_.humanise > 0 ? static_cast<NoteSink&>(human) : collector;
             PerformanceSink performance(sink, ensemble_, playing_, false);
             end_ = play_all(ensemble_, playing_, performance).end;
-            curves_ = performance.curves();
+            curves_ = performance.made();
         } else {
             end_ = play_into(collector, playing).end;
         }
@@ -87,6 +101,8 @@ public:
         const auto first = std::lower_bound(notes_.begin(), notes_.end(), window.from, before);
         const auto last = window.is_last ? notes_.end() : std::lower_bound(first, notes_.end(), window.to, before);
         window.notes.assign(first, last);
+        for (const Note& note : window.notes) add_pitches(note, score_.head.tempo, 0, window);
+        sort_pitches(window);
         at_ = window.is_last ? 0 : window.to;
         return window;
     }
@@ -105,9 +121,14 @@ public:
     /// @param begin        tick of the first note that may come
     /// @param known_until  ends from here on were not known before
     /// @param until        tick after which nothing is known; INT64_MAX if the score ends there
-    WindowSink(NoteWindow& window, std::vector<char> open, std::int64_t begin, std::int64_t known_until,
+    WindowSink(NoteWindow& window, std::vector<char> open, double tempo, std::int64_t begin, std::int64_t known_until,
                std::int64_t until)
-        : window_(window), open_(std::move(open)), begin_(begin), known_until_(known_until), until_(until) {}
+        : window_(window),
+          open_(std::move(open)),
+          tempo_(tempo),
+          begin_(begin),
+          known_until_(known_until),
+          until_(until) {}
 
     void notes(std::span<const Note> notes) override {
         for (Note note : notes) {
@@ -120,6 +141,7 @@ public:
             if (note.onset < window_.from) {
                 if (open_[voice] == 0 || end < known_until_) continue;
                 open_[voice] = 0;
+                add_pitches(note, tempo_, known_until_, window_);
                 if (end < until_) {
                     window_.ends.push_back({end, note.voice});
                 } else {
@@ -127,6 +149,7 @@ public:
                 }
                 continue;
             }
+            add_pitches(note, tempo_, 0, window_);
             if (end >= until_) {
                 note.duration = 0;
                 still_open_[voice] = 1;
@@ -147,6 +170,7 @@ public:
             if (open_[voice] != 0) window_.ends.push_back({window_.from, static_cast<std::int16_t>(voice)});
         }
         std::stable_sort(window_.notes.begin(), window_.notes.end(), is_earlier);
+        sort_pitches(window_);
         std::sort(window_.ends.begin(), window_.ends.end(), [](const NoteWindow::End& a, const NoteWindow::End& b) {
             return std::tie(a.tick, a.voice) < std::tie(b.tick, b.voice);
         });
@@ -156,6 +180,7 @@ public:
 private:
     NoteWindow& window_;
     std::vector<char> open_;
+    double tempo_;
     std::int64_t begin_;
     std::int64_t known_until_;
     std::int64_t until_;
@@ -194,7 +219,7 @@ public:
         options.to = std::min(playing_.to, playing_.from + window.to + after_);
         const std::int64_t until = options.to - playing_.from;
         const bool is_cut = options.to == playing_.to;
-        WindowSink sink(window, std::move(open_), begin, known_until_, is_cut ? INT64_MAX : until);
+        WindowSink sink(window, std::move(open_), score_.head.tempo, begin, known_until_, is_cut ? INT64_MAX : until);
         EnsembleReport report;
         if (options.from < options.to) report = play_into(sink, options);
         open_ = sink.complete();

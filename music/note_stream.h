@@ -29,6 +29,13 @@ struct NoteWindow {
         std::int16_t voice = 0;
     };
     std::vector<End> ends;
+    /// Slides of the notes that sound, by tick; some may lie beyond the window. They stand for Note::glide.
+    struct Pitch {
+        std::int64_t tick = 0;
+        std::int16_t voice = 0;
+        double key = 0;
+    };
+    std::vector<Pitch> pitches;
     /// Where the score ends, rests included: known at least two bars before.
     std::optional<std::int64_t> end;
     bool is_last = false;  ///< the next window begins at tick 0 again

@@ -81,10 +81,11 @@ std::unordered_map<std::uint64_t, int> levels_of(const Player& player, const Pla
 /// -1 to the right, 1 to the left, 0 straight on.
 double turn_into(const Note* before, const Note& note) {
     if (!before) return 0;
-    const glm::dvec2 ahead = before->to - before->from;
-    glm::dvec2 next = note.from - before->to;
+    const bool has_risen = before->glide.rise != 0;
+    const glm::dvec2 ahead = before->end_point() - (has_risen ? before->to : before->from);
+    glm::dvec2 next = note.from - before->end_point();
     constexpr double nothing = 1e-9;
-    if (std::fabs(next.x) + std::fabs(next.y) < nothing) next = note.to - note.from;
+    if (std::fabs(next.x) + std::fabs(next.y) < nothing) next = note.end_point() - note.from;
     const double cross = ahead.x * next.y - ahead.y * next.x;
     return cross > nothing ? 1 : cross < -nothing ? -1 : 0;
 }
@@ -106,7 +107,7 @@ Parts parts_of(const Player& player, const PlayOptions& playing, ExpressionSourc
                 break;
             case ExpressionSource::y:
                 value = note->from.y;
-                end = note->to.y;
+                end = note->end_point().y;
                 break;
             case ExpressionSource::depth:
                 value = end = note->depth;
@@ -170,6 +171,7 @@ public:
           points_(points) {}
 
     void bend(Note* before, Note& note, const Note* after) {
+        if (note.glide.ticks > 0) return;
         const std::int64_t degree = degree_of(note.key);
         for (const Gamaka& gamaka : melody_.expression.gamakas) {
             const auto size = static_cast<std::int64_t>(melody_.scale.size());
@@ -181,7 +183,7 @@ public:
                     if (swing(note, degree)) return;
                     break;
                 case Gamaka::Kind::jaru:
-                    if (before && before->onset + before->duration == note.onset) {
+                    if (before && before->onset + before->duration == note.onset && before->glide.ticks == 0) {
                         before->is_sliding = slide(note, before->key - note.key, true) || before->is_sliding;
                         return;
                     }
@@ -279,7 +281,7 @@ void PerformanceSink::finish(std::int64_t end) {
         std::vector<Note*> notes;
         for (Note& note : notes_) {
             // What accompanies a melody comes from no place of the curve.
-            if (note.voice >= first && note.voice < next && note.from != note.to) notes.push_back(&note);
+            if (note.voice >= first && note.voice < next && note.from != note.end_point()) notes.push_back(&note);
         }
         std::stable_sort(notes.begin(), notes.end(), [](const Note* a, const Note* b) {
             return std::tie(a->onset, a->voice) < std::tie(b->onset, b->voice);

@@ -26,7 +26,8 @@ public:
     /// @throws ScoreError for too many points; as play() where a source is the level
     void finish(std::int64_t end) override;
 
-    const Curves& curves() const { return curves_; }
+    /// The curves of what has been played.
+    const Curves& made() const { return curves_; }
 
 private:
     void express(const Player& player, std::vector<Note*>& notes);

@@ -18,6 +18,7 @@
 #include "music/score/audio.h"
 #include "music/score/csound.h"
 #include "music/score/engraving.h"
+#include "music/score/glides.h"
 #include "music/score/lilypond.h"
 #include "music/score/midi.h"
 #include "music/score/music_page.h"
@@ -170,7 +171,7 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         if ((most == most_channels ? pitched : voices) > most) {
             throw ScoreError(fmt::format("too many voices: the patterns have {} together, {}", voices,
                                          most == most_channels
-                                             ? fmt::format("microtones have MIDI channels for {}", most)
+                                             ? fmt::format("microtones and bends have MIDI channels for {}", most)
                                              : fmt::format("a score can have {}", most)));
         }
         if (!is_drums_alone) head.parts.push_back(part);
@@ -371,6 +372,13 @@ private:
             midi_.microtonal = true;
             midi_.bend_range = widest_bend;
         }
+        if (ensemble_.has_glides() && !is_printed(format_)) {
+            if (settings_.tuning == Tuning::mts) {
+                throw SettingError("tuning", "mts", "glissandi are pitch bends; expected bend or mpe");
+            }
+            midi_.microtonal = true;
+            midi_.bend_range = glide_bend_range;
+        }
         if (is_printed(format_) && ensemble_.has_tempo_ratio()) {
             throw SettingError("speed", "",
                                "a part in a tempo of its own has no bars in common with the others, so it cannot be "
@@ -406,7 +414,7 @@ private:
         if (ensemble_.has_expression()) {
             PerformanceSink performance(sink, ensemble_, playing, is_printed(format_));
             report = play_all(ensemble_, playing, performance);
-            curves.tempo = performance.curves().tempo;
+            curves.tempo = performance.made().tempo;
         } else {
             report = play_all(ensemble_, playing, sink);
         }
@@ -511,7 +519,12 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
                 write_csound_file(head, notes, collector.end(), output, collector.curves());
             if (format_ == ScoreFormat::sco)
                 write_csound_score(head, notes, collector.end(), output, collector.curves());
-            if (format_ == ScoreFormat::strudel) write_strudel(head, notes, collector.end(), output);
+            if (format_ == ScoreFormat::strudel) {
+                write_strudel(head, notes, collector.end(), output);
+                if (ensemble_.has_glides()) {
+                    made.warn("the notes of Strudel do not slide: glissandi are held at the pitch they begin with");
+                }
+            }
             if (format_ == ScoreFormat::svg) write_music_svg(head, notes, collector.end(), output);
             if (format_ == ScoreFormat::html)
                 write_music_page(head, notes, collector.end(), output, collector.curves());

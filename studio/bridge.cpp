@@ -169,6 +169,15 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
         append_double(bytes, note.to.y);
         append_double(bytes, note.symbol == 0 ? -1 : static_cast<double>(note.symbol));
     }
+    std::size_t glides = 0;
+    for (std::size_t i = 0; i < list.notes.size(); ++i) {
+        const Glide& glide = list.notes[i].glide;
+        if (glide.semitones == 0) continue;
+        append_double(bytes, i);
+        append_double(bytes, glide.ticks);
+        append_double(bytes, glide.semitones);
+        ++glides;
+    }
     Json parts = Json::array();
     for (const Part& part : list.parts) {
         parts.push_back({{"name", part.name},
@@ -177,9 +186,9 @@ Json answer_notes(const Json& request, const Monitor& monitor, std::string& byte
                          {"voices", part.voices},
                          {"drums", part.is_drums}});
     }
-    return {{"count", list.notes.size()}, {"end", list.end},         {"tempo", list.tempo},
-            {"beats", list.meter.beats},  {"unit", list.meter.unit}, {"ticks", ticks_per_quarter},
-            {"parts", std::move(parts)}};
+    return {{"count", list.notes.size()}, {"glides", glides},          {"end", list.end},
+            {"tempo", list.tempo},        {"beats", list.meter.beats}, {"unit", list.meter.unit},
+            {"ticks", ticks_per_quarter}, {"parts", std::move(parts)}};
 }
 
 Json answer(const Json& request, const std::string& file, const Monitor& monitor, std::string& bytes) {

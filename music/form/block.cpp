@@ -1,9 +1,12 @@
 #include "music/form/block.h"
 
+#include "music/score/glides.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace sikku {
@@ -54,14 +57,68 @@ Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
     Block piece;
     piece.length = end - begin;
     for (FormNote one : block.notes) {
-        const std::int64_t from = std::max(one.note.onset, begin);
-        const std::int64_t to = std::min(one.note.onset + one.note.duration, end);
-        if (from >= to) continue;
-        one.note.onset = from - begin;
-        one.note.duration = to - from;
+        if (std::max(one.note.onset, begin) >= std::min(one.note.onset + one.note.duration, end)) continue;
+        sikku::cut(one.note, begin, end);
+        one.note.onset -= begin;
         piece.notes.push_back(one);
     }
     return piece;
+}
+
+/// The notes of each voice, by onset.
+std::map<int, std::vector<FormNote*>> voices_of(std::vector<FormNote>& notes) {
+    std::map<int, std::vector<FormNote*>> voices;
+    for (FormNote& one : notes) voices[one.note.voice].push_back(&one);
+    for (auto& [voice, line] : voices) {
+        std::stable_sort(line.begin(), line.end(),
+                         [](const FormNote* a, const FormNote* b) { return a->note.onset < b->note.onset; });
+    }
+    return voices;
+}
+
+bool has_glides(const std::vector<FormNote>& notes) {
+    return std::any_of(notes.begin(), notes.end(), [](const FormNote& one) { return one.note.glide.ticks > 0; });
+}
+
+/// What slides to the next note, slides back from it: the next note lasts longer by the slide, at its beginning,
+/// which is its end once time is reversed. A slide that leads to no note becomes a note.
+void turn_glides(std::vector<FormNote>& notes) {
+    if (!has_glides(notes)) return;
+    std::vector<FormNote> added;
+    for (const auto& [voice, line] : voices_of(notes)) {
+        Glide carried;  // of the note before, to this one
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            Note& note = line[i]->note;
+            const Glide glide = note.glide;
+            note.glide = carried;
+            note.is_sliding = carried.semitones != 0;
+            carried = {};
+            if (glide.ticks == 0) continue;
+            const std::int64_t end = note.onset + note.duration;
+            const Glide back{glide.ticks, -glide.semitones, -glide.rise};
+            Note* const next = i + 1 < line.size() ? &line[i + 1]->note : nullptr;
+            note.duration -= glide.ticks;
+            if (next && next->onset == end) {
+                next->onset -= glide.ticks;
+                next->duration += glide.ticks;
+                carried = back;
+                continue;
+            }
+            FormNote alone = *line[i];
+            alone.note.onset = end - glide.ticks;
+            alone.note.duration = glide.ticks;
+            alone.note.key += static_cast<double>(glide.semitones);
+            alone.note.from = alone.note.to = {note.to.x, note.to.y + static_cast<double>(glide.rise)};
+            alone.note.glide = back;
+            alone.note.is_sliding = back.semitones != 0;
+            alone.has_degree = false;
+            added.push_back(alone);
+        }
+    }
+    notes.insert(notes.end(), added.begin(), added.end());
+    notes.erase(
+        std::remove_if(notes.begin(), notes.end(), [](const FormNote& one) { return one.note.duration == 0; }),
+        notes.end());
 }
 
 }  // namespace
@@ -78,7 +135,21 @@ Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions
     return block;
 }
 
+void link_glides(std::vector<FormNote>& notes) {
+    if (!has_glides(notes)) return;
+    for (const auto& [voice, line] : voices_of(notes)) {
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            Note& note = line[i]->note;
+            const Note& next = line[i + 1]->note;
+            if (note.glide.ticks == 0 || note.onset + note.duration != next.onset) continue;
+            note.glide.semitones = static_cast<float>(next.key - note.key);
+            note.is_sliding = note.glide.semitones != 0;
+        }
+    }
+}
+
 void reverse(Block& block) {
+    turn_glides(block.notes);
     for (FormNote& one : block.notes) {
         one.note.onset = block.length - one.note.onset - one.note.duration;
         std::swap(one.note.from, one.note.to);
@@ -125,6 +196,8 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
         if (one->has_degree && one->note.voice == 0) last.push_back(&*one);
     }
     if (last.empty()) return;
+    last[0]->note.glide = {};
+    last[0]->note.is_sliding = false;
     const auto period = static_cast<std::int64_t>(melody.scale.size());
     const std::int64_t place = ending == Ending::open ? fifth_of(melody.scale) : 0;
     std::int64_t above = (last[0]->degree - place) % period;
@@ -141,6 +214,9 @@ void scale_times(Block& block, Ratio by) {
     if (by.is_one()) return;
     for (FormNote& one : block.notes) {
         const std::int64_t end = by.of(one.note.onset + one.note.duration);
+        if (one.note.glide.ticks > 0) {
+            one.note.glide.ticks = end - by.of(one.note.onset + one.note.duration - one.note.glide.ticks);
+        }
         one.note.onset = by.of(one.note.onset);
         one.note.duration = std::max<std::int64_t>(1, end - one.note.onset);
     }

@@ -32,6 +32,9 @@ constexpr std::size_t most_block_notes = 4'000'000;
 /// Plays a melody into a block. @throws as play(); ScoreError for too many notes
 Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report);
 
+/// Lets notes slide to the keys that the notes after them have now.
+void link_glides(std::vector<FormNote>& notes);
+
 /// Reverses time.
 void reverse(Block& block);
 

@@ -211,6 +211,9 @@ private:
         is_window_ = true;
         note_ = 0;
         for (const NoteWindow::End& one : window_.ends) ends_.emplace(pass_ + one.tick, one.voice);
+        for (const NoteWindow::Pitch& one : window_.pitches) {
+            pitches_.emplace(pass_ + one.tick, std::pair(one.voice, one.key));
+        }
         is_last_ = window_.is_last;
         if (window_.end && !end_) set_end(*window_.end);
     }
@@ -236,6 +239,7 @@ private:
             tick = pass_ + window_.to;  // where more is read
         }
         if (!ends_.empty()) tick = std::min(tick, ends_.begin()->first);
+        if (!pitches_.empty()) tick = std::min(tick, pitches_.begin()->first);
         if (end_ && tempo_ < tempos_.size()) tick = std::min(tick, pass_ + tempos_[tempo_].tick);
         if (end_ && is_last_) tick = std::min(tick, pass_end());
         const auto& controls = version_->controls();
@@ -335,6 +339,7 @@ private:
     /// Goes to a tick of the score. The tick of the performance goes on.
     void restart(std::int64_t tick) {
         ends_.clear();
+        pitches_.clear();
         version_->stream().seek(tick);
         pass_ = now_ - tick;
         forget_window();
@@ -400,6 +405,7 @@ private:
         version_->voices().silence(tick, messages_);
         retired_ = std::exchange(version_, std::move(next_));
         ends_.clear();
+        pitches_.clear();
         forget_window();
         pass_ = tick - next_bar_ * version_->bar();
         version_->voices().prepare(messages_);
@@ -448,6 +454,10 @@ private:
         begin_notes(tick);
         for (const ControlPoint& point : due) {
             if (point.number == ControlPoint::bend) version_->voices().control(point, messages_);
+        }
+        for (; !pitches_.empty() && pitches_.begin()->first <= tick; pitches_.erase(pitches_.begin())) {
+            const auto [voice, key] = pitches_.begin()->second;
+            version_->voices().slide(voice, key, tick, messages_);
         }
     }
 
@@ -501,8 +511,9 @@ private:
     std::int64_t length_ = 0;  // of the score in whole bars, in ticks
     std::vector<TempoPoint> tempos_;
     std::size_t tempo_ = 0;
-    std::size_t control_ = 0;                // the next point of the curves
-    std::multimap<std::int64_t, int> ends_;  // of notes that sound: tick and voice
+    std::size_t control_ = 0;                                      // the next point of the curves
+    std::multimap<std::int64_t, int> ends_;                        // of notes that sound: tick and voice
+    std::multimap<std::int64_t, std::pair<int, double>> pitches_;  // that they slide to: tick, voice and key
 };
 
 }  // namespace

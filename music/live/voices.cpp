@@ -102,7 +102,7 @@ void Voices::prepare(std::vector<Message>& messages) const {
 void Voices::tune(int channel, int key, double fraction, std::vector<Message>& messages) {
     if (channel == drums) return;
     if (std::fabs(fraction) <= least_fraction) fraction = 0;
-    if (is_mpe_ || (midi_.microtonal && midi_.tuning == Tuning::bend)) {
+    if (bends_notes()) {
         const int value =
             std::clamp(centre + static_cast<int>(std::lround(fraction * centre / bend_range_)), 0, 16383);
         int& last = bends_[static_cast<std::size_t>(channel)];
@@ -138,7 +138,7 @@ void Voices::begin(const Note& note, std::int64_t tick, std::vector<Message>& me
         last = program;
     }
     Key& state = keys_[static_cast<std::size_t>(channel)][static_cast<std::size_t>(key)];
-    sounding_[static_cast<std::size_t>(voice)] = {channel, key, note.key - key};
+    sounding_[static_cast<std::size_t>(voice)] = {channel, key, note.key - key, note.velocity};
     order_.push_back(voice);
     is_used_[static_cast<std::size_t>(channel)] = true;
     ++state.notes;
@@ -159,6 +159,18 @@ void Voices::control(const ControlPoint& point, std::vector<Message>& messages) 
     const Sounding& note = sounding_[static_cast<std::size_t>(point.voice)];
     const bool is_bent = midi_.microtonal && midi_.tuning == Tuning::bend;
     if (note.channel >= 0 && is_bent) tune(note.channel, note.key, note.fraction + point.value, messages);
+}
+
+void Voices::slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages) {
+    if (voice < 0 || voice >= voice_count_ || !bends_notes()) return;
+    const Sounding note = sounding_[static_cast<std::size_t>(voice)];
+    if (note.channel < 0) return;
+    if (std::fabs(key - note.key) <= bend_range_) return tune(note.channel, note.key, key - note.key, messages);
+    Note anew;
+    anew.voice = static_cast<std::int16_t>(voice);
+    anew.key = key;
+    anew.velocity = note.velocity;
+    begin(anew, tick, messages);
 }
 
 void Voices::end(int voice, std::int64_t tick, std::vector<Message>& messages) {

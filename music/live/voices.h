@@ -27,6 +27,8 @@ public:
     void begin(const Note& note, std::int64_t tick, std::vector<Message>& messages);
     /// Changes a controller, or bends the note that the voice has, as files do. With MPE there are none.
     void control(const ControlPoint& point, std::vector<Message>& messages);
+    /// Bends the note that the voice has to a key, as files do.
+    void slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages);
     /// Ends the note of a voice, if it has one.
     void end(int voice, std::int64_t tick, std::vector<Message>& messages);
     /// Ends all notes, and again with the message for all notes of a channel; bends return to the centre.
@@ -40,10 +42,12 @@ private:
         int channel = -1;
         int key = 0;
         double fraction = 0;
+        std::uint8_t velocity = 80;
     };
     int part_of(int voice) const;
     bool is_drum(int voice) const;
     int channel_of(int voice) const;
+    bool bends_notes() const { return is_mpe_ || (midi_.microtonal && midi_.tuning == Tuning::bend); }
     void tune(int channel, int key, double fraction, std::vector<Message>& messages);
 
     const ScoreHead& head_;

@@ -1,8 +1,11 @@
 #include "music/melody/emitter.h"
 
+#include "music/score/glides.h"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace sikku::mapping {
 
@@ -11,6 +14,7 @@ void Emitter::finish(std::int64_t end) {
         shaper_->finish(end < options_.to);
         hand_on();
     }
+    for (std::size_t voice = 0; voice < gliding_.size(); ++voice) settle(static_cast<int>(voice), nullptr, false);
     if (accompaniment_ && melody_.harmony != Harmony::triads) {
         const std::int64_t bar = melody_.meter.bar();
         for (std::int64_t at = options_.from / bar * bar; at < std::min(end, options_.to); at += bar) {
@@ -69,6 +73,59 @@ void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
                       static_cast<std::int16_t>(voice), static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
                       note.from, note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255))});
     if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
+    if (block_.size() == notes_in_block) flush();
+}
+
+void Emitter::place_gliding(Line& line, const Shaper::Draft& note) {
+    if (line.last_degree != unknown && note.degree != line.last_degree) line.falling = note.degree < line.last_degree;
+    line.last_degree = note.degree;
+    if (note.end <= note.onset) {
+        ++report.lost;
+        return;
+    }
+    reserve(line, note.onset, note.end);
+    settle(line.voice, &note, line.falling);
+    const auto at = static_cast<std::size_t>(line.voice);
+    if (at >= gliding_.size()) gliding_.resize(at + 1);
+    gliding_[at] = {note, line.falling, true};
+    ++held_back_;
+}
+
+void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
+    if (static_cast<std::size_t>(voice) >= gliding_.size()) return;
+    Gliding& gliding = gliding_[static_cast<std::size_t>(voice)];
+    if (!std::exchange(gliding.is_held, false)) return;
+    --held_back_;
+    const Shaper::Draft& note = gliding.note;
+    if (note.end <= options_.from || note.onset >= options_.to) return;
+    const Placed placed = key_of(note.degree, gliding.falling);
+    if (placed.is_silent) {
+        ++report.lost;
+        return;
+    }
+    const bool meets = next && next->onset == note.end;
+    const Placed goal = meets ? key_of(next->degree, falling)
+                              : key_of(note.goal, note.goal != note.degree && note.goal < note.degree);
+    const double slide = goal.is_silent ? 0 : goal.key - placed.key;
+    report.moved += placed.is_moved ? 1 : 0;
+    ++report.notes;
+    report.lowest = std::min({report.lowest, placed.key, placed.key + slide});
+    report.highest = std::max({report.highest, placed.key, placed.key + slide});
+    Note result{note.onset,
+                note.end - note.onset,
+                placed.key,
+                static_cast<std::int16_t>(voice),
+                static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
+                note.from,
+                note.to,
+                note.symbol,
+                static_cast<std::uint8_t>(std::min(note.depth, 255)),
+                slide != 0,
+                {note.glide, static_cast<float>(slide), note.rise}};
+    cut(result, options_.from, options_.to);
+    result.onset -= options_.from;
+    block_.push_back(result);
+    if (options_.degrees) options_.degrees->push_back(note.degree);
     if (block_.size() == notes_in_block) flush();
 }
 

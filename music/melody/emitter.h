@@ -61,6 +61,19 @@ public:
         hand_on();
     }
 
+    /// A note whose pitch slides.
+    void gliding_note(Line& line, Shaper::Draft draft) {
+        for (std::int64_t* degree : {&draft.degree, &draft.goal}) {
+            *degree = (melody_.is_inverted ? -*degree : *degree) + melody_.shift;
+        }
+        if (line.voice < 0) line.voice = free_voice(draft.onset);
+        draft.voice = line.voice;
+        draft.depth = depth;
+        if (!shaper_) return place_gliding(line, draft);
+        shaper_->add(line.voice, draft);
+        hand_on();
+    }
+
     /// The phrase of a voice ends with its last note.
     void end_phrase(int voice, bool is_odd) {
         if (!shaper_) return;
@@ -95,6 +108,10 @@ private:
                 place_fixed(shaped_[at], note);
                 continue;
             }
+            if (note.glide > 0) {
+                place_gliding(shaped_[at], note);
+                continue;
+            }
             place(shaped_[at], note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
         }
         depth = here;
@@ -106,6 +123,10 @@ private:
     /// Places a note with a key of its own, or else by degree.
     void place_fixed(Line& line, const Shaper::Draft& note);
     void reserve(Line& line, std::int64_t onset, std::int64_t end);
+    /// Holds a note back until it is known where its pitch slides.
+    void place_gliding(Line& line, const Shaper::Draft& note);
+    /// Passes on the note of a voice that is held back. @param next  the note after it; null if there is none
+    void settle(int voice, const Shaper::Draft* next, bool falling);
 
     void place(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
                glm::dvec2 to, std::uint64_t symbol) {
@@ -119,6 +140,12 @@ private:
         if (line.voice < 0) line.voice = free_voice(onset);
         if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
         busy_until_[static_cast<std::size_t>(line.voice)] = end;
+        if (held_back_ > 0) {
+            Shaper::Draft next;
+            next.degree = degree;
+            next.onset = onset;
+            settle(line.voice, &next, line.falling);
+        }
         if (end <= options_.from || onset >= options_.to) return;
         const Placed placed = key_of(degree, line.falling);
         if (placed.is_silent) {
@@ -148,6 +175,7 @@ public:
 
     /// A branch may take the voice of one that has ended.
     void release(const Line& line) {
+        if (held_back_ > 0 && line.voice >= 0) settle(line.voice, nullptr, false);
         if (line.voice >= 0) held_[static_cast<std::size_t>(line.voice)] = false;
     }
 
@@ -199,6 +227,13 @@ private:
     std::vector<Line> shaped_;              // of each voice
     std::vector<std::int64_t> busy_until_;  // of each voice
     std::vector<char> held_;                // by a branch that has not ended
+    struct Gliding {
+        Shaper::Draft note;
+        bool falling = false;
+        bool is_held = false;
+    };
+    std::vector<Gliding> gliding_;  // by voice
+    int held_back_ = 0;             // how many of them are held
 };
 
 }  // namespace sikku::mapping

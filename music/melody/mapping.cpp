@@ -292,8 +292,8 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     result.notes = notes_along(0);
     Integer steps = whole.length[0];
     if (melody.vertical == Vertical::glissando) {
-        // The goal of a glissando is one note with the run that goes on there.
-        result.notes += whole.drawn[1] - whole.corners[1];
+        // A vertical run is the end of the note that leads into it, or else a note.
+        result.notes += whole.runs[1] - whole.corners[0];
     }
     if (melody.vertical == Vertical::voice) {
         result.notes += notes_along(1);

@@ -33,7 +33,7 @@ enum class Branches { voices, sequence, shares };
 /// The y that sounds the tonic; `piece`: that of the first note played.
 enum class Anchor { first_note, piece, lowest_note, lowest_vertex, centre };
 /// What a vertical run is: nothing, a rest of its length, more of the note before it (or, at the beginning, after
-/// it), a note for each step, or a note in a voice of its own, with its pitch from x:
+/// it), a slide of the note before it, or a note in a voice of its own, with its pitch from x:
 /// where the turtle starts sounds the tonic.
 enum class Vertical { ignore, rest, extend, glissando, voice };
 /// One note for a straight run, or for each step of it.

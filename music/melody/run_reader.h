@@ -129,6 +129,9 @@ private:
         int velocity = 80;
         glm::dvec2 from{0.0}, to{0.0};
         std::uint64_t symbol = 0;
+        Number glide = 0;       // steps at its end in which it slides
+        Number goal_twice = 0;  // to this height, doubled
+        Number rise = 0;
     };
     struct State {
         Position at;
@@ -137,7 +140,7 @@ private:
         Emitter::Line other;  // of vertical runs as a voice
         Number time = 0;      // steps
         Number other_time = 0;
-        Sounding held;    // a note that the next run may make longer: a vertical one, or after a glissando its goal
+        Sounding held;    // a note that the next run may make longer
         Number lead = 0;  // vertical steps before the first note
         bool has_sounded = false;
         double pace = 1;         // what a step lasts, with `brackets: shares`
@@ -277,8 +280,9 @@ private:
 
     /// Whether no note of the piece is held back.
     bool is_past_piece() const {
-        if (!emitter_.is_shaped()) return true;
         const bool is_held = state_.held.is_open && ticks(state_.held.onset) < options_.to;
+        // Where the last note slides, the next one tells.
+        if (!emitter_.is_shaped()) return !is_held || melody_.vertical != Vertical::glissando;
         return !is_held && emitter_.may_stop(ticks(state_.time));
     }
 
@@ -327,9 +331,26 @@ private:
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
         if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
+        if (note.glide > 0) return emit_gliding(note);
         emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
                       clock_.end_ticks(note.end), accented(note.velocity, note.onset), note.from, note.to,
                       note.symbol);
+    }
+
+    void emit_gliding(const Sounding& note) {
+        const auto origin = static_cast<Number>(origin_.y);
+        Shaper::Draft draft;
+        draft.degree = Walk::degree(note.twice - origin);
+        draft.goal = Walk::degree(note.goal_twice - origin);
+        draft.onset = ticks(note.onset);
+        draft.end = clock_.end_ticks(note.end);
+        draft.glide = std::max<std::int64_t>(0, draft.end - ticks(note.end - note.glide));
+        draft.velocity = accented(note.velocity, note.onset);
+        draft.from = note.from;
+        draft.to = note.to;
+        draft.symbol = note.symbol;
+        draft.rise = static_cast<float>(note.rise);
+        emitter_.gliding_note(state_.line, draft);
     }
 
     int accented(int velocity, Number onset) const { return velocity + (clock_.is_accented(onset) ? 16 : 0); }
@@ -340,26 +361,26 @@ private:
             end_phrases();
         }
         steps = lasting(steps);
-        const bool is_goal = melody_.vertical == Vertical::glissando && state_.held.is_open &&
-                             state_.held.twice == twice && state_.held.end == state_.time;
-        const Number onset = is_goal ? state_.held.onset : state_.time;
-        const std::uint64_t symbol = is_goal ? state_.held.symbol : run.symbol;
-        if (is_goal) {
-            state_.held.is_open = false;
-        } else if (melody_.vertical == Vertical::glissando) {
-            release_held();
-        }
+        const bool may_slide = melody_.vertical == Vertical::glissando;
+        if (may_slide) release_held();
         meet(twice, state_.time + steps);
         lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, Walk::degree(twice));
-        const bool is_held = melody_.vertical == Vertical::extend;
+        const bool is_held = melody_.vertical == Vertical::extend || may_slide;
         if (is_held) {
             release_held();
             steps += state_.lead;
             state_.lead = 0;
             state_.has_sounded = true;
         }
-        const Sounding note = {true,  twice, onset, state_.time + steps, velocity, point(run.from), point(state_.at),
-                               symbol};
+        Sounding note;
+        note.is_open = true;
+        note.twice = twice;
+        note.onset = state_.time;
+        note.end = state_.time + steps;
+        note.velocity = velocity;
+        note.from = point(run.from);
+        note.to = point(state_.at);
+        note.symbol = run.symbol;
         state_.time += steps;
         if (is_held) {
             state_.held = note;
@@ -393,7 +414,7 @@ private:
                 }
                 break;
             case Vertical::glissando:
-                glissando(run, velocity);
+                glissando(run, lasting(steps), velocity);
                 break;
             case Vertical::voice: {
                 steps = lasting(steps);
@@ -408,24 +429,28 @@ private:
         }
     }
 
-    /// A note for each height on the way. The last is held back, because it is one note with a run that goes on at
-    /// its height.
-    void glissando(const Pending& run, int velocity) {
-        release_held();
-        end_phrases();
-        const Number sign = state_.at.y > run.from.y ? 1 : -1;
-        Position from = run.from;
-        while (from.y * sign < state_.at.y * sign) {
-            Position to = from;
-            to.y += sign;
-            if (to.y * sign > state_.at.y * sign) to.y = state_.at.y;
-            const Number steps = lasting((to.y - from.y) * sign);
+    /// The note before a vertical run goes on and slides to its end. A run that no note leads into, or that turns
+    /// back, is a note of its own.
+    void glissando(const Pending& run, Number steps, int velocity) {
+        Sounding& held = state_.held;
+        const Number rise = state_.at.y - run.from.y;
+        const bool goes_on = held.is_open && due_ == 0 && held.end == state_.time && held.rise * rise >= 0;
+        if (!goes_on) {
             release_held();
-            state_.held = {true,     2 * to.y,    state_.time, state_.time + steps,
-                           velocity, point(from), point(to),   run.symbol};
-            state_.time += steps;
-            from = to;
+            end_phrases();
+            held = {};
+            held.is_open = true;
+            held.twice = 2 * run.from.y;
+            held.onset = held.end = state_.time;
+            held.velocity = velocity;
+            held.from = held.to = point(run.from);
+            held.symbol = run.symbol;
         }
+        held.end += steps;
+        held.glide += steps;
+        held.goal_twice = 2 * state_.at.y;
+        held.rise += rise;
+        state_.time = held.end;
     }
 
     /// The branch begins where and when the stem is, which may be within a run.

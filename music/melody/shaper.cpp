@@ -107,6 +107,7 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
         }
         --distance;
     }
+    notes.back().glide = 0;  // the goal is held
 }
 
 const Chord* Shaper::given_chord(std::int64_t tick) const {
@@ -164,15 +165,17 @@ void Shaper::close_bar() {
 }
 
 void Shaper::perform(Draft note) {
-    if (!note.is_last && !note.is_drum && melody_.articulation != Articulation::legato) {
+    if (!note.is_last && !note.is_drum && note.glide == 0 && melody_.articulation != Articulation::legato) {
         double share = melody_.sounding;
         if (melody_.articulation == Articulation::by_depth) share = std::max(0.25, 1 - 0.15 * note.depth);
         note.end =
             note.onset + std::max<std::int64_t>(1, std::llround(static_cast<double>(note.end - note.onset) * share));
     }
     if (melody_.swing != 0.5) {
+        const std::int64_t slides_from = swung(note.end - note.glide);
         note.onset = swung(note.onset);
         note.end = swung(note.end);
+        note.glide = note.end - slides_from;
     }
     ready_.push_back(note);
 }

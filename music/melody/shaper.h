@@ -32,6 +32,9 @@ public:
         bool is_last = false;    ///< of its phrase
         double key = by_degree;  ///< of notes that cadences and chords leave as they are; else by_degree
         bool is_drum = false;
+        std::int64_t glide = 0;  ///< ticks at its end in which its pitch slides to the next note
+        std::int64_t goal = 0;   ///< degree that it slides to if no note begins at its end
+        float rise = 0;          ///< as in Glide
         bool is_fixed() const { return key == key; }
     };
 

@@ -256,6 +256,9 @@ private:
         }
         const Pitch& pitch = symbol.pitch;
         if (symbol.is_accented) put("!>!");
+        if (symbol.ends_slide) put("!~)!");
+        if (symbol.begins_slide) put("!~(!");
+        if (symbol.leaves != 0) put("\"^gliss.\"");
         if (symbol.cents != 0) put("\"^{:+}\"", symbol.cents);
         std::string text = head_of(pitch, symbol.drum, signs, altered);
         for (const ChordNote& note : symbol.chord) text += head_of(note.pitch, note.drum, signs, altered);

@@ -1,6 +1,7 @@
 #include "music/score/csound.h"
 
 #include "music/score/comments.h"
+#include "music/score/glides.h"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,14 @@ double pan_of(const Note& note, const Curves& curves) {
     return pan / 127;
 }
 
+bool has_glides(const std::vector<Note>& notes) {
+    return std::any_of(notes.begin(), notes.end(), [](const Note& note) { return note.glide.semitones != 0; });
+}
+
+double frequency(double key) {
+    return 440 * std::exp2((key - 69) / 12);
+}
+
 void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64_t end, Output& out,
                       const Curves& curves) {
     std::vector<int> instruments;
@@ -66,15 +75,22 @@ void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64
         return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
     });
     std::string text = tempo_statement(head, curves, end);
-    const bool is_panned = has_pan(curves);
+    const bool glides = has_glides(notes);
+    const bool is_panned = has_pan(curves) || glides;
     for (const Note& note : notes) {
         const int instrument = instruments.at(static_cast<std::size_t>(note.voice));
         const bool is_drum = head.parts[static_cast<std::size_t>(instrument - 1)].is_drums;
         constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-        fmt::format_to(
-            std::back_inserter(text), "i {} {} {} {} {} {}{}\n", instrument, number(quarters(note.onset)),
-            number(quarters(note.duration)), number(is_drum ? note.key : 440 * std::exp2((note.key - 69) / 12)),
-            number(note.velocity / 127.0), note.voice + 1, is_panned ? " " + number(pan_of(note, curves)) : "");
+        fmt::format_to(std::back_inserter(text), "i {} {} {} {} {} {}{}", instrument, number(quarters(note.onset)),
+                       number(quarters(note.duration)), number(is_drum ? note.key : frequency(note.key)),
+                       number(note.velocity / 127.0), note.voice + 1,
+                       is_panned ? " " + number(pan_of(note, curves)) : "");
+        if (glides && !is_drum) {
+            const std::int64_t level = note.duration - note.glide.ticks;
+            fmt::format_to(std::back_inserter(text), " {} {}", number(frequency(last_key(note))),
+                           number(static_cast<double>(level) / static_cast<double>(note.duration)));
+        }
+        text += '\n';
         if (text.size() < flush_bytes) continue;
         out.write(text);
         text.clear();
@@ -84,13 +100,19 @@ void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64
 }
 
 /// Voices add up; so each has its share of the full scale.
-std::string orchestra(const ScoreHead& head, bool is_panned) {
+std::string orchestra(const ScoreHead& head, bool is_panned, bool glides) {
     int voices = 0;
     for (const Part& part : head.parts) voices += part.voices;
     std::string text = "sr = 44100\nksmps = 32\nnchnls = 2\n0dbfs = 1\n";
     const std::string_view outs = is_panned
                                       ? "  outs asound * aenvelope * sqrt(1 - p7), asound * aenvelope * sqrt(p7)\n"
                                       : "  outs asound * aenvelope, asound * aenvelope\n";
+    // From p4 to p8 Hz, from the part p9 of the note on.
+    constexpr std::string_view slide =
+        "  ktime timeinsts\n"
+        "  kpart limit (ktime / p3 - p9) / (1.000001 - p9), 0, 1\n"
+        "  kpitch = p4 * pow(p8 / p4, kpart)\n";
+    const std::string_view pitch = glides ? "kpitch" : "p4";
     for (std::size_t i = 0; i < head.parts.size(); ++i) {
         if (head.parts[i].is_drums) {
             // Bass drums and toms are falling tones, others noise: snares low, metal high. p4 is the key of the drum.
@@ -115,10 +137,12 @@ std::string orchestra(const ScoreHead& head, bool is_panned) {
         fmt::format_to(std::back_inserter(text),
                        "instr {}  ; {}\n"
                        "  aenvelope linsegr 0, 0.005, 1, 0.3, 0.5, 3, 0.1, 0.1, 0\n"
-                       "  awave vco2 p5 * {}, p4, 12\n"
-                       "  asound tone awave, p4 * 4\n"
+                       "{}"
+                       "  awave vco2 p5 * {}, {}, 12\n"
+                       "  asound tone awave, {} * 4\n"
                        "{}endin\n",
-                       i + 1, single_line(head.parts[i].name), number(0.7 / std::sqrt(std::max(voices, 1))), outs);
+                       i + 1, single_line(head.parts[i].name), glides ? slide : "",
+                       number(0.7 / std::sqrt(std::max(voices, 1))), pitch, pitch, outs);
     }
     return text;
 }
@@ -134,7 +158,8 @@ void write_csound_score(const ScoreHead& head, const std::vector<Note>& notes, s
 void write_csound_file(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
                        const Curves& curves) {
     out.write("<CsoundSynthesizer>\n<CsOptions>\n-o dac\n</CsOptions>\n<CsInstruments>\n");
-    out.write(orchestra(head, has_pan(curves)) + "</CsInstruments>\n<CsScore>\n");
+    const bool glides = has_glides(notes);
+    out.write(orchestra(head, has_pan(curves) || glides, glides) + "</CsInstruments>\n<CsScore>\n");
     write_statements(head, notes, end, out, curves);
     // Csound does not read what comes after its end.
     out.write("</CsScore>\n</CsoundSynthesizer>\n\n" + head_comments(head, ";"));

@@ -455,6 +455,7 @@ private:
                 put("{}", length_name(symbol.value));
                 if (symbol.tied_forward) put("~");
                 if (symbol.begins_slide) put("\\glissando");
+                if (symbol.leaves != 0) put("\\bendAfter #{:+}", 4 * symbol.leaves);
                 if (symbol.beams[0] == Beam::begin) put("[");
                 if (symbol.beams[0] == Beam::end) put("]");
                 if (symbol.is_accented) put("->");

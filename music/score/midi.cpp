@@ -2,6 +2,7 @@
 
 #include "engine/base/memory.h"
 #include "music/score/curves.h"
+#include "music/score/glides.h"
 #include "music/score/mpe.h"
 
 #include <fmt/format.h>
@@ -249,7 +250,7 @@ public:
         if (is_mpe_) return collect(notes);
         while (!notes.empty()) {
             Voice& voice = voice_of(notes.front());
-            if (!voice.controls.empty()) {
+            if (!voice.controls.empty() || has_glide(notes.front())) {
                 notes = notes.subspan(write_curved(voice, notes));
                 continue;
             }
@@ -297,6 +298,8 @@ private:
         return *voice;
     }
 
+    static bool has_glide(const Note& note) { return note.glide.semitones != 0; }
+
     void collect(std::span<const Note> notes) {
         if (notes.size() > most_collected_ - std::min(most_collected_, collected_.size())) {
             throw ScoreError(
@@ -333,7 +336,12 @@ private:
             voice.has_new_program = program != voice.program;
             program = voice.program;
             voice.bend = none;
-            write<true>(voice, std::span(&note, 1));
+            const std::span one(&note, 1);
+            if (has_glide(note)) {
+                write_curved(voice, one);
+            } else {
+                write<true>(voice, one);
+            }
         }
         collected_.clear();
     }
@@ -488,7 +496,7 @@ private:
                          : voices_.size() <= most_voices ? number
                                                          : static_cast<int>(pitched_);
         voice->is_drums = is_drums;
-        if (curves_) voice->controls = curves_->of_voice(number);
+        if (curves_ && !is_mpe_) voice->controls = curves_->of_voice(number);
         voice->channel = is_drums ? drum_channel : slot < drum_channel ? slot : slot + 1;
         ++sounding_;
         pitched_ += is_drums ? 0 : 1;
@@ -535,6 +543,7 @@ private:
         std::size_t i = 0;
         for (; i < notes.size() && notes[i].voice == voice.number; ++i) {
             const Note& note = notes[i];
+            if (has_glide(note)) break;
             // Unsigned, so that what is negative is too much.
             std::uint64_t rest = static_cast<std::uint64_t>(note.onset) - static_cast<std::uint64_t>(now);
             const auto length = static_cast<std::uint64_t>(note.duration);
@@ -587,7 +596,8 @@ private:
             const double fraction = note.key - std::round(note.key);
             const bool is_key = note.key >= 0.0 && note.key <= 127.0;
             const bool is_far = static_cast<std::uint64_t>(note.onset - voice.now) > most_delta;
-            const bool is_bent = std::fabs(fraction) > least_fraction && !options_.microtonal;
+            const bool is_bent =
+                (std::fabs(fraction) > least_fraction && !options_.microtonal) || (has_glide(note) && !bends_notes());
             if (is_far || is_bent || note.duration <= 0 || note.velocity - 1U > 126U || !is_key) {
                 refuse(voice, voice.now, note);
             }
@@ -599,21 +609,42 @@ private:
                 if (point.number == ControlPoint::bend) bent = point.value;
             }
             write_controls(voice, note.onset + 1, false, 0);
+            if (std::exchange(voice.has_new_program, false)) put_program(voice, note.onset);
             if (!voice.tuned.empty()) {
                 if (voice.out > voice.last_start()) flush(voice);
                 const auto rest = static_cast<std::uint64_t>(note.onset - voice.now);
                 char* const tuned = retune(voice, voice.out, rest, static_cast<int>(std::lround(note.key)), fraction);
                 if (tuned != voice.out) voice.now = note.onset;
                 voice.out = tuned;
-            } else if (options_.microtonal && !voice.is_drums) {
+            } else if (bends_notes() && !voice.is_drums) {
                 put_bend(voice, note.onset, fraction + bent);
             }
-            put_event(voice, note.onset, status(0x90, voice.channel), static_cast<int>(std::lround(note.key)),
-                      note.velocity);
-            write_controls(voice, end, true, fraction);
-            put_event(voice, end, status(0x80, voice.channel), static_cast<int>(std::lround(note.key)), release);
+            auto key = static_cast<int>(std::lround(note.key));
+            put_event(voice, note.onset, status(0x90, voice.channel), key, note.velocity);
+            for (const GlidePoint& point : glide_points(note, head_.tempo)) {
+                write_controls(voice, point.tick + 1, false, 0);
+                key = slide(voice, point, key, note.velocity);
+            }
+            write_controls(voice, end, !has_glide(note), fraction);
+            put_event(voice, end, status(0x80, voice.channel), key, release);
         }
         return i;
+    }
+
+    bool bends_notes() const { return is_mpe_ || (options_.microtonal && options_.tuning == Tuning::bend); }
+
+    /// Bends the note that sounds. A key that is too far away is struck anew where the slide has come to.
+    /// @return the key that sounds now
+    int slide(Voice& voice, const GlidePoint& point, int key, int velocity) {
+        if (std::fabs(point.key - key) <= bend_range_) {
+            put_bend(voice, point.tick, point.key - key);
+            return key;
+        }
+        put_event(voice, point.tick, status(0x80, voice.channel), key, release);
+        key = static_cast<int>(std::lround(point.key));
+        put_bend(voice, point.tick, point.key - key);
+        put_event(voice, point.tick, status(0x90, voice.channel), key, velocity);
+        return key;
     }
 
     /// Writes the points before `until`. @param bends  whether a note of that fraction sounds, which may be bent
@@ -642,6 +673,15 @@ private:
     }
 
     void put_event(Voice& voice, std::int64_t tick, int first, int second, int third) {
+        put_two(voice, tick, first, second);
+        voice.out = put_byte(voice.out, third);
+    }
+
+    void put_program(Voice& voice, std::int64_t tick) {
+        put_two(voice, tick, status(0xC0, voice.channel), voice.program);
+    }
+
+    void put_two(Voice& voice, std::int64_t tick, int first, int second) {
         const auto rest = static_cast<std::uint64_t>(tick - voice.now);
         if (rest > most_delta) {
             throw ScoreError(
@@ -649,7 +689,7 @@ private:
                             voice.number + 1, tick, rest, most_delta));
         }
         if (voice.out > voice.last_start()) flush(voice);
-        voice.out = put_byte(put_byte(put_byte(put_delta(voice.out, rest), first), second), third);
+        voice.out = put_byte(put_byte(put_delta(voice.out, rest), first), second);
         voice.now = tick;
     }
 
@@ -694,6 +734,7 @@ private:
                                                  is_long ? "note" : "rest before it",
                                                  is_long ? note.duration : note.onset - now, most_delta));
         }
+        if (has_glide(note)) throw ScoreError(where + "the note slides, which needs pitch bends of microtones");
         throw ScoreError(where + fmt::format("key {} has a fraction, but no microtones were announced", note.key));
     }
 

@@ -35,6 +35,9 @@ struct MidiOptions {
 ///
 /// Pan, controllers and bends of NoteSink::curves() are written without MPE.
 ///
+/// A glide is a series of bends of its note (see glide_points()); it needs `microtonal` with Tuning::bend, or MPE. A
+/// glide that leaves the bend range strikes the key anew that it has reached there.
+///
 /// Cost: in format 1 voice 0 goes to the sink in blocks, the bytes of others wait in memory until finish(); in format
 /// 0 all do; with MPE all notes do. @throws ScoreError, here for what the head tells (a tempo, meter, key, program or
 /// bend range that no file can hold) and then by notes() and finish(): more than 15 voices with notes that are no
@@ -43,7 +46,7 @@ struct MidiOptions {
 /// 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});
 
-/// No file of so many notes is larger, in bytes.
+/// No file of so many notes without curves and glides is larger, in bytes.
 std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head = {}, const MidiOptions& options = {});
 
 }  // namespace sikku

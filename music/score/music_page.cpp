@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "music/score/glides.h"
 
 #include <embedded/music_page.h>
 #include <fmt/format.h>
@@ -127,7 +128,9 @@ Melody survey(const std::vector<Note>& notes, std::int64_t end) {
         melody.end = std::max(melody.end, note.onset + note.duration);
         melody.low = std::min(melody.low, note.key);
         melody.high = std::max(melody.high, note.key);
-        for (const glm::dvec2 point : {note.from, note.to}) {
+        melody.low = std::min(melody.low, last_key(note));
+        melody.high = std::max(melody.high, last_key(note));
+        for (const glm::dvec2 point : {note.from, note.to, note.end_point()}) {
             melody.curve_low = {std::min(melody.curve_low.x, point.x), std::min(melody.curve_low.y, point.y)};
             melody.curve_high = {std::max(melody.curve_high.x, point.x), std::max(melody.curve_high.y, point.y)};
         }
@@ -150,9 +153,9 @@ std::vector<Joint> joints(const Melody& melody) {
         const auto voice = static_cast<std::size_t>(std::max<int>(note.voice, 0));
         if (voice >= last.size()) last.resize(voice + 1, nullptr);
         if (const Note* before = last[voice]) {
-            const bool across = std::abs(note.from.x - before->to.x) > nothing;
-            const bool up = std::abs(note.from.y - before->to.y) > nothing;
-            if (across != up) result.push_back({before->to, note.from});
+            const bool across = std::abs(note.from.x - before->end_point().x) > nothing;
+            const bool up = std::abs(note.from.y - before->end_point().y) > nothing;
+            if (across != up) result.push_back({before->end_point(), note.from});
         }
         last[voice] = &note;
     }
@@ -264,6 +267,10 @@ void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
         out.text() += fmt::format("<line stroke=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n",
                                   ramp_colour(paper_ramp, melody.height(note.key)), number(from.x), number(from.y),
                                   number(to.x), number(to.y));
+        if (note.glide.rise == 0) continue;
+        out.text() += fmt::format("<path class=\"glide\" stroke=\"{}\" d=\"M{} {}V{}\"/>\n",
+                                  ramp_colour(paper_ramp, melody.height(last_key(note))), number(to.x), number(to.y),
+                                  number(place(note.end_point()).y));
     }
     out.text() += "</g>\n";
 }
@@ -320,13 +327,19 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     const double thick = std::max(0.86 * row, 0.6);
     for (const Note& note : melody.notes) {
         // A little is left out at the end, so that the same key twice is two notes.
-        const double full = width_of_tick * static_cast<double>(note.duration);
+        const std::int64_t level = note.duration - note.glide.ticks;
+        const double full = width_of_tick * static_cast<double>(level);
         // Notes of a very long score hide each other rather than themselves.
         const double width = std::max(full > 0.6 ? full - 0.2 : full * 0.7, narrowest_note);
         out.text() += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
                                   ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
                                   number(middle(note.key) - 0.5 * thick), number(width), number(thick),
                                   number(std::min({0.4, 0.3 * thick, 0.3 * width})));
+        if (note.glide.ticks == 0) continue;
+        out.text() += fmt::format("<path class=\"glide\" stroke=\"{}\" stroke-width=\"{}\" d=\"M{} {}L{} {}\"/>\n",
+                                  ramp_colour(paper_ramp, melody.height(note.key)), number(0.5 * thick),
+                                  number(across(note.onset + level)), number(middle(note.key)),
+                                  number(across(note.onset + note.duration)), number(middle(last_key(note))));
     }
     out.text() += "</g>\n";
 }
@@ -460,6 +473,12 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         for (const double value : {note.from.x, note.from.y, note.to.x, note.to.y}) {
             text += ',';
             put(text, value, 4);
+        }
+        if (note.glide.ticks > 0) {
+            text += fmt::format(",{},", note.glide.ticks);
+            put(text, static_cast<double>(note.glide.semitones), 4);
+            text += ',';
+            put(text, static_cast<double>(note.glide.rise), 4);
         }
         text += ']';
     }

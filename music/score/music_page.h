@@ -46,9 +46,9 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
 /// One HTML page that needs nothing but a browser, no network either: it draws the curve while it plays the notes.
 /// Notes are in the file with their ticks as they are and keys to 4 decimals. Tests and other scripts find in
 /// `window.sikku` the `notes` ([onset, duration, key, voice, velocity, from x, from y, to x, to y], ordered by onset,
-/// then by voice) and `state()`: whether it is `playing`, `tick` and the sound's `time` in seconds, `tempo`, how many
-/// notes have `sounded`, and `recent`, the indices of the last of them. Arguments, memory and errors as of
-/// write_music_svg.
+/// then by voice, and of notes that slide ticks, semitones and rise of the glide) and `state()`: whether it is
+/// `playing`, `tick` and the sound's `time` in seconds, `tempo`, how many notes have `sounded`, and `recent`, the
+/// indices of the last of them. Arguments, memory and errors as of write_music_svg.
 void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
                       const Curves& curves = {});
 

@@ -320,6 +320,7 @@ private:
         symbol.drum = note.drum;
         symbol.has_sign = note.has_sign;
         symbol.is_accented = symbol.begins_slide = symbol.ends_slide = false;
+        symbol.leaves = 0;
         symbol.beams = {};
         write_symbol(symbol, voice, true);
     }
@@ -371,7 +372,7 @@ private:
         const bool is_first = tuplet && tuplet->from == symbol.onset;
         const bool is_last = tuplet && tuplet->to == symbol.onset + symbol.length;
         if (!symbol.tied_back && !symbol.tied_forward && !is_first && !is_last && !symbol.is_accented &&
-            !symbol.begins_slide && !symbol.ends_slide) {
+            !symbol.begins_slide && !symbol.ends_slide && symbol.leaves == 0) {
             return;
         }
         put("<notations>{}{}", symbol.tied_back ? "<tied type=\"stop\"/>" : "",
@@ -381,7 +382,12 @@ private:
         const int slide = (voice_ - 1) % 6 + 1;
         if (symbol.ends_slide) put("<slide type=\"stop\" number=\"{}\"/>", slide);
         if (symbol.begins_slide) put("<slide type=\"start\" number=\"{}\" line-type=\"solid\"/>", slide);
-        if (symbol.is_accented) put("<articulations><accent/></articulations>");
+        if (symbol.is_accented || symbol.leaves != 0) {
+            put("<articulations>{}{}</articulations>", symbol.is_accented ? "<accent/>" : "",
+                symbol.leaves > 0   ? "<doit/>"
+                : symbol.leaves < 0 ? "<falloff/>"
+                                    : "");
+        }
         put("</notations>");
     }
 

@@ -154,6 +154,7 @@ public:
                 symbol.is_accented = note->is_accented && !symbol.tied_back;
                 symbol.begins_slide = note->begins_slide && !symbol.tied_forward;
                 symbol.ends_slide = note->ends_slide && !symbol.tied_back;
+                symbol.leaves = symbol.tied_forward ? 0 : note->leaves;
             }
         }
     }
@@ -376,6 +377,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part
                    notes[one].onset + notes[one].duration == notes[one + 1].onset;
         };
         symbol.begins_slide = meets(i);
+        if (note.glide.semitones != 0 && !symbol.begins_slide) symbol.leaves = note.glide.semitones > 0 ? 1 : -1;
         symbol.ends_slide = i > 0 && meets(i - 1);
         if (part.is_drums) {
             const Drum& drum = drum_of(static_cast<int>(std::lround(note.key)));

@@ -55,6 +55,7 @@ struct NotatedSymbol {
     bool is_accented = false;   ///< much louder than the notes around it
     bool begins_slide = false;  ///< a line leads to the next note
     bool ends_slide = false;    ///< a line leads here from the note before
+    int leaves = 0;             ///< it slides away to no note: 1 up, -1 down
     int tuplet = -1;            ///< of NotatedVoice::tuplets; -1: none
     int cents = 0;              ///< to be printed: how much higher it sounds than its sign says
     Pitch pitch;                ///< of notes; of drums their place on the staff, as of a treble clef

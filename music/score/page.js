@@ -2,15 +2,17 @@
 const data = JSON.parse(document.getElementById("score").textContent);
 const notes = data.notes, end = data.end, bar = data.bar;
 const ONSET = 0, DURATION = 1, KEY = 2, VOICE = 3, VELOCITY = 4, X0 = 5, Y0 = 6, X1 = 7, Y1 = 8;
+const GLIDE = 9, SEMITONES = 10, RISE = 11;  // of notes that slide
 const element = id => document.getElementById(id);
 const button = element("play"), tempo = element("tempo"), place = element("place");
 let low = 127, high = 0, longest = 0;
 let left = Infinity, right = -Infinity, bottom = Infinity, top_ = -Infinity;
 for (const note of notes) {
-  low = Math.min(low, note[KEY]); high = Math.max(high, note[KEY]);
+  const last = note[KEY] + (note[SEMITONES] || 0), lastY = note[Y1] + (note[RISE] || 0);
+  low = Math.min(low, note[KEY], last); high = Math.max(high, note[KEY], last);
   longest = Math.max(longest, note[DURATION]);
   left = Math.min(left, note[X0], note[X1]); right = Math.max(right, note[X0], note[X1]);
-  bottom = Math.min(bottom, note[Y0], note[Y1]); top_ = Math.max(top_, note[Y0], note[Y1]);
+  bottom = Math.min(bottom, note[Y0], note[Y1], lastY); top_ = Math.max(top_, note[Y0], note[Y1], lastY);
 }
 const hasCurve = notes.length > 0 && (left < right || bottom < top_);
 if (!hasCurve) element("panels").classList.add("flat");
@@ -135,6 +137,15 @@ function beat(note, time) {
   source.onended = () => { live.delete(voice); envelope.disconnect(); };
 }
 
+/* The pitch slides evenly at the end of the note, which may have begun before `time`. */
+function slide(note, time, detune) {
+  const end = note[ONSET] + note[DURATION], begin = end - note[GLIDE];
+  const first = Math.max(time, timeAt(begin)), last = Math.max(first, timeAt(end));
+  const done = Math.min(1, Math.max(0, (tickAt(time) - begin) / note[GLIDE]));
+  detune.setValueAtTime(100 * note[SEMITONES] * done, first);
+  detune.linearRampToValueAtTime(100 * note[SEMITONES], last);
+}
+
 /* A soft pluck: a triangle, an octave above it a quiet sine, and a filter that closes as the note fades. */
 function strike(note, time, seconds) {
   if (!sound) return;
@@ -165,6 +176,7 @@ function strike(note, time, seconds) {
     const oscillator = context.createOscillator(), gain = context.createGain();
     oscillator.type = type; oscillator.frequency.value = frequency * times; gain.gain.value = part;
     eachPoint(note, -1, time, (value, at) => oscillator.detune.setValueAtTime(100 * value, at));
+    if (note[SEMITONES]) slide(note, time, oscillator.detune);
     oscillator.connect(gain); gain.connect(filter);
     oscillator.start(time); oscillator.stop(stop);
     voice.oscillators.push(oscillator);
@@ -320,9 +332,20 @@ function line(context, note, part) {
   const x0 = across(note[X0]), y0 = down(note[Y0]);
   context.beginPath();
   context.moveTo(x0, y0);
-  context.lineTo(x0 + (across(note[X1]) - x0) * part, y0 + (down(note[Y1]) - y0) * part);
+  const level = levelPart(note), run = level > 0 ? Math.min(1, part / level) : 1;
+  context.lineTo(x0 + (across(note[X1]) - x0) * run, y0 + (down(note[Y1]) - y0) * run);
+  if (part > level) context.lineTo(across(note[X1]), pointAt(note, part)[1]);
   context.stroke();
 }
+/* The part of a note before it slides. */
+const levelPart = note => 1 - (note[GLIDE] || 0) / note[DURATION];
+/* The place on the canvas where a note is after a part of its duration. */
+function pointAt(note, part) {
+  const level = levelPart(note), run = level > 0 ? Math.min(1, part / level) : 1;
+  const risen = part > level ? (note[RISE] || 0) * (part - level) / (1 - level) : 0;
+  return [across(note[X0] + (note[X1] - note[X0]) * run), down(note[Y0] + (note[Y1] - note[Y0]) * run + risen)];
+}
+const endY = note => note[Y1] + (note[RISE] || 0);
 
 /* The silent run of the curve that leads to a note, if one does: parallel to an axis, else it is a jump. */
 const before = [];
@@ -330,8 +353,8 @@ const before = [];
   const last = [];
   notes.forEach((note, i) => {
     const old = last[note[VOICE]];
-    const aside = old && Math.abs(note[X0] - old[X1]) > 1e-6, up = old && Math.abs(note[Y0] - old[Y1]) > 1e-6;
-    before[i] = old && aside !== up ? [old[X1], old[Y1], note[X0], note[Y0]] : null;
+    const aside = old && Math.abs(note[X0] - old[X1]) > 1e-6, up = old && Math.abs(note[Y0] - endY(old)) > 1e-6;
+    before[i] = old && aside !== up ? [old[X1], endY(old), note[X0], note[Y0]] : null;
     last[note[VOICE]] = note;
   });
 }
@@ -349,6 +372,7 @@ function ghost() {
       context.moveTo(across(x0), down(y0));
       context.lineTo(across(x1), down(y1));
     }
+    if (note[RISE]) context.lineTo(across(note[X1]), down(endY(note)));
   });
   context.stroke();
   drawn = 0;
@@ -388,7 +412,7 @@ function drawCurve(tick) {
   if (tick <= 0 || tick >= end) return;
   for (const i of begun) {
     const note = notes[i], part = (tick - note[ONSET]) / note[DURATION];
-    const x = across(note[X0] + (note[X1] - note[X0]) * part), y = down(note[Y0] + (note[Y1] - note[Y0]) * part);
+    const [x, y] = pointAt(note, part);
     over.beginPath();
     over.arc(x, y, Math.max(5, view.width * 0.9), 0, 2 * Math.PI);
     over.fillStyle = colours[i]; over.fill();
@@ -449,7 +473,8 @@ function drawRoll(tick) {
   context.beginPath(); context.rect(keysWidth, 0, w + 1, height); context.clip();
   const thick = Math.max(2, row * 0.84);
   eachWithin(rollFrom, rollFrom + shownTicks, (note, i) => {
-    const from = x(note[ONSET]), full = note[DURATION] / shownTicks * w;
+    const slides = note[GLIDE] || 0;
+    const from = x(note[ONSET]), full = (note[DURATION] - slides) / shownTicks * w;
     const long = Math.max(1, full > 3 ? full - 1.2 : full * 0.8);
     const now = note[ONSET] <= tick && note[ONSET] + note[DURATION] > tick && tick > 0;
     context.globalAlpha = now || note[ONSET] + note[DURATION] <= tick ? 1 : 0.42;
@@ -459,6 +484,13 @@ function drawRoll(tick) {
     else context.rect(from, y(note[KEY]) - thick / 2, long, thick);
     context.fill();
     if (now) { context.strokeStyle = theme.mark; context.lineWidth = 1.5; context.stroke(); }
+    if (slides) {
+      const end = note[ONSET] + note[DURATION];
+      context.strokeStyle = colours[i]; context.lineWidth = Math.max(1.5, thick / 2);
+      context.beginPath();
+      context.moveTo(x(end - slides), y(note[KEY])); context.lineTo(x(end), y(note[KEY] + note[SEMITONES]));
+      context.stroke();
+    }
   });
   context.globalAlpha = 1;
   context.strokeStyle = theme.mark; context.lineWidth = 1.5;

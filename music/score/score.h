@@ -19,6 +19,13 @@ namespace sikku {
 /// Times are counted in ticks from the beginning of the score.
 constexpr std::int64_t ticks_per_quarter = 480;
 
+/// A slide of the pitch at the end of a note.
+struct Glide {
+    std::int64_t ticks = 0;  ///< how long it lasts, at most as long as the note; 0: the pitch stays
+    float semitones = 0;     ///< from the key to the pitch at the end, evenly
+    float rise = 0;          ///< turtle steps up the curve, from `to` of the note, that it comes from
+};
+
 /// One note of one voice.
 struct Note {
     std::int64_t onset = 0;
@@ -31,6 +38,10 @@ struct Note {
     std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
     std::uint8_t depth = 0;    ///< brackets around it
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
+    Glide glide{};             ///< of `vertical: glissando`
+
+    /// The end of the piece of the curve it comes from.
+    glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }
 };
 
 struct Curves;

@@ -116,9 +116,11 @@ export interface Made { outputs: { name: string; size: number }[]; remarks: { is
 export interface Pixels { width: number; height: number; remarks: { is_warning: boolean; text: string }[] } // bytes: RGBA, straight alpha, from the top
 
 /// Bytes: for each note 10 little-endian doubles: onset, duration (ticks), key, velocity, voice, from x, from y, to x,
-/// to y, position in the word of the symbol that ends it (-1: unknown).
+/// to y, position in the word of the symbol that ends it (-1: unknown). Then for each note that slides to another pitch
+/// at its end 3 doubles: its number from 0, ticks, semitones.
 export interface Notes {
     count: number;
+    glides?: number; // notes that slide; absent: none
     end: number; // ticks, including rests
     tempo: number; // quarter notes per minute
     beats: number; unit: number; // meter

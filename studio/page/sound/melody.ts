@@ -24,7 +24,14 @@ export interface Melody {
     readonly voice: Uint16Array;
     readonly path: Float64Array; // from x, from y, to x, to y of each note
     readonly symbol: Float64Array; // position in the word, -1: unknown
+    readonly glides: ReadonlyMap<number, Glide>; // by note
     readonly box: [number, number, number, number]; // of the curve: x0, y0, x1, y1
+}
+
+/// A slide of the pitch at the end of a note.
+export interface Glide {
+    ticks: number;
+    semitones: number;
 }
 
 export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
@@ -32,6 +39,12 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
     const aligned = bytes.byteOffset % 8 === 0 ? bytes : bytes.slice();
     const all = new Float64Array(aligned.buffer, aligned.byteOffset, count * doubles);
     const order = inOrder(all, count);
+    const slides = readGlides(aligned, notes);
+    const glides = new Map<number, Glide>();
+    order.forEach((note, place) => {
+        const glide = slides.get(note);
+        if (glide) glides.set(place, glide);
+    });
     const column = (at: number) => Float64Array.from({ length: count }, (_, i) => all[order[i] * doubles + at]);
     const onset = column(0);
     const duration = column(1);
@@ -74,8 +87,27 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
         voice,
         path,
         symbol: column(9),
+        glides,
         box,
     };
+}
+
+/// What follows the notes.
+function readGlides(bytes: Uint8Array, notes: Notes): Map<number, Glide> {
+    const glides = new Map<number, Glide>();
+    const begin = notes.count * doubles * 8;
+    const count = Math.min(notes.glides ?? 0, Math.floor((bytes.byteLength - begin) / 24));
+    if (count <= 0) return glides;
+    const all = new Float64Array(bytes.buffer, bytes.byteOffset + begin, 3 * count);
+    for (let i = 0; i < count; ++i) glides.set(all[3 * i], { ticks: all[3 * i + 1], semitones: all[3 * i + 2] });
+    return glides;
+}
+
+/// The semitones that a note slides, and in how many seconds. @param seconds  that the note lasts
+export function slideOf(melody: Melody, note: number, seconds: number): { semitones: number; seconds: number } {
+    const glide = melody.glides.get(note);
+    if (!glide) return { semitones: 0, seconds: 0 };
+    return { semitones: glide.semitones, seconds: (seconds * glide.ticks) / melody.duration[note] };
 }
 
 /// Merges the voices, which are listed one after another, in the order of onsets.

@@ -1,5 +1,6 @@
 // Sends notes, clock, start and stop to connected MIDI instruments.
 import type { Melody } from "./melody";
+import { slideOf } from "./melody";
 import type { NoteSink } from "./transport";
 
 export interface MidiPort {
@@ -8,6 +9,9 @@ export interface MidiPort {
 }
 
 const bend_range = 2; // semitones up and down: the default of instruments
+const wide_range = 24; // of melodies with notes that slide
+const slide_cents = 3; // widest step of a slide
+const slide_seconds = 0.004; // shortest
 const percussion = 9;
 
 /// The channel of a voice. Voices have separate channels for their pitch bends, and avoid the channel of drums.
@@ -18,10 +22,13 @@ export function channelOf(voice: number, isDrums: boolean): number {
 }
 
 /// The nearest key, and the pitch bend from it.
-export function bentKey(key: number): { key: number; bend: number } {
+export function bentKey(key: number, range = bend_range): { key: number; bend: number } {
     const whole = Math.min(127, Math.max(0, Math.round(key)));
-    const bend = Math.round(8192 + ((key - whole) / bend_range) * 8192);
-    return { key: whole, bend: Math.min(16383, Math.max(0, bend)) };
+    return { key: whole, bend: bendOf(key - whole, range) };
+}
+
+function bendOf(semitones: number, range: number): number {
+    return Math.min(16383, Math.max(0, Math.round(8192 + (semitones / range) * 8192)));
 }
 
 /// The song position of MIDI: sixteenth notes from the beginning.
@@ -59,8 +66,18 @@ export class MidiOutput implements NoteSink {
         this.voices.forEach((voice, index) => {
             const channel = channelOf(index, voice.isDrums);
             if (!voice.isDrums) this.port.send([0xc0 | channel, voice.program & 127]);
+            if (!voice.isDrums && this.range() !== bend_range) {
+                for (const [controller, value] of [[101, 0], [100, 0], [6, this.range()], [38, 0], [101, 127], [100, 127]]) {
+                    this.port.send([0xb0 | channel, controller, value]);
+                }
+            }
             this.port.send([0xb0 | channel, 7, Math.round(127 * Math.min(1, Math.max(0, voice.volume)))]);
         });
+    }
+
+    /// Semitones of a full bend.
+    private range(): number {
+        return this.melody && this.melody.glides.size > 0 ? wide_range : bend_range;
     }
 
     started(tick: number, time: number): void {
@@ -91,17 +108,45 @@ export class MidiOutput implements NoteSink {
         const voice = melody ? this.voices[melody.voice[index]] : undefined;
         if (!melody || !voice?.isHeard) return;
         const channel = channelOf(melody.voice[index], voice.isDrums);
-        const { key, bend } = bentKey(melody.key[index]);
+        const { key, bend } = bentKey(melody.key[index], this.range());
         const at = this.wallTime(time);
         const off = this.wallTime(time + Math.max(0.01, seconds - 0.004));
-        if ((this.bends.get(channel) ?? 8192) !== bend) {
-            this.bends.set(channel, bend);
-            this.port.send([0xe0 | channel, bend & 127, bend >> 7], at);
-        }
-        this.port.send([0x90 | channel, key, Math.max(1, Math.min(127, melody.velocity[index]))], at);
-        this.port.send([0x80 | channel, key, 64], off);
+        const velocity = Math.max(1, Math.min(127, melody.velocity[index]));
+        this.bend(channel, bend, at);
+        this.port.send([0x90 | channel, key, velocity], at);
+        const last = voice.isDrums ? key : this.slide(index, channel, key, velocity, time, seconds);
+        this.port.send([0x80 | channel, last, 64], off);
         this.on = this.on.filter((each) => each.end > at - 2000);
-        this.on.push({ channel, key, begin: at, end: off });
+        this.on.push({ channel, key: last, begin: at, end: off });
+    }
+
+    private bend(channel: number, bend: number, at: number): void {
+        if ((this.bends.get(channel) ?? 8192) === bend) return;
+        this.bends.set(channel, bend);
+        this.port.send([0xe0 | channel, bend & 127, bend >> 7], at);
+    }
+
+    /// Bends a note while it slides; a key that is too far away is struck anew. Returns the key that sounds at the end.
+    private slide(index: number, channel: number, key: number, velocity: number, time: number, seconds: number): number {
+        const slide = slideOf(this.melody!, index, seconds);
+        if (slide.semitones === 0) return key;
+        const wanted = Math.ceil((100 * Math.abs(slide.semitones)) / slide_cents);
+        const steps = Math.max(1, Math.min(wanted, Math.floor(slide.seconds / slide_seconds)));
+        const begin = time + seconds - slide.seconds;
+        let struck = key;
+        for (let i = 0; i < steps; ++i) {
+            const at = this.wallTime(begin + Math.min((i * slide.seconds) / steps, slide.seconds - 0.005));
+            const pitch = this.melody!.key[index] + (slide.semitones * (i + 1)) / steps;
+            if (Math.abs(pitch - struck) > this.range()) {
+                this.port.send([0x80 | channel, struck, 64], at);
+                struck = Math.round(pitch);
+                this.bend(channel, bendOf(pitch - struck, this.range()), at);
+                this.port.send([0x90 | channel, struck, velocity], at);
+            } else {
+                this.bend(channel, bendOf(pitch - struck, this.range()), at);
+            }
+        }
+        return struck;
     }
 
     /// Messages cannot be cancelled individually: drops all of them, and sends the ends of the sounding notes again.

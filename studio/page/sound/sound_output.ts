@@ -1,6 +1,7 @@
 // Plays notes: a rendered sample through a filter, an envelope, the channel strip of its voice and the master.
 import { Master } from "./master";
 import type { Melody } from "./melody";
+import { slideOf } from "./melody";
 import type { Voiced } from "./renderer";
 import { keyFrequency } from "./sample";
 import type { Timbre } from "./timbres";
@@ -95,10 +96,18 @@ export class SoundOutput implements NoteSink {
         if (!melody) return;
         const voice = melody.voice[index];
         if (!this.isHeard(voice)) return;
-        this.strike(voice, melody.key[index], melody.velocity[index], time, seconds);
+        const slide = slideOf(melody, index, seconds);
+        this.strike(voice, melody.key[index], melody.velocity[index], time, seconds, slide);
     }
 
-    strike(voice: number, key: number, velocity: number, time: number, seconds: number): void {
+    strike(
+        voice: number,
+        key: number,
+        velocity: number,
+        time: number,
+        seconds: number,
+        slide = { semitones: 0, seconds: 0 },
+    ): void {
         const timbre = timbreNamed(this.voices[voice].timbre);
         const voiced = this.buffers.find(timbre, key);
         if (!voiced) return;
@@ -128,6 +137,10 @@ export class SoundOutput implements NoteSink {
         envelope.gain.setValueAtTime(0, begin);
         envelope.gain.linearRampToValueAtTime(level, begin + attack);
         envelope.gain.setTargetAtTime(0, end, tau);
+        if (slide.semitones !== 0) {
+            source.playbackRate.setValueAtTime(rate, Math.max(begin, end - slide.seconds));
+            source.playbackRate.exponentialRampToValueAtTime(rate * 2 ** (slide.semitones / 12), end);
+        }
         source.connect(filter).connect(envelope).connect(this.strips[voice].gain);
 
         const vibrato = this.vibrato(timbre, source, begin, seconds, rate);
