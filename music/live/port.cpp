@@ -1,10 +1,37 @@
 #include "music/live/port.h"
 
 #include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cstdint>
 #include <ctime>
 
 namespace sikku::live {
+namespace {
+
+/// As the kernel declares it; the C library of Debian 12 has no name for it.
+struct SchedulingAttributes {
+    std::uint32_t size = sizeof(SchedulingAttributes);
+    std::uint32_t policy = SCHED_OTHER;
+    std::uint64_t flags = 0;
+    std::int32_t nice = 0;
+    std::uint32_t priority = 0;
+    std::uint64_t runtime = 0;  // nanoseconds
+    std::uint64_t deadline = 0;
+    std::uint64_t period = 0;
+};
+
+/// Since Linux 6.12 a thread with shorter slices of time than others runs sooner after it has waited. Every user may
+/// ask for that; older kernels ignore it.
+void ask_for_short_slices() {
+    SchedulingAttributes attributes;
+    attributes.flags = 1;  // not for threads that are started later
+    attributes.runtime = 100'000;
+    syscall(SYS_sched_setattr, 0, &attributes, 0);
+}
+
+}  // namespace
 
 Nanoseconds MonotonicClock::now() {
     timespec time{};
@@ -23,7 +50,8 @@ void MonotonicClock::sleep_until(Nanoseconds time) {
 void prefer_this_thread() {
     sched_param parameters{};
     parameters.sched_priority = 10;
-    sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
+    if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0) return;
+    ask_for_short_slices();
 }
 
 void ClockReader::read(std::span<const std::uint8_t> bytes, Nanoseconds time, std::vector<Received>& received) {
