@@ -71,7 +71,10 @@ peano() { "$program" play peano-pentatonic -n 3 --unit 1/16 --meter 7/8 -o "$1";
 keys() { "$program" play hilbert-in-c -n 4 --tonic Cb4 --meter 5/8 -o "$1"; }
 bilahari() { "$program" play sierpinski-bilahari -n 4 --meter 3/4 -o "$1"; }
 blues() { "$program" play dragon-blues -n 7 -o "$1"; }
-voices() { "$program" play tree-in-voices -n 2 -o "$1"; }
+voices() {
+    "$program" play tree-in-voices -n 2 --brackets voices --form curve --rhythm curve --phrases none --canon none \
+        --counterpoint free -o "$1"
+}
 triplets() { "$program" play hilbert-in-c -n 4 --unit 1/12 --meter 7/8 -o "$1"; }
 quintuplets() { "$program" play hilbert-in-c -n 4 --unit 1/20 --meter 3/4 -o "$1"; }
 sextuplets() { "$program" play hilbert-in-c -n 4 --unit 1/24 --meter 6/8 -o "$1"; }
