@@ -24,13 +24,13 @@ double smooth(double part) {
 }
 
 /// Values of a source, from 0 to 1.
-struct Range {
+struct SourceRange {
     double low = 0;
     double high = 0;
     double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
 };
 
-Range range_of(const std::vector<double>& values) {
+SourceRange range_of(const std::vector<double>& values) {
     if (values.empty()) return {};
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return {*low, *high};
@@ -90,6 +90,32 @@ double turn_into(const Note* before, const Note& note) {
     return cross > nothing ? 1 : cross < -nothing ? -1 : 0;
 }
 
+/// Values of a source at the beginning and the end of a note; the level is not known here.
+std::pair<double, double> values_of(ExpressionSource source, const Note* before, const Note& note) {
+    const auto both = [](double value) { return std::pair(value, value); };
+    switch (source) {
+        case ExpressionSource::x:
+            return {note.from.x, note.to.x};
+        case ExpressionSource::y:
+            return {note.from.y, note.end_point().y};
+        case ExpressionSource::depth:
+            return both(note.depth);
+        case ExpressionSource::turn:
+            return both(turn_into(before, note));
+        case ExpressionSource::length:
+            return both(static_cast<double>(note.duration));
+        case ExpressionSource::level:
+        case ExpressionSource::none:
+            break;
+    }
+    return both(0);
+}
+
+/// What accompanies a melody comes from no place of the curve.
+bool is_of_curve(const Note& note) {
+    return note.from != note.end_point();
+}
+
 Parts parts_of(const Player& player, const PlayOptions& playing, ExpressionSource source,
                const std::vector<Note*>& notes) {
     std::vector<double> first;
@@ -98,33 +124,10 @@ Parts parts_of(const Player& player, const PlayOptions& playing, ExpressionSourc
         source == ExpressionSource::level ? levels_of(player, playing) : std::unordered_map<std::uint64_t, int>();
     std::map<std::int16_t, const Note*> before;
     for (const Note* note : notes) {
-        double value = 0;
-        double end = 0;
-        switch (source) {
-            case ExpressionSource::x:
-                value = note->from.x;
-                end = note->to.x;
-                break;
-            case ExpressionSource::y:
-                value = note->from.y;
-                end = note->end_point().y;
-                break;
-            case ExpressionSource::depth:
-                value = end = note->depth;
-                break;
-            case ExpressionSource::turn:
-                value = end = turn_into(before[note->voice], *note);
-                break;
-            case ExpressionSource::length:
-                value = end = static_cast<double>(note->duration);
-                break;
-            case ExpressionSource::level: {
-                const auto level = levels.find(note->symbol);
-                value = end = level == levels.end() ? 0 : level->second;
-                break;
-            }
-            case ExpressionSource::none:
-                break;
+        auto [value, end] = values_of(source, before[note->voice], *note);
+        if (source == ExpressionSource::level) {
+            const auto level = levels.find(note->symbol);
+            value = end = level == levels.end() ? 0 : level->second;
         }
         before[note->voice] = note;
         first.push_back(value);
@@ -132,7 +135,7 @@ Parts parts_of(const Player& player, const PlayOptions& playing, ExpressionSourc
     }
     std::vector<double> all = first;
     all.insert(all.end(), last.begin(), last.end());
-    const Range range = source == ExpressionSource::turn ? Range{-1, 1} : range_of(all);
+    const SourceRange range = source == ExpressionSource::turn ? SourceRange{-1, 1} : range_of(all);
     Parts parts;
     for (std::size_t i = 0; i < first.size(); ++i) parts.emplace_back(range.part(first[i]), range.part(last[i]));
     return parts;
@@ -260,6 +263,66 @@ private:
 
 }  // namespace
 
+bool streams_velocities(const Ensemble& ensemble) {
+    const std::vector<Player>& players = ensemble.players;
+    return std::all_of(players.begin(), players.end(), [](const Player& player) {
+        MelodicExpression others = player.melody.expression;
+        const bool is_level = others.velocity.source == ExpressionSource::level;
+        others.velocity = {};
+        return !is_level && !others.any();
+    });
+}
+
+VelocitySink::VelocitySink(const Ensemble& ensemble)
+    : ensemble_(ensemble), ranges_(ensemble.players.size(), {INFINITY, -INFINITY}) {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+        if (source_of(i) == ExpressionSource::turn) ranges_[i] = {-1, 1};
+    }
+}
+
+ExpressionSource VelocitySink::source_of(std::size_t player) const {
+    return ensemble_.players[player].melody.expression.velocity.source;
+}
+
+void VelocitySink::notes(std::span<const Note> notes) {
+    if (sink_) changed_.assign(notes.begin(), notes.end());
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        const Note& note = notes[i];
+        if (!is_of_curve(note)) continue;
+        const std::size_t player = player_of(note.voice);
+        const ExpressionSource source = source_of(player);
+        if (source == ExpressionSource::none) continue;
+        const auto voice = static_cast<std::size_t>(note.voice);
+        if (source == ExpressionSource::turn && voice >= before_.size()) before_.resize(voice + 1);
+        const Note* before = source == ExpressionSource::turn && before_[voice] ? &*before_[voice] : nullptr;
+        const auto [begin, end] = values_of(source, before, note);
+        if (source == ExpressionSource::turn) before_[voice] = note;
+        auto& [low, high] = ranges_[player];
+        if (!sink_) {
+            low = std::min({low, begin, end});
+            high = std::max({high, begin, end});
+            continue;
+        }
+        const SourceRange range{low, high};
+        const double part = (range.part(begin) + range.part(end)) / 2;
+        const double velocity = ensemble_.players[player].melody.expression.velocity.at(part);
+        changed_[i].velocity = static_cast<std::uint8_t>(std::lround(std::clamp(velocity, 1.0, 127.0)));
+    }
+    if (sink_) sink_->notes(changed_);
+}
+
+void VelocitySink::write_to(NoteSink& sink) {
+    sink_ = &sink;
+    before_.clear();
+}
+
+std::size_t VelocitySink::player_of(int voice) const {
+    const std::vector<Player>& players = ensemble_.players;
+    const auto next = std::upper_bound(players.begin(), players.end(), voice,
+                                       [](int one, const Player& player) { return one < player.first_voice; });
+    return next == players.begin() ? 0 : static_cast<std::size_t>(next - players.begin()) - 1;
+}
+
 PerformanceSink::PerformanceSink(NoteSink& sink, const Ensemble& ensemble, const PlayOptions& playing,
                                  bool is_printed)
     : sink_(sink), ensemble_(ensemble), playing_(playing), is_printed_(is_printed) {}
@@ -280,8 +343,7 @@ void PerformanceSink::finish(std::int64_t end) {
         const int next = i + 1 < players.size() ? players[i + 1].first_voice : INT16_MAX + 1;
         std::vector<Note*> notes;
         for (Note& note : notes_) {
-            // What accompanies a melody comes from no place of the curve.
-            if (note.voice >= first && note.voice < next && note.from != note.end_point()) notes.push_back(&note);
+            if (note.voice >= first && note.voice < next && is_of_curve(note)) notes.push_back(&note);
         }
         std::stable_sort(notes.begin(), notes.end(), [](const Note* a, const Note* b) {
             return std::tie(a->onset, a->voice) < std::tie(b->onset, b->voice);

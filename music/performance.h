@@ -5,6 +5,10 @@
 #include "music/score/curves.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -42,6 +46,33 @@ private:
     std::vector<Note> notes_;
     std::int64_t end_ = 0;
     Curves curves_;
+};
+
+/// True if nothing but velocities follows the curve, by sources that are known note by note.
+bool streams_velocities(const Ensemble& ensemble);
+
+/// Gives notes the velocities of the curve as they pass, the same as PerformanceSink. The parts are played twice:
+/// before write_to() for the least and greatest values, after it for the notes. Memory: O(voices).
+class VelocitySink : public NoteSink {
+public:
+    /// `ensemble` has to outlive it.
+    explicit VelocitySink(const Ensemble& ensemble);
+    void notes(std::span<const Note> notes) override;
+    void finish(std::int64_t end) override {
+        if (sink_) sink_->finish(end);
+    }
+    /// The notes that follow go to this sink.
+    void write_to(NoteSink& sink);
+
+private:
+    ExpressionSource source_of(std::size_t player) const;
+    std::size_t player_of(int voice) const;
+
+    const Ensemble& ensemble_;
+    NoteSink* sink_ = nullptr;
+    std::vector<std::pair<double, double>> ranges_;  // by player
+    std::vector<std::optional<Note>> before_;        // by voice, where turns are wanted
+    std::vector<Note> changed_;
 };
 
 }  // namespace sikku

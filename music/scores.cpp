@@ -411,7 +411,12 @@ private:
     EnsembleReport express_into(NoteSink& sink, const PlayOptions& playing) const {
         Curves curves;
         EnsembleReport report;
-        if (ensemble_.has_expression()) {
+        if (ensemble_.has_expression() && streams_velocities(ensemble_)) {
+            VelocitySink velocities(ensemble_);
+            play_parts(ensemble_, playing, velocities);
+            velocities.write_to(sink);
+            report = play_all(ensemble_, playing, velocities);
+        } else if (ensemble_.has_expression()) {
             PerformanceSink performance(sink, ensemble_, playing, is_printed(format_));
             report = play_all(ensemble_, playing, performance);
             curves.tempo = performance.made().tempo;

@@ -112,6 +112,15 @@ void play_hilbert(benchmark::State& state) {
     state.counters["file_MB"] = static_cast<double>(std::filesystem::file_size(file)) / 1e6;
     std::filesystem::remove(file);
 }
+/// The same notes, led by harmony and phrases, with velocities along the curve.
+void play_hilbert_expressively(benchmark::State& state) {
+    const std::string file = output("sikku_bench.mid");
+    measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", "12", "--harmony", "triads", "--phrases", "3",
+                    "--velocity", "by y 40-100", "-o", file});
+    state.counters["notes/s"] =
+        benchmark::Counter(6'710'886 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    std::filesystem::remove(file);
+}
 void bar_of_hilbert_40(benchmark::State& state) {
     const std::string file = output("sikku_bench.mid");
     measure(state, {SIKKU_PROGRAM, "-q", "play", "hilbert", "-n", "40", "--from-bar", "1000000000", "--bars", "1",
@@ -127,6 +136,7 @@ BENCHMARK(measure_hilbert_60)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(measure_dragon_100)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(svg_of_a_million_segments)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(play_hilbert)->Arg(11)->Arg(12)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(play_hilbert_expressively)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(bar_of_hilbert_40)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(png_of_a_kolam_at_a0)->UseManualTime()->Unit(benchmark::kMillisecond);
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace sikku {
@@ -90,6 +91,29 @@ TEST(Expression, VelocityFollowsTheCurve) {
     EXPECT_EQ(velocities(steps + "velocity: by length 50-100\n"), (std::vector<int>{50, 50, 50, 100}));
     // Middles of the runs: 0.5, 1.5, 2.5 and 4 of 5 steps.
     EXPECT_EQ(velocities(steps + "velocity: by x 1-101\n"), (std::vector<int>{11, 31, 51, 81}));
+}
+
+/// Velocities alone are given as the notes pass, with a pan they are collected: by two ways the same.
+TEST(Expression, VelocitiesAreTheSameInStreams) {
+    const std::string curve =
+        "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 4\nunit: 1/16\n";
+    for (const char* source : {"x", "y", "depth", "turn 20-90", "length 20-90"}) {
+        for (const char* more : {"", "harmony: triads\n", "vertical: voice\n", "vertical: glissando\n",
+                                 "harmony: bass 2\n", "retrograde: yes\n", "canon: 2 -12\n"}) {
+            const std::string range = std::string(source).find(' ') == std::string::npos ? " 20-90" : "";
+            const std::string text = curve + more + "velocity: by " + source + range + "\n";
+            const auto notes = [](const MidiFile& file) {
+                std::vector<std::tuple<std::int64_t, int, int, int>> all;
+                for (const MidiNote& note : file.notes) {
+                    all.emplace_back(note.onset, note.channel, note.key, note.velocity);
+                }
+                return all;
+            };
+            const auto streamed = notes(midi_of(text));
+            EXPECT_EQ(streamed, notes(midi_of(text + "pan: by x\n"))) << text;
+            EXPECT_GT(streamed.size(), 100u);
+        }
+    }
 }
 
 TEST(Expression, LevelsAreOrdersOfSubCurves) {

@@ -100,6 +100,43 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     EXPECT_EQ(contents(one), contents(two_names));
 }
 
+TEST(ArrangementProgram, ExtremeValuesAreRefusedWithTheirPlaces) {
+    const ScratchFolder folder;
+    const auto refused = [&](const std::string& text, const std::string& message) {
+        const std::string file = folder.write("bad.toml", text);
+        for (const Arguments& arguments :
+             {Arguments{"play", file, "-o", folder.file("x.mid")}, Arguments{"play", file, "--port", "/dev/null"}}) {
+            const Outcome outcome = run(arguments);
+            EXPECT_EQ(outcome.status, 2) << outcome.errors;
+            EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors.substr(0, 500);
+            EXPECT_LT(outcome.peak, 200 * 1024) << text.substr(0, 100);
+        }
+        EXPECT_FALSE(std::filesystem::exists(folder.file("x.mid")));
+    };
+    const std::string track = "[[track]]\npattern = \"hilbert\"\n";
+    // Arrangements that name each other.
+    folder.write("other.toml", "[[track]]\npattern = \"bad.toml\"\n");
+    refused("[[track]]\npattern = \"other.toml\"\n",
+            "bad.toml:2:1: other.toml: a track plays a pattern, not another");
+    std::string tracks;
+    for (int i = 0; i < 1'000'000; ++i) tracks += track;
+    refused(tracks, "bad.toml: the file is too large: a file has at most 16 MB");
+    refused(tracks.substr(0, track.size() * 20'000), "too many tracks");
+    for (const char* rhythm :
+         {"", "~", "~~~~", "E(0,0)", "E(0,8)", "E(3,0)", "E(1,1000000000)", "0+0", "4+0", "-4"}) {
+        refused(track + "rhythm = \"" + rhythm + "\"\n", "bad.toml:3:1: rhythm: ");
+    }
+    for (const char* unit : {"0", "-1/8", "1/0", "0/8", "999999999999/1", "1/999999999999", "1e300", "nan"}) {
+        refused(track + "unit = \"" + unit + "\"\n", "bad.toml:3:1: unit: expected a note value");
+    }
+    for (const char* tempo : {"0", "-5", "nan", "inf", "1e30"}) {
+        refused(std::string("tempo = \"") + tempo + "\"\n" + track, "bad.toml:1:1: tempo: expected quarter notes");
+    }
+    for (const char* meter : {"0/4", "4/0", "99999999/4", "-3/4"}) {
+        refused(track + "meter = \"" + meter + "\"\n", "bad.toml:3:1: meter: expected a meter");
+    }
+}
+
 TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
     const ScratchFolder folder;
     const Outcome names = run(Arguments{"patterns", "arrangements", "--names"});

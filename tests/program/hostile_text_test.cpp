@@ -108,6 +108,39 @@ TEST_F(HostileTitle, InLilyPondIsOneString) {
     EXPECT_EQ(lilypond_string("a\"b\\c#(d)\u2028\u2029\u202Ee\nf"), "\"a\\\"b\\\\c#(d)  ?e f\"");
 }
 
+TEST_F(HostileTitle, InAbcIsAField) {
+    std::istringstream lines(made("play", "x.abc"));
+    // A % that is not escaped begins a comment, and %% at the beginning of a line a directive.
+    const std::regex expected("%abc-2.1|% .*|%|%%(score|MIDI) .*|[XTSMLQKV]:([^%]|\\\\%)*|[^%:\"]*|\\[K:.*");
+    int titles = 0;
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_TRUE(std::regex_match(line, expected)) << line;
+        titles += line.starts_with("T:") ? 1 : 0;
+    }
+    EXPECT_EQ(titles, 1);
+}
+
+TEST_F(HostileTitle, InCsoundIsAComment) {
+    const std::regex statement("(;.*|t [0-9. ]+|i [0-9. ]+|f 0 [0-9.]+|e|)");
+    const std::string score = made("play", "x.sco");
+    std::istringstream lines(score);
+    for (std::string line; std::getline(lines, line);) EXPECT_TRUE(std::regex_match(line, statement)) << line;
+    const std::string file = made("play", "x.csd");
+    const std::size_t end = file.find("</CsoundSynthesizer>\n");
+    EXPECT_EQ(file.substr(0, end).find_first_of("#$\"'%"), std::string::npos);
+    std::istringstream rest(file.substr(end + 21));
+    for (std::string line; std::getline(rest, line);) EXPECT_TRUE(line.empty() || line.starts_with(';')) << line;
+}
+
+TEST_F(HostileTitle, InStrudelIsAComment) {
+    std::istringstream lines(made("play", "x.strudel"));
+    const std::regex code(
+        "setcpm\\(.*|(\\$: note\\(`)?[a-g#0-9@~ ]*(`\\))?|  \\.slow\\([0-9]+\\)\\.sound\\(\"piano\"\\)");
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_TRUE(line.starts_with("//") || std::regex_match(line, code)) << line;
+    }
+}
+
 TEST_F(HostileTitle, InXmlIsText) {
     for (const auto& [command, name] : {std::pair("draw", "x.svg"), {"play", "x.musicxml"}, {"play", "y.svg"}}) {
         SCOPED_TRACE(name);
