@@ -105,9 +105,9 @@ void check_pens(const DrawSettings& settings, PrintFormat format) {
 }
 
 void check_plot(const DrawSettings& settings, PrintFormat format) {
-    constexpr const char* no_plot = "a plot is SVG, PDF, HP-GL, G-code or DXF";
+    constexpr const char* no_plot = "a plot is SVG, PDF, EPS, HP-GL, G-code or DXF";
     const bool is_plot = settings.plotter || is_for_plotters(format);
-    const bool is_drawn = format == PrintFormat::svg || format == PrintFormat::pdf;
+    const bool is_drawn = info(format).kind == FormatKind::vectors;
     const GcodeOptions defaults = settings.profile ? settings.profile->gcode : GcodeOptions{};
     if (settings.profile) {
         const PlotLanguage language = settings.profile->language;
@@ -122,8 +122,9 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
         if (language == PlotLanguage::svg && !is_vector(format)) {
             refuse_option("profile", settings.profile->name, no_plot);
         }
-        if (language == PlotLanguage::svg && format == PrintFormat::pdf) {
-            refuse_option("profile", settings.profile->name, "this plotter reads SVG, not PDF");
+        if (language == PlotLanguage::svg && is_drawn && format != PrintFormat::svg) {
+            refuse_option("profile", settings.profile->name,
+                          fmt::format("this plotter reads SVG, not {}", info(format).label));
         }
     }
     if (format == PrintFormat::dxf) {
@@ -135,7 +136,7 @@ void check_plot(const DrawSettings& settings, PrintFormat format) {
     }
     refuse_first(
         {{settings.plotter && !is_vector(format), "plotter", no_plot},
-         {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG or PDF"},
+         {settings.travel && !(is_plot && is_drawn), "travel", "needs 'plotter', and SVG, PDF or EPS"},
          {settings.split > 0 && !is_plot, "split", "needs 'plotter'"},
          {settings.hatch && !is_plot, "hatch", "needs 'plotter', HP-GL, G-code or DXF"},
          {settings.pen_width > 0 && !is_plot, "pen-width", "needs 'plotter', HP-GL, G-code or DXF"},
@@ -170,6 +171,7 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
     constexpr const char* alone = "cannot be combined with 'lesson', which has its own pages and order";
     refuse_first({{settings.plotter || is_for_plotters(format), "lesson",
                    "a lesson has colours, numbers and several steps; a plot is one drawing"},
+                  {format == PrintFormat::eps, "lesson", "a lesson has several pages; an EPS has one"},
                   {settings.generations.has_value(), "generations", alone},
                   {settings.tile.has_value(), "tile", alone},
                   {settings.window.has_value(), "window", alone},

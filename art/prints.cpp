@@ -47,6 +47,17 @@ void report_text(const DrawReport& report, const std::filesystem::path& name, Ma
         fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
 }
 
+/// Whether a style has colours that a format without opacity can only mix.
+bool has_translucent_colours(const Style& style) {
+    const auto mixes = [](const Colour& colour) { return colour.alpha > 0 && colour.alpha < 255; };
+    if (style.ground && mixes(*style.ground)) return true;
+    for (int index = 0; index < std::max(static_cast<int>(style.palette.size()), 1); ++index) {
+        const Pen pen{.colour = index};
+        if ((style.stroked && mixes(style.line_colour(pen))) || mixes(style.fill_colour(pen))) return true;
+    }
+    return false;
+}
+
 /// A planned print or model.
 class PrintWork : public Work {
 public:
@@ -155,7 +166,7 @@ private:
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
         if (settings_.tile && !is_vector(format_))
-            refuse("tile", "drawings in space can be cut into sheets only as SVG or PDF");
+            refuse("tile", "drawings in space can be cut into sheets only as SVG, PDF or EPS");
         if (!settings_.press.spots.empty() && !drawing_.plot) {
             refuse("spot", "drawings in space have more shades of light than there are inks");
         }
@@ -312,6 +323,9 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     for (const std::string& warning : drawing_warnings(report, print_.style, settings_, report.plot.has_value())) {
         made.warn(warning);
     }
+    if (format_ == PrintFormat::eps && has_translucent_colours(print_.style)) {
+        made.warn("an EPS has no opacity: translucent colours are mixed with that of the ground, or with white");
+    }
     if (document_.map()) {
         const std::string remark = undivided_remark(report.cells, *document_.map(), document_.grammar().steps());
         if (!remark.empty()) made.warn(remark);
@@ -425,6 +439,10 @@ Cost PrintWork::forecast(const Grammar& given) const {
         case PrintFormat::svg:
             result.seconds += cost.lines * (spline ? 60e-9 : 12e-9);
             result.bytes = 700 + text + cost.lines * (spline ? 30 : 5);
+            return result;
+        case PrintFormat::eps:
+            result.seconds += cost.lines * (spline ? 60e-9 : 20e-9);
+            result.bytes = 1200 + text + cost.lines * (spline ? 45 : 15);
             return result;
         case PrintFormat::pdf:
             result.seconds += 0.002 + cost.lines * (spline ? 250e-9 : 80e-9);

@@ -10,8 +10,7 @@
 #include "art/plotter/hpgl.h"
 #include "art/space/model.h"
 #include "art/space/solids.h"
-#include "art/vector/pdf.h"
-#include "art/vector/svg.h"
+#include "art/vector/vector_formats.h"
 #include "engine/base/output.h"
 #include "engine/derivation/forecast.h"
 
@@ -77,7 +76,7 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
         plotted.travel_colour = static_cast<int>(plotted.style.palette.size());
         plotted.style.palette.push_back({0x88, 0x88, 0x88, 255});
     }
-    const auto writer = options.format == PrintFormat::svg ? write_svg(plotted, output) : write_pdf(plotted, output);
+    const auto writer = write_vectors(options.format, plotted, output);
     // A dip is a dot beside the drawing.
     plan.draw(*writer, [&](glm::dvec2 place, const Pen& pen) {
         const glm::dvec2 dot = plan.drawn_at(place);
@@ -97,7 +96,7 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
     // Only PDF knows the sheet from its bleed.
     const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
     if (is_vector(options.format)) {
-        const auto writer = options.format == PrintFormat::svg ? write_svg(print, output) : write_pdf(print, output);
+        const auto writer = write_vectors(options.format, print, output);
         drawing.read_visible(print, whole_page(print.page), *writer);
         writer->finish();
         return;

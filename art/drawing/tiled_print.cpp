@@ -3,8 +3,7 @@
 #include "art/drawing/picture.h"
 #include "art/print/clip.h"
 #include "art/print/tiles.h"
-#include "art/vector/pdf.h"
-#include "art/vector/svg.h"
+#include "art/vector/vector_formats.h"
 
 #include <fmt/format.h>
 
@@ -150,10 +149,10 @@ Print sheet_of(const TileWork& work, const Tile& tile) {
     return sheet;
 }
 
-void write_svg_tile(const TileWork& work, const Tile& tile, Output& output) {
+void write_vector_tile(const TileWork& work, const Tile& tile, Output& output) {
     const glm::dvec2 corner = tile_corner(work.tiling, tile);
     const Print sheet = sheet_of(work, tile);
-    const auto writer = write_svg(sheet, output);
+    const auto writer = write_vectors(work.options.format, sheet, output);
     Print part = moved(work.print, corner);
     part.title = sheet.title;
     const Window shown = moved(tile.shown, corner);
@@ -246,8 +245,8 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
         for (const Tile& tile : tiling.tiles) {
             const std::filesystem::path name = tile_file(file, tile);
             outputs.push_back(destination.open(name));
-            if (options.format == PrintFormat::svg) {
-                write_svg_tile(work, tile, *outputs.back());
+            if (is_vector(options.format)) {
+                write_vector_tile(work, tile, *outputs.back());
             } else {
                 write_picture_tile(work, tile, *outputs.back(), name);
             }

@@ -108,7 +108,7 @@ std::vector<int> fill_pens(const Style& style);
 /// - Discs and dots are filled by spirals (see spiral()), from the outside to the centre unless the other direction
 ///   shortens pen-up travel.
 /// - With a `pen_width`, wider strokes are drawn in several passes (see pen_passes()). Without, a pen is as wide as
-///   its strokes; in SVG and PDF, as wide as its first stroke.
+///   its strokes; in SVG, PDF and EPS, as wide as its first stroke.
 /// - Fills hide nothing, except in drawings in space (see plot_scene()).
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal

@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-enum class PrintFormat : std::uint8_t { svg, pdf, png, tiff, jpeg, exr, gif, hpgl, gcode, dxf, obj, glb };
+enum class PrintFormat : std::uint8_t { svg, pdf, eps, png, tiff, jpeg, exr, gif, hpgl, gcode, dxf, obj, glb };
 
 /// Contents of a format, which determine how it is drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
@@ -28,7 +28,8 @@ struct FormatInfo {
     bool is_text = false;          ///< UTF-8 text
 };
 
-/// All formats of prints, in the order in which texts list them.
+/// All formats of prints that this build writes (the web build leaves out EPS), in the order in which texts list
+/// them.
 std::span<const FormatInfo> print_formats();
 const FormatInfo& info(PrintFormat format);
 
@@ -37,7 +38,7 @@ std::optional<PrintFormat> print_format(const std::filesystem::path& file);
 /// The format of that name or extension (`svg`, `plt`; any case), or nullopt.
 std::optional<PrintFormat> named_format(std::string_view name);
 
-/// SVG, PDF, HP-GL, G-code and DXF: lines rather than pixels.
+/// SVG, PDF, EPS, HP-GL, G-code and DXF: lines rather than pixels.
 inline bool is_vector(PrintFormat format) {
     const FormatKind kind = info(format).kind;
     return kind == FormatKind::vectors || kind == FormatKind::plot;

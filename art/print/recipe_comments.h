@@ -1,5 +1,5 @@
 // art/print/recipe_comments.h: stores the pattern and the recipe of a print in the comments of formats without other
-// texts: G-code, HP-GL, DXF, OBJ, glTF, GIF.
+// texts: G-code, HP-GL, DXF, EPS, OBJ, glTF, GIF.
 #pragma once
 
 #include <optional>

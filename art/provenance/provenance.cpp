@@ -43,6 +43,11 @@ bool begins_as_gcode(std::string_view head) {
     return head.find("(recipe: sikku:") != std::string_view::npos;
 }
 
+bool begins_as_eps(std::string_view head) {
+    return head.starts_with("%!PS-Adobe-") &&
+           head.substr(0, head.find('\n')).find(" EPSF-") != std::string_view::npos;
+}
+
 bool begins_as_obj(std::string_view head) {
     return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
 }
@@ -86,12 +91,13 @@ struct Format {
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 22> formats = {{
+constexpr std::array<Format, 23> formats = {{
     {"a PNG file", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
     {"a TIFF file", begins_as_tiff, read_tiff_provenance},
     {"a JPEG file", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
     {"an EXR file", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
     {"a PDF file", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
+    {"an EPS file", begins_as_eps, read_comment_provenance},
     {"a GIF file", begins_with<'G', 'I', 'F', '8'>, read_comment_provenance},
     {"a GLB file", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
     {"an HP-GL file", begins_with<'I', 'N', ';'>, read_comment_provenance},

@@ -8,8 +8,7 @@
 #include "art/raster/raster.h"
 #include "art/sheet/sheet_pixels.h"
 #include "art/sheet/sheet_plot.h"
-#include "art/vector/pdf.h"
-#include "art/vector/svg.h"
+#include "art/vector/vector_formats.h"
 #include "engine/base/option.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -785,9 +784,8 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         Output& output = *opened;
         if (options.plot || is_for_plotters(options.format)) {
             layout.plot = sheet.write_plot(output).plot;
-        } else if (options.format == PrintFormat::svg || options.format == PrintFormat::pdf) {
-            const auto writer = options.format == PrintFormat::svg ? write_svg(sheet.print(), output)
-                                                                   : write_pdf(sheet.print(), output);
+        } else if (info(options.format).kind == FormatKind::vectors) {
+            const auto writer = write_vectors(options.format, sheet.print(), output);
             sheet.write_vectors(*writer);
         } else {
             sheet.write_pixels(output, file);

@@ -1,5 +1,5 @@
-// art/vector/vector_writer.h: the common base of the SVG and PDF writers: layers, and strokes split where the pen
-// changes.
+// art/vector/vector_writer.h: the common base of the SVG, PDF and EPS writers: layers, and strokes split where the
+// pen changes.
 #pragma once
 
 #include "art/print/micrometres.h"

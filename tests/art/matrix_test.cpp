@@ -158,6 +158,7 @@ std::vector<Target> targets() {
     const Values growth{{"generations", "0:2"}};
     return {{"SVG", "svg", one},
             {"PDF", "pdf", one},
+            {"EPS", "eps", one},
             {"PNG", "png", one},
             {"TIFF", "tif", one},
             {"JPEG", "jpg", one},
@@ -178,6 +179,7 @@ std::vector<Target> targets() {
 /// only by hatching, a light only by pictures, and a sheet of generations is compared with itself.
 const std::set<std::string> unchanged = {"light on SVG",
                                          "light on PDF",
+                                         "light on EPS",
                                          "light on HP-GL",
                                          "light on G-code",
                                          "light on DXF",
@@ -216,6 +218,10 @@ std::string drawing_of(const std::string& name, std::string bytes, const Scratch
         return bytes;
     }
     if (format == "pdf") return bytes.substr(0, bytes.rfind("/Subject "));
+    if (format == "eps") {
+        erase_between(bytes, "%sikku", "\n");
+        return bytes;
+    }
     if (format == "obj" || format == "mtl") {
         erase_between(bytes, "#", "\n");
         return bytes;

@@ -95,8 +95,8 @@ TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
     const std::string longest = padded(1'000'000);
     for (const std::string& text : {"axiom: F\n"s, awkward, longer, longest}) {
         const std::string source = folder.write("source.lsys", text);
-        for (const char* name :
-             {"a.svg", "a.pdf", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid", "a.musicxml", "a.mxl", "a.html"}) {
+        for (const char* name : {"a.svg", "a.pdf", "a.eps", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid", "a.musicxml",
+                                 "a.mxl", "a.html"}) {
             const bool is_score = !named_format(std::string_view(name).substr(2));
             const std::string file = folder.file(name);
             const Outcome made = is_score ? run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file})
