@@ -51,7 +51,7 @@ void check_model(const DrawSettings& settings) {
                   {settings.fit_frames, "fit-frames", reason},
                   {settings.lesson.has_value(), "lesson", reason},
                   {settings.fills_page, "fill-page", reason},
-                  {settings.names_tiles, "name-tiles", "only SVG has elements with names"},
+                  {settings.names_tiles, "name-tiles", "only SVG has elements with names, and only PDF layers"},
                   {settings.border.has_value(), "border", reason},
                   {settings.title_line.has_value(), "title-line", reason},
                   {settings.repeat.has_value(), "repeat", reason},
@@ -240,15 +240,15 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     check_plot(settings, format);
     constexpr const char* trimmed = "applies only to trimmed prints, not to plots and tiles";
     const bool is_untrimmed = settings.plotter || settings.tile;
-    refuse_first(
-        {{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
-         {is_untrimmed && settings.press.marks, "marks", trimmed},
-         {is_untrimmed && settings.press.registration, "registration", trimmed},
-         {settings.window && settings.border && *settings.border != "none", "border",
-          "a border frames the whole drawing; a window shows only part of it"},
-         {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"},
-         {settings.names_tiles && format != PrintFormat::svg, "name-tiles", "only SVG has elements with names"},
-         {settings.names_tiles && settings.plotter, "name-tiles", "a plot has lines only, no tiles"}});
+    refuse_first({{is_untrimmed && settings.press.bleed > 0, "bleed", trimmed},
+                  {is_untrimmed && settings.press.marks, "marks", trimmed},
+                  {is_untrimmed && settings.press.registration, "registration", trimmed},
+                  {settings.window && settings.border && *settings.border != "none", "border",
+                   "a border frames the whole drawing; a window shows only part of it"},
+                  {settings.animation && !info(format).is_animated, "animate", "only SVG can draw itself"},
+                  {settings.names_tiles && format != PrintFormat::svg && format != PrintFormat::pdf, "name-tiles",
+                   "only SVG has elements with names, and only PDF layers"},
+                  {settings.names_tiles && settings.plotter, "name-tiles", "a plot has lines only, no tiles"}});
     check_lesson(settings, format);
     check_growth(settings, format);
 }

@@ -394,7 +394,7 @@ const std::array own_rows = {
               set_animation},
     Option<S>{{.name = "name-tiles",
                .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
-                       "direction and colour",
+                       "direction and colour; PDF with a layer for each shape, hand and colour of tiles",
                .group = kolams,
                .kind = flag},
               [](S& s, Text t) { s.names_tiles = is_true(t); }},

@@ -57,7 +57,7 @@ struct DrawSettings {
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     bool fills_page = false;           ///< cover the page with a tiling
-    bool names_tiles = false;          ///< identifiers and classes for the polygons of an SVG
+    bool names_tiles = false;          ///< see Print::names_tiles
     std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;          ///< sheet of a tiled print
     std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm

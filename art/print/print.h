@@ -37,7 +37,7 @@ struct Print {
     std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour
     std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
     std::optional<LessonPart> lesson;  ///< lesson of a part of an SVG: see PrintWriter::begin_part()
-    bool names_tiles = false;          ///< an SVG gives each polygon an identifier and classes
+    bool names_tiles = false;          ///< names for the polygons of an SVG, layers for those of a PDF
     Press press;                       ///< settings for the print shop
 };
 

@@ -427,12 +427,12 @@ void Sheet::arrange_slots() {
     plan_.layout.columns = static_cast<int>(cells_.size());
     plan_.layout.rows = 1;
     write_title(options_.page.margin);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
+    for (const SheetCell& given : cells_) {
         PlacedCell cell;
-        cell.window = *cells_[i].slot;
+        cell.window = *given.slot;
         cell.window.margin = border_margin * std::min(cell.window.width, cell.window.height);
         plan_.layout.letters = letters_of(cell.window.width);
-        write_caption(cells_[i], cell.window, plan_.layout.letters);
+        write_caption(given, cell.window, plan_.layout.letters);
         plan_.layout.windows.push_back(cell.window);
         plan_.cells.push_back(std::move(cell));
         const auto overlaps = [&](const PlacedCell& other) {
@@ -446,7 +446,7 @@ void Sheet::arrange_slots() {
         throw SettingError(
             "", "",
             fmt::format("the places of '{}' and '{}' overlap; in pictures each has its own ground",
-                        cells_[static_cast<std::size_t>(found - plan_.cells.begin())].title, cells_[i].title));
+                        cells_[static_cast<std::size_t>(found - plan_.cells.begin())].title, given.title));
     }
 }
 

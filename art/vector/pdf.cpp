@@ -1,8 +1,9 @@
 #include "art/vector/pdf.h"
 
+#include "art/vector/pdf_text.h"
 #include "art/vector/pdf_x.h"
+#include "art/vector/tile_kinds.h"
 #include "art/vector/vector_writer.h"
-#include "engine/base/diagnostic.h"
 #include "engine/base/hash.h"
 
 #include <zlib.h>
@@ -82,57 +83,6 @@ public:
 private:
     z_stream stream_{};
 };
-
-/// A text string: as it is if it is printable ASCII, else in UTF-16 with a byte order mark.
-std::string text_string(std::string_view text) {
-    const bool plain = std::all_of(text.begin(), text.end(), [](char byte) {
-        return (byte >= 0x20 && byte < 0x7F) || byte == '\n' || byte == '\t';
-    });
-    if (plain) {
-        std::string result = "(";
-        for (const char byte : text) {
-            if (byte == '(' || byte == ')' || byte == '\\') result += '\\';
-            result += byte;
-        }
-        return result + ')';
-    }
-    std::string result = "<FEFF";
-    const auto put = [&result](std::uint32_t unit) { fmt::format_to(std::back_inserter(result), "{:04X}", unit); };
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = utf8_length(text.substr(i));
-        const auto byte = [&](std::size_t k) {
-            return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
-        };
-        std::uint32_t code = 0xFFFD;
-        if (length > 0) {
-            // The first byte begins with as many ones as there are bytes, if there are several.
-            code = length == 1 ? byte(i) : byte(i) & (0x7Fu >> length);
-            for (std::size_t k = 1; k < length; ++k) code = code << 6 | (byte(i + k) & 0x3F);
-        }
-        i += std::max<std::size_t>(length, 1);
-        if (code >= 0x10000) {
-            put(0xD800 + ((code - 0x10000) >> 10));
-            put(0xDC00 + ((code - 0x10000) & 0x3FF));
-        } else {
-            put(code);
-        }
-    }
-    return result + '>';
-}
-
-/// Bytes that end or escape a name are written as #xx.
-std::string name_object(std::string_view name) {
-    std::string result = "/";
-    for (const char byte : name) {
-        const auto code = static_cast<unsigned char>(byte);
-        if (code > 0x20 && code < 0x7F && std::string_view("()<>[]{}/%#").find(byte) == std::string_view::npos) {
-            result += byte;
-        } else {
-            fmt::format_to(std::back_inserter(result), "#{:02X}", code);
-        }
-    }
-    return result;
-}
 
 inline char* put_point(char* out, Micrometres point) {
     out = put_number(out, point.x);
@@ -231,6 +181,7 @@ private:
     void end_part() {
         for (auto& [order, layer] : layers_) {
             end_path(layer);
+            if (order.first == LayerKind::polygons) show_kind(layer, no_kind);
             layer.text.append(layer.translucent ? "Q\n" : "Q\nEMC\n");
         }
         // An object that is under way in the file ends before the next begins.
@@ -243,7 +194,7 @@ private:
             begin_object(layer.length);
             write(fmt::format("{}\nendobj\n", layer.packed_bytes));
         }
-        std::string groups;
+        std::string groups, order_of_groups;
         if (part_ == &print_) begin_art();
         const std::string area = rectangle(window_, part_ == &print_ ? print_.press.bleed : 0.0);
         if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", area)));
@@ -252,6 +203,7 @@ private:
             write_group(group, "ground");
             fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
+            order_of_groups = groups;
             paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group,
                                                  ink(*ground, false, false), set_alpha(ground->alpha), area)));
         }
@@ -267,6 +219,12 @@ private:
             write_group(layer.group, layer.label);
             fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", layer.group, layer.group);
             fmt::format_to(std::back_inserter(groups), " {} 0 R", layer.group);
+            fmt::format_to(std::back_inserter(order_of_groups), " {} 0 R", layer.group);
+            if (order.first == LayerKind::polygons && !kind_groups_.empty()) {
+                const std::string kinds = write_kinds();
+                groups += kinds;
+                order_of_groups += " [" + kinds + " ]";
+            }
             int content = layer.stream;
             if (layer.translucent) {
                 fmt::format_to(std::back_inserter(forms_), "/X{} {} 0 R\n", layer.stream, layer.stream);
@@ -279,11 +237,39 @@ private:
         if (window_.clips) paint(write_plain_stream("Q\n"));
         groups_ += groups;
         if (part_ == &print_) {
-            order_ += groups;
+            order_ += order_of_groups;
         } else if (!groups.empty()) {
-            order_ += fmt::format(" [ {}{} ]", text_string(part_->title), groups);
+            order_ += fmt::format(" [ {}{} ]", text_string(part_->title), order_of_groups);
         }
         layers_.clear();
+    }
+
+    // --- groups of tiles, within that of all fills: the tiles of a kind, wherever they are painted
+    // -------------------
+
+    static constexpr std::size_t no_kind = ~std::size_t{0};
+
+    /// Assigns what follows to a kind of tiles, or to none.
+    void show_kind(Layer& layer, std::size_t kind) {
+        if (kind == kind_) return;
+        if (kind_ != no_kind) layer.text.append("EMC\n");
+        kind_ = kind;
+        if (kind == no_kind) return;
+        if (kind == kind_groups_.size()) kind_groups_.push_back(new_object());
+        layer.text.append(fmt::format("/OC /G{} BDC\n", kind_groups_[kind]));
+    }
+    /// Writes the groups of this part; returns the references to them.
+    std::string write_kinds() {
+        std::string references;
+        for (std::size_t i = 0; i < kind_groups_.size(); ++i) {
+            const int group = kind_groups_[i];
+            write_group(group, kinds_.labels()[i]);
+            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
+            fmt::format_to(std::back_inserter(references), " {} 0 R", group);
+        }
+        kind_groups_.clear();
+        kinds_ = {};
+        return references;
     }
 
     /// Completes the page. Its object is written with the others at the end.
@@ -479,6 +465,7 @@ private:
 
     void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
         Layer& layer = polygon_layer(colour);
+        if (print_.names_tiles) show_kind(layer, kinds_.kind_of(vertices, colour));
         const MicrometrePlacement place = place_;
         bool first = true;
         while (!vertices.empty()) {
@@ -497,6 +484,7 @@ private:
 
     void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
         Layer& layer = polygon_layer(colour);
+        show_kind(layer, no_kind);
         const MicrometrePlacement place = place_;
         layer.text.filled_to(put_operator(put_point(layer.text.room(line_room), place(outline.front())), 'm'));
         outline = outline.subspan(1);
@@ -741,6 +729,9 @@ private:
     std::string order_;            ///< the same as a reader lists them: those of a part together
     std::string properties_;       ///< and as resources
     std::string forms_;
+    TileKinds kinds_;               ///< of the part that is being drawn
+    std::vector<int> kind_groups_;  ///< and the numbers of their groups
+    std::size_t kind_ = no_kind;    ///< what is being painted
     /// A completed page.
     struct PageEntry {
         int object;

@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <map>
 #include <random>
+#include <sstream>
 
 namespace sikku {
 namespace {
@@ -122,6 +124,57 @@ TEST_F(Pdf, LayersAreNamedAndInOrder) {
     for (const std::string name : {"ground", "fills", "1 black", "2 red", "3 blue", "discs red", "discs blue"}) {
         EXPECT_NE(text.find("/Name (" + name + ")"), std::string::npos) << name;
     }
+}
+
+/// The polygons between the marks of each layer are those of its kind, and all keep their order.
+TEST_F(Pdf, KindsOfTilesAreLayers) {
+    NEEDS("qpdf");
+    Print print = plain_print();
+    print.names_tiles = true;
+    print.style.fill.reset();
+    const Points square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, hook = {{0, 0}, {3, 0}, {3, 1}, {0, 2}},
+                 mirrored = {{0, 0}, {0, 2}, {-3, 1}, {-3, 0}};
+    const auto draw = [&](PathSink& sink) {
+        for (const int colour : {1, 1, 2, 1}) sink.polygon(square, Pen{1.0, false, colour});
+        sink.polygon(hook, Pen{1.0, false, 1});
+        sink.polygon(mirrored, Pen{1.0, false, 1});
+        sink.polygon(square, Pen{1.0, false, 2});
+    };
+    const auto path = write(print, draw);
+    EXPECT_EQ(complaints(path), "");
+    const std::string text = plain_text(path);
+    std::vector<std::string> groups;
+    for (const std::string name : {"shape 1 red", "shape 1 blue", "shape 2 red", "shape 2 reflected red"}) {
+        const std::size_t at = text.find("/Name (" + name + ")");
+        ASSERT_NE(at, std::string::npos) << name;
+        const std::size_t object = text.rfind(" 0 obj", at);
+        groups.push_back(text.substr(text.rfind('\n', object) + 1, object - text.rfind('\n', object) - 1));
+    }
+    // qpdf renumbers objects but not names of resources; the properties translate.
+    std::map<std::string, std::size_t> kind_of;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const std::size_t at = text.find(' ' + groups[i] + " 0 R", text.find("/Properties"));
+        const std::size_t name = text.rfind("/G", at);
+        kind_of[text.substr(name + 1, at - name - 1)] = i;
+    }
+    std::istringstream lines(text.substr(text.find("BDC\n", text.find(" cm 1 J 1 j") - 200)));
+    std::vector<std::size_t> order;
+    std::size_t kind = 99, open = 0;
+    for (std::string line; std::getline(lines, line) && line != "Q";) {
+        if (line.starts_with("/OC /G")) {
+            kind = kind_of.at(line.substr(5, line.find(' ', 5) - 5));
+            EXPECT_EQ(open++, 0U);
+        } else if (line == "EMC") {
+            EXPECT_EQ(open--, 1U);
+        } else if (line == "f") {
+            order.push_back(kind);
+        }
+    }
+    EXPECT_EQ(open, 0U);
+    EXPECT_EQ(order, (std::vector<std::size_t>{0, 0, 1, 0, 2, 3, 1}));
+    // The picture is the same, and without the setting there are no such layers.
+    print.names_tiles = false;
+    EXPECT_EQ(plain_text(write(print, draw, "plain-layers.pdf")).find("/Name (shape"), std::string::npos);
 }
 
 TEST_F(Pdf, WhatIsHiddenOfAClosedStrokeStaysHidden) {
