@@ -272,11 +272,11 @@ void Notator::finish(std::int64_t end) {
 
 /// Takes notes that begin with the same symbol as one of a voice before out of their voices.
 void Notator::gather_chords(const Part& part, std::size_t first_voice) {
-    std::map<std::pair<std::uint64_t, std::int64_t>, const Note*> first;
+    std::map<ChordPlace, const Note*> first;
     for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(part.voices); ++i) {
         std::vector<Note> kept;
         for (const Note& note : voices_[i]) {
-            const std::pair place(note.symbol, note.onset);
+            const ChordPlace place(&part, note.symbol, note.onset);
             const auto known = first.find(place);
             if (note.symbol == 0 || known == first.end() || known->second->duration != note.duration) {
                 kept.push_back(note);
@@ -285,7 +285,7 @@ void Notator::gather_chords(const Part& part, std::size_t first_voice) {
             }
         }
         voices_[i] = std::move(kept);
-        for (const Note& note : voices_[i]) first.try_emplace({note.symbol, note.onset}, &note);
+        for (const Note& note : voices_[i]) first.try_emplace({&part, note.symbol, note.onset}, &note);
     }
 }
 
@@ -355,7 +355,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part
     const Grid grid = grid_of(notes, meter_);
     std::vector<std::vector<double>> chords(notes.size());
     for (std::size_t i = 0; i < notes.size() && !chords_.empty(); ++i) {
-        const auto chord = chords_.find({notes[i].symbol, notes[i].onset});
+        const auto chord = chords_.find({&part, notes[i].symbol, notes[i].onset});
         if (chord != chords_.end()) chords[i] = chord->second;
     }
     // Notes that come from several voices may lie on several grids.

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,8 @@ public:
     const Notation& notation() const { return notation_; }
 
 private:
+    using ChordPlace = std::tuple<const Part*, std::uint64_t, std::int64_t>;
+
     void notate_part(const Part& part, std::size_t first_voice);
     void gather_chords(const Part& part, std::size_t first_voice);
     void notate_drums(const Part& part, std::size_t first_voice);
@@ -144,8 +147,8 @@ private:
     std::vector<Part> parts_;
     Meter meter_;
     std::vector<std::vector<Note>> voices_;
-    /// Other notes of chords, by the symbol and the part of their first note, with its onset.
-    std::map<std::pair<std::uint64_t, std::int64_t>, std::vector<double>> chords_;
+    /// Other notes of chords, by the part, symbol and onset of their first note.
+    std::map<ChordPlace, std::vector<double>> chords_;
     std::size_t count_ = 0;
     Notation notation_;
 };

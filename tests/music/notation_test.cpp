@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -68,6 +69,30 @@ std::string words(const Meter& meter, const std::vector<std::int64_t>& lengths) 
 }
 
 constexpr std::int64_t eighth = 240;
+
+TEST(Notation, ChordsStayInTheirPart) {
+    // Both parts come from patterns of their own, so that their symbols have the same numbers.
+    TestScore score;
+    score.head.title = "A note and a chord";
+    score.head.parts = {plain_part("Bass", 1), plain_part("Chords", 3)};
+    score.head.parts[1].has_chords = true;
+    for (const auto& [voice, key] :
+         std::vector<std::pair<std::int16_t, double>>{{0, 48}, {1, 60}, {2, 64}, {3, 67}}) {
+        Note note;
+        note.duration = 480;
+        note.voice = voice;
+        note.key = key;
+        note.symbol = 1;
+        score.notes.push_back(note);
+    }
+    score.end = 480;
+    const Notation notation = notate(score);
+    const auto others = [&](std::size_t part) {
+        return notation.parts[part].staves.front().voices.front().symbols.front().chord.size();
+    };
+    EXPECT_EQ(others(0), 0U);
+    EXPECT_EQ(others(1), 2U);
+}
 
 TEST(Notation, FiveUnitsAreFourAndOne) {
     for (const auto& [unit, expected] : std::vector<std::pair<std::int64_t, std::string>>{
