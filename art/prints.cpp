@@ -197,6 +197,7 @@ private:
         refuse(print_.style.weave.has_value(), "weave", "weave", "none");
         refuse(print_.style.parallel.count > 1, "parallel lines", "parallel", "1");
         refuse(print_.style.tile_colours.has_value(), "colours of tiles", "tile colours", "none");
+        refuse(print_.style.decoration.is_set(), "decorated tiles", "decorate", "none");
         refuse(print_.style.tile_edges != TileEdges::each, "edges of tiles", "tile edges", "each");
     }
 

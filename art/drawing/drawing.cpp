@@ -125,7 +125,7 @@ std::unique_ptr<Drawing> make_map_drawing(const Grammar& grammar, const Style& s
 std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const Style& style,
                                     const DrawOptions& options) {
     if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
-    if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), options);
+    if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), seed, options);
     if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
     if (!(style.hand > 0) && !options.lesson_step) return drawing;
     auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), seed, options);
@@ -161,7 +161,7 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
         throw std::runtime_error("repeats, borders and lines of text apply only to drawings in the plane");
     }
     if (shared->is_spatial() && has_tile_work(style)) {
-        throw std::runtime_error("'tile colours' and 'tile edges' apply only to drawings in the plane");
+        throw std::runtime_error("'tile colours', 'tile edges' and 'decorate' apply only to drawings in the plane");
     }
     if (shared->is_spatial() && (style.hand > 0 || options.lesson_step)) {
         throw std::runtime_error("hand-drawn lines and lessons apply only to drawings in the plane");

@@ -1,6 +1,7 @@
 #include "art/drawing/tile_drawing.h"
 
 #include "art/drawing/tile_colours.h"
+#include "art/drawing/tile_decorator.h"
 #include "art/plotter/plot_join.h"
 #include "art/plotter/plot_layer.h"
 #include "art/print/ornaments.h"
@@ -64,6 +65,7 @@ public:
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         if (!drawn_.tile_colours) return sink_.polygon(vertices, pen);
+        if (*drawn_.tile_colours == TileColours::blank) return;
         const std::uint32_t number = numbers_ ? (*numbers_)[next_++] : class_of(vertices);
         sink_.polygon(vertices, Pen{.colour = static_cast<int>(drawn_.palette.size() + number % colours_)});
     }
@@ -97,6 +99,24 @@ private:
     PolygonClasses classes_;
 };
 
+/// Collects the polygons of a drawing for its decoration.
+class DecorationGatherer : public PathSink {
+public:
+    explicit DecorationGatherer(TileDecorator& decorator) : decorator_(decorator) {}
+
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { decorator_.add(vertices, pen); }
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    TileDecorator& decorator_;
+};
+
 class NoPolygons : public PathFilter {
 public:
     using Forwarding::Forwarding;
@@ -106,16 +126,17 @@ public:
 }  // namespace
 
 bool has_tile_work(const Style& style) {
-    return style.tile_colours || style.tile_edges != TileEdges::each;
+    return style.tile_colours || style.tile_edges != TileEdges::each || style.decoration.is_set();
 }
 
-TileDrawing::TileDrawing(std::unique_ptr<Drawing> drawing, const DrawOptions& options)
-    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
+TileDrawing::TileDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options)
+    : Drawing(options), drawing_(std::move(drawing)), seed_(seed), drawn_(drawing_->style()), style_(drawn_) {
     options_.placement.step = drawing_->fixed_step();
     if (style_.line == Line::spline) {
-        throw std::runtime_error("'tile colours' and 'tile edges' need straight lines; this drawing has splines");
+        throw std::runtime_error(
+            "'tile colours', 'tile edges' and 'decorate' need straight lines; this drawing has splines");
     }
-    if (!style_.tile_colours) return;
+    if (!style_.tile_colours || *style_.tile_colours == TileColours::blank) return;
     std::vector<Colour> others;
     if (drawn_.stroked) others.push_back(drawn_.line_colour({}));
     if (drawn_.ground) others.push_back(*drawn_.ground);
@@ -131,7 +152,8 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     if (!unites && !needs_neighbours) {
         TilePainter painter(sink, drawn_, colours_, nullptr);
         OldColours inner(painter, drawn_);
-        return drawing_->read(print, window, inner);
+        drawing_->read(print, window, inner);
+        return decorate(print, window, old);
     }
     UnitedLines united(options_.budget / nodes_of_tile_edge);
     TileGatherer gatherer(united, drawn_);
@@ -150,6 +172,15 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     const bool fills = !is_plot || !unites || (options_.plot && options_.plot->hatch);
     drawing_->read(print, window, fills ? static_cast<PathSink&>(inner) : bare);
     if (unites) draw_lines(found.lines, old);
+    decorate(print, window, old);
+}
+
+void TileDrawing::decorate(const Print& print, const Window& window, PathSink& sink) const {
+    if (!drawn_.decoration.is_set()) return;
+    TileDecorator decorator(drawn_, seed_, options_.budget / nodes_of_tile_edge);
+    DecorationGatherer gatherer(decorator);
+    drawing_->read(print, window, gatherer);
+    decorator.draw(sink, options_.monitor);
 }
 
 std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const UnitedLines::Result& found) const {

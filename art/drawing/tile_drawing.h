@@ -5,39 +5,44 @@
 #include "art/drawing/united_lines.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace sikku {
 
-/// True if a style requests colours of tiles, or their edges otherwise than each tile draws them.
+/// True if a style requests colours or decorations of tiles, or their edges otherwise than each tile draws them.
 bool has_tile_work(const Style& style);
 
 /// Cost of a tile's edge in nodes, by memory and time.
 constexpr double nodes_of_tile_edge = 20;
 
 /// Colours the polygons of another drawing by `tile colours`, and draws edges as `tile edges` requests: first the
-/// polygons, then their edges and all other straight lines, each piece once and joined into long strokes.
+/// polygons, then their edges and all other straight lines, each piece once and joined into long strokes; then their
+/// decoration.
 class TileDrawing : public Drawing {
 public:
-    /// @throws std::runtime_error if the lines are splines
-    TileDrawing(std::unique_ptr<Drawing> drawing, const DrawOptions& options);
+    /// @param seed  of the chances of decorations  @throws std::runtime_error if the lines are splines
+    TileDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options);
 
     const DrawnExtent& seen() override { return drawing_->seen(); }
     const Style& style() const override { return style_; }
     double scale() const override { return drawing_->scale(); }
     double dot_distance() const override { return drawing_->dot_distance(); }
     Balance balance() const override { return drawing_->balance(); }
-    /// Reads the drawing twice, unless colours depend only on the tiles themselves and edges are those of each tile.
+    /// Reads the drawing once, and once more if colours depend on neighbours or edges are not those of each tile, and
+    /// once more for a decoration.
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     void report(DrawReport& report) const override { drawing_->report(report); }
 
 private:
     std::vector<std::uint32_t> numbers(const UnitedLines& united, const UnitedLines::Result& found) const;
+    void decorate(const Print& print, const Window& window, PathSink& sink) const;
     void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const;
 
     std::unique_ptr<Drawing> drawing_;
+    std::uint64_t seed_;
     Style drawn_;              ///< style of the other drawing
     Style style_;              ///< with the colours of tiles added
     std::size_t colours_ = 0;  ///< number of these

@@ -156,7 +156,14 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
         }
         if (left.empty() != right.empty()) result.border.push_back(owner(*(left.empty() ? right : left).begin()));
         const bool is_inner = !left.empty() && !right.empty();
-        if (lines.empty() || kept == Kept::none || (kept == Kept::border && is_inner)) return false;
+        if (kept == Kept::sides && !(left.empty() && right.empty())) {
+            const auto tile = [&](const std::set<std::uint32_t>& over) {
+                return over.empty() ? std::nullopt : std::optional(owner(*over.begin()));
+            };
+            result.sides.push_back({point(from), point(to), tile(left), tile(right)});
+        }
+        if (lines.empty() || kept == Kept::none || kept == Kept::sides || (kept == Kept::border && is_inner))
+            return false;
         const std::uint32_t first = *lines.begin();
         const Pen& pen = pens_[owner(first)];
         if (touches && drawn.back().line.pen == pen) {

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,17 +19,24 @@ namespace sikku {
 /// Lines count as one if they deviate by less than a billionth of the drawing's size.
 class UnitedLines {
 public:
-    /// Pieces that remain: all of them, those that do not lie between two tiles, or none.
-    enum class Kept : std::uint8_t { all, border, none };
+    /// Pieces that remain: all of them, those that do not lie between two tiles, or none; `sides`: no pieces of
+    /// lines, but those of the edges of tiles.
+    enum class Kept : std::uint8_t { all, border, none, sides };
     struct Line {
         glm::dvec2 from, to;
         Pen pen;
+    };
+    /// A piece of an edge, with the tiles on either side of it; at least one.
+    struct Side {
+        glm::dvec2 from, to;
+        std::optional<std::uint32_t> left, right;
     };
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     struct Result {
         std::vector<Line> lines;  ///< in the order in which they were drawn first, with the pen that drew them first
         std::vector<Pair> neighbours;  ///< tiles that share a piece, the smaller number first; ascending, each once
         std::vector<std::uint32_t> border;  ///< tiles with a piece that no other tile shares, ascending
+        std::vector<Side> sides;            ///< of Kept::sides, line by line
     };
 
     /// @param most  edges and lines kept

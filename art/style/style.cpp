@@ -378,11 +378,16 @@ void read_fields(const Key& key, Style& style, Diagnostics& diagnostics) {
 
 void read_tile_colours(const Key& key, Style& style, Diagnostics& diagnostics) {
     using Way = std::pair<std::string_view, std::optional<TileColours>>;
-    constexpr std::array ways = {Way{"shape", TileColours::shape},           Way{"hand", TileColours::hand},
-                                 Way{"direction", TileColours::direction},   Way{"distance", TileColours::distance},
-                                 Way{"neighbours", TileColours::neighbours}, Way{"none", std::nullopt}};
+    constexpr std::array ways = {Way{"shape", TileColours::shape},
+                                 Way{"hand", TileColours::hand},
+                                 Way{"direction", TileColours::direction},
+                                 Way{"distance", TileColours::distance},
+                                 Way{"neighbours", TileColours::neighbours},
+                                 Way{"blank", TileColours::blank},
+                                 Way{"none", std::nullopt}};
     style.tile_colours =
-        read_choice(key, ways, "by shape, by hand, by direction, by distance, by neighbours or none", diagnostics)
+        read_choice(key, ways, "by shape, by hand, by direction, by distance, by neighbours, blank or none",
+                    diagnostics)
             .value_or(std::nullopt);
 }
 
@@ -561,6 +566,7 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     if (const Key* key = pattern.find("fields")) read_fields(*key, style, diagnostics);
     if (const Key* key = pattern.find("tile colours")) read_tile_colours(*key, style, diagnostics);
     if (const Key* key = pattern.find("tile edges")) read_tile_edges(*key, style, diagnostics);
+    if (const Key* key = pattern.find("decorate")) style.decoration = read_decoration(*key, diagnostics);
     if (const Key* key = pattern.find("powders")) read_powders(*key, style, diagnostics);
     if (const Key* key = pattern.find("weave")) read_weave(*key, style, diagnostics);
     if (const Key* key = pattern.find("parallel")) read_parallel(*key, style, diagnostics);

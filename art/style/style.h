@@ -4,6 +4,7 @@
 
 #include "art/style/camera.h"
 #include "art/style/colour.h"
+#include "art/style/decoration.h"
 #include "art/style/light.h"
 #include "art/style/map_style.h"
 #include "engine/geometry/path.h"
@@ -46,8 +47,8 @@ struct BorderStyle {
 /// or none.
 enum class TileEdges : std::uint8_t { each, once, border, none };
 
-/// The property that determines the colour of a polygon.
-enum class TileColours : std::uint8_t { shape, hand, direction, distance, neighbours };
+/// The property that determines the colour of a polygon; `blank`: it is not filled.
+enum class TileColours : std::uint8_t { shape, hand, direction, distance, neighbours, blank };
 
 /// The property that determines the colour of a field between lines.
 enum class FieldsBy { chessboard, kind, distance, centre, strand, symmetry };
@@ -74,6 +75,7 @@ struct Style {
     std::optional<FieldsBy> fields;       ///< absent: fields between lines are not filled
     TileEdges tile_edges = TileEdges::each;
     std::optional<TileColours> tile_colours;  ///< absent: polygons have the colours of their pens
+    TileDecoration decoration;                ///< lines on polygons
     std::vector<Colour> powders;     ///< colours of fields, transparent for `none`; empty: the first set of powders
     bool powders_are_named = false;  ///< a set by its name, from which colours of the lines are left out
     std::optional<double> weave;     ///< gap beside upper strands, in stroke widths; absent: no weave
