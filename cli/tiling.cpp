@@ -1,9 +1,12 @@
 // cli/tiling.cpp: `sikku tiling`: examines whether the polygons of a pattern or a file tile a region.
 #include "engine/tiling/tiling.h"
 #include "art/reading/polygon_files.h"
+#include "art/style/length.h"
+#include "art/tile_templates.h"
 #include "cli/command.h"
 #include "engine/base/input_file.h"
 #include "engine/derivation/derivation.h"
+#include "engine/tiling/cut_list.h"
 #include "engine/tiling/tiling_text.h"
 
 #include <fmt/format.h>
@@ -59,6 +62,50 @@ void examine_file(const std::string& file, double tolerance, bool as_json, bool 
     fmt::print("{}", tiling_text(title, std::nullopt, result.second.examination, growth));
 }
 
+/// Options for those who cut the pieces.
+struct CutOptions {
+    bool lists = false;
+    std::string step = "10mm";
+    std::string seam;  ///< empty: no templates
+    std::string kerf = "0mm";
+    std::string output;
+};
+
+double length_in(const char* option, const std::string& text, double least, double most) {
+    const auto length = parse_length(text, 300);
+    if (!length || !(*length >= least && *length <= most)) {
+        throw UsageError(fmt::format("--{} {}: expected a length from {} mm to {} mm", option, text, least, most));
+    }
+    return *length;
+}
+
+/// Prints the list of pieces, or writes their templates.
+void cut(const CutOptions& options, bool as_json, const Document& document, const TilingResult& result) {
+    const double step = length_in("step", options.step, 0.001, 10'000);
+    const std::string title = document.text("title");
+    const std::int64_t n = document.grammar().steps();
+    if (options.lists) {
+        fmt::print("{}", as_json ? cut_list_json(title, n, result, step) : cut_list_text(title, n, result, step));
+    }
+    if (options.seam.empty()) return;
+    TemplateOptions templates;
+    templates.seam = length_in("templates", options.seam, 0, 100);
+    templates.kerf = length_in("kerf", options.kerf, 0, 10);
+    templates.title = title;
+    templates.pattern = document.source().text();
+    write_templates(cut_list(result, step), templates, *print_format(options.output), options.output, file_system());
+}
+
+/// Checks what can be checked before anything is derived.
+void check(const CutOptions& options) {
+    const auto format = print_format(options.output);
+    if (options.seam.empty()) return;
+    if (format != PrintFormat::svg && format != PrintFormat::pdf && format != PrintFormat::dxf) {
+        throw UsageError(fmt::format("--templates needs -o with a name that ends in .svg, .pdf or .dxf{}",
+                                     options.output.empty() ? "" : ", not '" + options.output + "'"));
+    }
+}
+
 }  // namespace
 
 void add_tiling(CLI::App& app, bool& quiet) {
@@ -83,6 +130,17 @@ void add_tiling(CLI::App& app, bool& quiet) {
             double value = 0;
             return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
         });
+    auto cutting = std::make_shared<CutOptions>();
+    auto* lists = command->add_flag("--cut-list", cutting->lists,
+                                    "list the pieces by kind: number, hand, colour, area and sides");
+    auto* seam = command->add_option("--templates", cutting->seam,
+                                     "draw an outline of each shape with this seam allowance, 0 to 100mm, into -o");
+    command->add_option("--step", cutting->step, "length of a step, for --cut-list and --templates (10mm)");
+    command->add_option("--kerf", cutting->kerf, "width of the cut, 0 to 10mm: templates grow by half of it (0mm)")
+        ->needs(seam);
+    command->add_option("-o,--output", cutting->output, "file of the templates: .svg, .pdf or .dxf")->needs(seam);
+    lists->excludes("--counts");
+    seam->excludes("--counts");
     add_budget_option(*command, *budget);
     command->footer(
         "A tile is a closed polygon { }; its corners are the points where it turns. Tiles form a tiling of a region "
@@ -101,6 +159,10 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "polygons are the tiles: paths of straight lines, polygon and rect, with their transforms; without fills, "
         "all "
         "closed lines. Curves are refused with their line. Such a file has no n and no growth.\n\n"
+        "Templates are for single pieces. The kerf widens their outlines by half on each side; in a drawing of the "
+        "whole "
+        "tiling neighbours share their edges, so that no kerf can be made up for there. Labels give the names of "
+        "--cut-list and numbers of pieces. Seams are dashed.\n\n"
         "The exit status is 0 whether or not the drawing is a tiling. Keys of --json: title, n, tiling, exact, "
         "tolerance, lattice (k, rank, basis: where the coordinates' units point), polygons, tiles, violations, "
         "violation_list (fault: open, empty, crossing, duplicate or overlap; tile, other, at, origins: lines and "
@@ -115,10 +177,13 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "  sikku tiling hat -n 4\n"
         "  sikku tiling spectre -n 60 --counts\n"
         "  sikku tiling chair --json\n"
-        "  sikku tiling polygons.svg --tolerance 0.01");
-    command->callback([command, options, counts, as_json, budget, tolerance, &quiet] {
+        "  sikku tiling polygons.svg --tolerance 0.01\n"
+        "  sikku tiling penrose-rhombs --cut-list --step 40mm\n"
+        "  sikku tiling hat --templates 6mm --step 20mm -o hat.pdf");
+    command->callback([command, options, counts, as_json, budget, tolerance, cutting, &quiet] {
         if (has_polygons(options->pattern)) {
-            for (const char* name : {"--steps", "--set", "--variant", "--seed", "--counts", "--budget"}) {
+            for (const char* name : {"--steps", "--set", "--variant", "--seed", "--counts", "--budget", "--cut-list",
+                                     "--templates", "--step"}) {
                 if (command->count(name) == 0) continue;
                 throw UsageError(fmt::format("{} applies to patterns, not to a file of polygons", name));
             }
@@ -127,6 +192,7 @@ void add_tiling(CLI::App& app, bool& quiet) {
         if (*tolerance > 0) {
             throw UsageError("--tolerance applies to a .json or .svg file of polygons, not to patterns");
         }
+        check(*cutting);
         const Document loaded = load(*options, quiet);
         require_turtle(loaded, "it draws no tiles");
         const std::string title = loaded.text("title");
@@ -148,6 +214,7 @@ void add_tiling(CLI::App& app, bool& quiet) {
             }
         };
         TilingResult result = examine();
+        if (cutting->lists || !cutting->seam.empty()) return cut(*cutting, *as_json, loaded, result);
         find_origins(loaded, result.examination, how.monitor);
         if (!*as_json) {
             fmt::print("{}", tiling_text(title, n, result.examination, growth));

@@ -60,14 +60,15 @@ private:
 class TilePainter : public PathFilter {
 public:
     /// @param numbers  of the polygons in their order; absent: by their classes
-    TilePainter(PathSink& sink, const Style& drawn, std::size_t colours, const std::vector<std::uint32_t>* numbers)
-        : Forwarding(sink), drawn_(drawn), colours_(colours), numbers_(numbers) {}
+    TilePainter(PathSink& sink, const Style& drawn, std::size_t first, std::size_t colours,
+                const std::vector<std::uint32_t>* numbers)
+        : Forwarding(sink), drawn_(drawn), first_(first), colours_(colours), numbers_(numbers) {}
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         if (!drawn_.tile_colours) return sink_.polygon(vertices, pen);
         if (*drawn_.tile_colours == TileColours::blank) return;
         const std::uint32_t number = numbers_ ? (*numbers_)[next_++] : class_of(vertices);
-        sink_.polygon(vertices, Pen{.colour = static_cast<int>(drawn_.palette.size() + number % colours_)});
+        sink_.polygon(vertices, Pen{.colour = static_cast<int>(first_ + number % colours_)});
     }
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         if (draws_lines()) sink_.begin_stroke(start, pen);
@@ -93,6 +94,7 @@ private:
     }
 
     const Style& drawn_;
+    std::size_t first_;  ///< index of the first colour
     std::size_t colours_;
     const std::vector<std::uint32_t>* numbers_;
     std::size_t next_ = 0;
@@ -136,13 +138,29 @@ TileDrawing::TileDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, c
         throw std::runtime_error(
             "'tile colours', 'tile edges' and 'decorate' need straight lines; this drawing has splines");
     }
+    if (options.format == PrintFormat::dxf && drawn_.stroked && drawn_.tile_edges == TileEdges::once) add_layers();
     if (!style_.tile_colours || *style_.tile_colours == TileColours::blank) return;
     std::vector<Colour> others;
     if (drawn_.stroked) others.push_back(drawn_.line_colour({}));
     if (drawn_.ground) others.push_back(*drawn_.ground);
     const std::vector<Colour> powders = fill_powders(style_, others);
     colours_ = powders.size();
+    first_colour_ = style_.palette.size();
     style_.palette.insert(style_.palette.end(), powders.begin(), powders.end());
+}
+
+/// Cutters work layer by layer and distinguish layers by colour, too.
+void TileDrawing::add_layers() {
+    layers_ = static_cast<int>(style_.palette.size());
+    constexpr Colour blue{0, 0, 255, 255};
+    constexpr Colour red{255, 0, 0, 255};
+    for (Colour colour : {blue, red}) {
+        // Equal colours share a layer.
+        while (std::find(style_.palette.begin(), style_.palette.end(), colour) != style_.palette.end())
+            ++colour.green;
+        style_.palette.push_back(colour);
+    }
+    style_.cut_layers = {{*layers_, "INNER"}, {*layers_ + 1, "BORDER"}};
 }
 
 void TileDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
@@ -150,7 +168,7 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     const bool needs_neighbours = drawn_.tile_colours && depends_on_neighbours(*drawn_.tile_colours);
     const bool unites = drawn_.tile_edges != TileEdges::each;
     if (!unites && !needs_neighbours) {
-        TilePainter painter(sink, drawn_, colours_, nullptr);
+        TilePainter painter(sink, drawn_, first_colour_, colours_, nullptr);
         OldColours inner(painter, drawn_);
         drawing_->read(print, window, inner);
         return decorate(print, window, old);
@@ -158,20 +176,27 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     UnitedLines united(options_.budget / nodes_of_tile_edge);
     TileGatherer gatherer(united, drawn_);
     drawing_->read(print, window, gatherer);
-    const auto kept = drawn_.tile_edges == TileEdges::once     ? UnitedLines::Kept::all
+    const auto kept = layers_                                  ? UnitedLines::Kept::apart
+                      : drawn_.tile_edges == TileEdges::once   ? UnitedLines::Kept::all
                       : drawn_.tile_edges == TileEdges::border ? UnitedLines::Kept::border
                                                                : UnitedLines::Kept::none;
     const UnitedLines::Result found = united.unite(kept, options_.monitor);
     const std::vector<std::uint32_t> chosen =
         needs_neighbours ? numbers(united, found) : std::vector<std::uint32_t>{};
-    TilePainter painter(sink, drawn_, colours_, needs_neighbours ? &chosen : nullptr);
+    TilePainter painter(sink, drawn_, first_colour_, colours_, needs_neighbours ? &chosen : nullptr);
     OldColours inner(painter, drawn_);
     // A pen that does not hatch draws only the outlines of polygons, which are among the lines.
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
     NoPolygons bare(inner);
     const bool fills = !is_plot || !unites || (options_.plot && options_.plot->hatch);
     drawing_->read(print, window, fills ? static_cast<PathSink&>(inner) : bare);
-    if (unites) draw_lines(found.lines, old);
+    if (layers_) {
+        std::vector<UnitedLines::Line> lines = found.lines;
+        for (UnitedLines::Line& line : lines) line.pen.colour = *layers_ + (line.is_inner ? 0 : 1);
+        draw_lines(lines, sink);
+    } else if (unites) {
+        draw_lines(found.lines, old);
+    }
     decorate(print, window, old);
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sikku {
@@ -38,14 +39,17 @@ public:
 
 private:
     std::vector<std::uint32_t> numbers(const UnitedLines& united, const UnitedLines::Result& found) const;
+    void add_layers();
     void decorate(const Print& print, const Window& window, PathSink& sink) const;
     void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const;
 
     std::unique_ptr<Drawing> drawing_;
     std::uint64_t seed_;
-    Style drawn_;              ///< style of the other drawing
-    Style style_;              ///< with the colours of tiles added
-    std::size_t colours_ = 0;  ///< number of these
+    Style drawn_;                   ///< style of the other drawing
+    Style style_;                   ///< with the colours of tiles added
+    std::size_t first_colour_ = 0;  ///< index of the first of these
+    std::size_t colours_ = 0;       ///< number of these
+    std::optional<int> layers_;     ///< colour of inner edges in layers for cutting; that of the border is the next
 };
 
 }  // namespace sikku

@@ -166,11 +166,12 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
             return false;
         const std::uint32_t first = *lines.begin();
         const Pen& pen = pens_[owner(first)];
-        if (touches && drawn.back().line.pen == pen) {
+        if (touches && drawn.back().line.pen == pen &&
+            (kept != Kept::apart || drawn.back().line.is_inner == is_inner)) {
             drawn.back().first = std::min(drawn.back().first, first);
             drawn.back().line.to = point(to);
         } else {
-            drawn.push_back({first, {point(from), point(to), pen}});
+            drawn.push_back({first, {point(from), point(to), pen, is_inner}});
         }
         return true;
     };

@@ -19,12 +19,14 @@ namespace sikku {
 /// Lines count as one if they deviate by less than a billionth of the drawing's size.
 class UnitedLines {
 public:
-    /// Pieces that remain: all of them, those that do not lie between two tiles, or none; `sides`: no pieces of
-    /// lines, but those of the edges of tiles.
-    enum class Kept : std::uint8_t { all, border, none, sides };
+    /// Pieces that remain: all of them, also with those that do not lie between two tiles `apart` from the others,
+    /// those that do not lie between two tiles, or none; `sides`: no pieces of lines, but those of the edges of
+    /// tiles.
+    enum class Kept : std::uint8_t { all, apart, border, none, sides };
     struct Line {
         glm::dvec2 from, to;
         Pen pen;
+        bool is_inner = false;  ///< between two tiles
     };
     /// A piece of an edge, with the tiles on either side of it; at least one.
     struct Side {

@@ -39,10 +39,6 @@ glm::dvec2 rounded(glm::dvec2 millimetres) {
     return {std::round(millimetres.x * 1e4) / 1e4, std::round(millimetres.y * 1e4) / 1e4};
 }
 
-std::string layer_of(int pen) {
-    return fmt::format("PEN-{}", pen);
-}
-
 std::string place(glm::dvec2 at, int first_code = 10) {
     return fmt::format("{}\n{}\n{}\n{}\n", first_code, decimal(at.x, 4), first_code + 10, decimal(at.y, 4));
 }
@@ -118,6 +114,13 @@ private:
             file_.write(layer(layer_of(pen), standard_colour(colour)));
         }
         file_.write("0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+    }
+    std::string layer_of(int pen) const {
+        for (const auto& [index, number] : numbers()) {
+            const auto name = print_.style.cut_layers.find(index);
+            if (number == pen && name != print_.style.cut_layers.end()) return name->second;
+        }
+        return fmt::format("PEN-{}", pen);
     }
     static std::string layer(std::string_view name, int colour) {
         return fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", name, colour);

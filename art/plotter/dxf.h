@@ -11,7 +11,8 @@ namespace sikku {
 
 /// Begins the file: DXF of release 12, which every CAD program reads. Millimetres with 4 decimals, from the bottom
 /// left corner of the page, y up. A stroke is a LINE or a POLYLINE, closed where the stroke is; curves are flattened
-/// to lines that stay within 0.01 mm. Pen n has the layer PEN-n, in the nearest of the seven standard colours, which
+/// to lines that stay within 0.01 mm. Pen n has the layer PEN-n, or that of
+/// Style::cut_layers, in the nearest of the seven standard colours, which
 /// other programs may show as they like. Widths are left out: a laser has its own. The recipe is stored in comments,
 /// which readers ignore. `print` and `file` are kept by reference. After finish() the file is complete, but not
 /// committed.

@@ -136,8 +136,8 @@ private:
         return static_cast<int>(*number);
     }
 
-    bool complain(const Span& at, std::string message) {
-        diagnostics_.error(at, std::move(message));
+    bool complain(const Span& at, const std::string& message) {
+        diagnostics_.error(at, message);
         has_failed_ = true;
         return false;
     }

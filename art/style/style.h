@@ -11,6 +11,7 @@
 #include "engine/language/pattern.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -65,14 +66,15 @@ struct Style {
     bool moves_lift = false;  ///< moves lift the pen (`spline with lifts`) and are not control points of splines
     double hand = 0.0;        ///< amount by which lines waver and swell, as if drawn by a hand with powder, 0 to 1
     StrokeWidth stroke;
-    std::optional<Colour> stroke_colour;  ///< colour of index 0; absent: the palette's first
-    bool stroked = true;                  ///< false for `stroke: none`
-    std::optional<Colour> ground;         ///< absent: transparent
-    std::optional<Colour> fill;           ///< colour of polygons and discs with index 0; absent: the palette's
-    std::vector<Colour> palette;          ///< never empty after read_style
-    std::optional<DotStyle> dots;         ///< absent: none are drawn
-    std::optional<BorderStyle> border;    ///< absent: none is drawn
-    std::optional<FieldsBy> fields;       ///< absent: fields between lines are not filled
+    std::optional<Colour> stroke_colour;    ///< colour of index 0; absent: the palette's first
+    bool stroked = true;                    ///< false for `stroke: none`
+    std::optional<Colour> ground;           ///< absent: transparent
+    std::optional<Colour> fill;             ///< colour of polygons and discs with index 0; absent: the palette's
+    std::vector<Colour> palette;            ///< never empty after read_style
+    std::map<int, std::string> cut_layers;  ///< names of layers of DXF by colour index, instead of numbers of pens
+    std::optional<DotStyle> dots;           ///< absent: none are drawn
+    std::optional<BorderStyle> border;      ///< absent: none is drawn
+    std::optional<FieldsBy> fields;         ///< absent: fields between lines are not filled
     TileEdges tile_edges = TileEdges::each;
     std::optional<TileColours> tile_colours;  ///< absent: polygons have the colours of their pens
     TileDecoration decoration;                ///< lines on polygons

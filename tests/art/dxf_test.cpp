@@ -91,13 +91,17 @@ TEST(Dxf, EdgesOfTilingsHaveTheirLength) {
         dxf_of("tilings/pinwheel",
                {{"derivation length", "4"}, {"step", "10mm"}, {"size", "600x600mm"}, {"tile-edges", "once"}}));
     EXPECT_NEAR(length_of(drawing), edges, 1e-4 * edges);
-    EXPECT_EQ(drawing.layers, (std::map<std::string, int>{{"0", 7}, {"PEN-1", 7}}));
+    EXPECT_EQ(drawing.layers, (std::map<std::string, int>{{"0", 7}, {"BORDER", 1}, {"INNER", 5}}));
+    Dxf border;
     for (const Dxf::Line& line : drawing.lines) {
-        EXPECT_EQ(line.layer, "PEN-1");
+        if (line.layer == "BORDER") border.lines.push_back(line);
         for (const glm::dvec2 point : line.points) {
             EXPECT_TRUE(point.x >= 10 && point.y >= 10 && point.x <= 590 && point.y <= 590);
         }
     }
+    EXPECT_NEAR(length_of(border), 1500, 1e-6);
+    ASSERT_EQ(border.lines.size(), 1U);
+    EXPECT_TRUE(border.lines[0].is_closed);
     EXPECT_EQ(drawing.entities, (std::set<std::string>{"LINE", "POLYLINE", "VERTEX", "SEQEND", "ENDSEC", "EOF"}));
 }
 

@@ -1,0 +1,108 @@
+#include "engine/tiling/cut_list.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+#include "engine/tiling/tiling_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace sikku {
+namespace {
+
+/// A to Z, then AA, AB, …
+std::string kind_name(std::size_t index) {
+    std::string name;
+    for (std::size_t rest = index + 1; rest > 0; rest = (rest - 1) / 26) {
+        name.insert(name.begin(), static_cast<char>('A' + (rest - 1) % 26));
+    }
+    return name;
+}
+
+std::string hundredths(double value) {
+    return fmt::format("{}", std::round(value * 100) / 100);
+}
+
+std::string listed(const std::vector<double>& values, double factor) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : " ") + hundredths(value * factor);
+    return text;
+}
+
+const char* hand_name(const TilingExamination& examination, const CutKind& kind) {
+    if (!examination.shapes[kind.shape].is_chiral) return "-";
+    return kind.is_reflected ? "mirrored" : "as drawn";
+}
+
+}  // namespace
+
+std::vector<CutKind> cut_list(const TilingResult& result, double step) {
+    const TileSet& tiles = result.patch.tiles;
+    std::vector<CutKind> kinds;
+    std::map<std::tuple<std::uint32_t, bool, std::int32_t>, std::size_t> known;
+    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
+        const TileClass& in_class = tiles.class_of(tile);
+        const auto [at, is_new] =
+            known.try_emplace({in_class.shape, in_class.is_reflected, tiles.colour[tile]}, kinds.size());
+        if (is_new) {
+            CutKind& kind = kinds.emplace_back();
+            kind.name = kind_name(at->second);
+            kind.shape = in_class.shape;
+            kind.is_reflected = in_class.is_reflected;
+            kind.colour = tiles.colour[tile];
+            kind.area = std::fabs(in_class.area) * step * step;
+            for (const std::uint32_t corner : tiles.corners(tile)) {
+                kind.corners.push_back(result.patch.plane.at(corner) * step);
+            }
+        }
+        ++kinds[at->second].pieces;
+    }
+    return kinds;
+}
+
+std::string cut_list_text(const std::string& title, std::int64_t n, const TilingResult& result, double step) {
+    const TilingExamination& t = result.examination;
+    std::string text = fmt::format("{}, n = {}, a step of {} mm\n", title.empty() ? "(untitled)" : printable(title),
+                                   n, hundredths(step));
+    text += "kind    pieces  hand      colour     area mm2  all cm2     sides in mm; angles\n";
+    double area = 0;
+    for (const CutKind& kind : cut_list(result, step)) {
+        const double all = kind.area * static_cast<double>(kind.pieces);
+        area += all;
+        const TileShape& shape = t.shapes[kind.shape];
+        text += fmt::format("{:<4} {:>9}  {:<8}  {:>6} {:>12}  {:<10}  {}; {}\n", kind.name, kind.pieces,
+                            hand_name(t, kind), kind.colour, hundredths(kind.area), hundredths(all / 100),
+                            listed(shape.sides, step), listed(shape.angles, 1));
+    }
+    text += fmt::format("{}, {} cm2\n", counted(t.tiles, "piece"), hundredths(area / 100));
+    if (t.violations.count > 0) {
+        text += fmt::format("{} left out or overlap: see the examination without this option\n",
+                            counted(t.violations.count, "polygon"));
+    }
+    return text;
+}
+
+std::string cut_list_json(const std::string& title, std::int64_t n, const TilingResult& result, double step) {
+    const TilingExamination& t = result.examination;
+    std::string kinds;
+    for (const CutKind& kind : cut_list(result, step)) {
+        std::string corners;
+        for (const glm::dvec2 corner : kind.corners) {
+            corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", corner.x, corner.y);
+        }
+        kinds += fmt::format(
+            "{}{{\"kind\": \"{}\", \"shape\": {}, \"name\": \"{}\", \"hand\": {}, \"colour\": {}, \"pieces\": {}, "
+            "\"area\": {}, \"corners\": [{}]}}",
+            kinds.empty() ? "" : ", ", kind.name, kind.shape, shape_name(t.shapes[kind.shape]),
+            t.shapes[kind.shape].is_chiral ? fmt::format("\"{}\"", hand_name(t, kind)) : "null", kind.colour,
+            kind.pieces, kind.area, corners);
+    }
+    return fmt::format("{{\"title\": {}, \"n\": {}, \"step\": {}, \"pieces\": {}, \"area\": {}, \"kinds\": [{}]}}\n",
+                       json_string(title), n, step, t.tiles, t.area * step * step, kinds);
+}
+
+}  // namespace sikku

@@ -1,0 +1,33 @@
+// engine/tiling/cut_list.h: the pieces that a tiling is made of, by kind, for those who cut them.
+#pragma once
+
+#include "engine/tiling/tiling.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Pieces of one shape, hand and colour.
+struct CutKind {
+    std::string name;           ///< A, B, … Z, AA, … in the order of their first tiles
+    std::uint32_t shape = 0;    ///< index into TilingExamination::shapes
+    bool is_reflected = false;  ///< the mirror image of the first tile of its shape
+    std::int32_t colour = 0;
+    std::uint64_t pieces = 0;
+    double area = 0;                  ///< of a piece, in square millimetres
+    std::vector<glm::dvec2> corners;  ///< of its first tile, anticlockwise, in millimetres
+};
+
+/// Sorts tiles into kinds. Cost: linear. @param step  millimetres
+std::vector<CutKind> cut_list(const TilingResult& result, double step);
+
+/// A table with one line for each kind, and the sums. @param title  title of the pattern  @param n  derivation length
+std::string cut_list_text(const std::string& title, std::int64_t n, const TilingResult& result, double step);
+/// The same as one line of JSON.
+std::string cut_list_json(const std::string& title, std::int64_t n, const TilingResult& result, double step);
+
+}  // namespace sikku
