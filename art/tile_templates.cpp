@@ -210,8 +210,8 @@ std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, doub
         const glm::dvec2 first(before.y, -before.x), second(after.y, -after.x);
         const double cosine = glm::dot(first, second);
         of_corner.emplace_back(outline.size(), 0);
-        // The mitre is longer than twice the distance at angles below 60 degrees.
-        if (cross(before, after) > 0 && cosine < -0.5) {
+        // The mitre is longer than twice the distance at angles below 60 degrees. At 60, no side without length.
+        if (cross(before, after) > 0 && cosine < -0.5 - 1e-9) {
             const glm::dvec2 tip = glm::normalize(before - after);
             const double beyond = distance * (2 - glm::dot(first, tip)) / glm::dot(before, tip);
             outline.push_back(at + first * distance + before * beyond);
