@@ -75,14 +75,13 @@ constexpr std::array language = {
     KeyInfo{"fields", art, "chessboard, by kind, by distance, by centre, by strand, by symmetry; none", "none",
             "How the fields between closed lines are coloured"},
     KeyInfo{"tile colours", art, "by shape, by hand, by direction, by distance, by neighbours; blank; none", "none",
-            "How polygons are coloured, instead of by their pens; blank: not at all"},
+            "How polygons are coloured, instead of by their pens; blank leaves them unfilled"},
     KeyInfo{"tile edges", art, "each, once, border, none", "each",
             "Edges of polygons: each draws its own, shared edges are drawn once, only the border of all, or none"},
-    KeyInfo{
-        "decorate", art,
-        "kolam, truchet, dots, strands; tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER; none", "none",
-        "Lines on polygons, joined from one to the next: of a kind, or between places on the outlines of polygons "
-        "of a colour"},
+    KeyInfo{"decorate", art,
+            "kolam, truchet, dots, strands; tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER; none", "none",
+            "Lines drawn on polygons and joined from one to the next: a kind of line, or lines between places on the "
+            "outlines of polygons of a colour"},
     KeyInfo{"powders", art, "colours or none; festival, pongal, lotus, peacock, temple, marigold, monsoon, distinct",
             "festival", "Colours of the fields, or of the tiles"},
     KeyInfo{"weave", art, "yes; a gap in stroke widths, 0 to 5; none", "none",
