@@ -14,9 +14,7 @@ using enum FormatKind;
 constexpr auto table = std::to_array<FormatInfo>({
     {.format = svg, .kind = vectors, .label = "SVG", .extension = "svg", .is_animated = true, .is_text = true},
     {.format = pdf, .kind = vectors, .label = "PDF", .extension = "pdf", .has_plates = true},
-#ifndef __EMSCRIPTEN__
     {.format = eps, .kind = vectors, .label = "EPS", .extension = "eps", .is_text = true},
-#endif
     {.format = png, .kind = pixels, .label = "PNG", .extension = "png"},
     {.format = tiff, .kind = pixels, .label = "TIFF", .extension = "tif", .alias = "tiff", .has_inks = true},
     {.format = jpeg, .kind = pixels, .label = "JPEG", .extension = "jpg", .alias = "jpeg"},

@@ -12,9 +12,7 @@ namespace sikku {
 /// Begins a document: see write_svg(), write_pdf() and write_eps(). @param format  of the kind `vectors`
 inline std::unique_ptr<PrintWriter> write_vectors(PrintFormat format, const Print& print, Output& file) {
     if (format == PrintFormat::svg) return write_svg(print, file);
-#ifndef __EMSCRIPTEN__
     if (format == PrintFormat::eps) return write_eps(print, file);
-#endif
     return write_pdf(print, file);
 }
 

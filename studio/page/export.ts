@@ -18,7 +18,7 @@ interface Choice {
 }
 
 const groups: [string, Interpreter, RegExp][] = [
-    ["Print", "draw", /^(svg|pdf)$/],
+    ["Print", "draw", /^(svg|pdf|eps)$/],
     ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc|dxf)$/],
     ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/],
     ["Model", "draw", /^(obj|glb|gltf)$/],
@@ -30,6 +30,7 @@ const pattern_format: FormatHelp = { extension: "lsys", label: "Pattern", alias:
 const types: Record<string, string> = {
     svg: "image/svg+xml",
     pdf: "application/pdf",
+    eps: "application/postscript",
     png: "image/png",
     gif: "image/gif",
     mid: "audio/midi",
