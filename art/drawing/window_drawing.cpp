@@ -322,7 +322,7 @@ const Piece& Patches::piece(Symbol symbol, std::size_t level, std::uint32_t head
         const Command& is = command(symbol);
         if (is.action == Action::turn) made.turn = lattice_.turn[symbol];
         if (is.action == Action::draw || is.action == Action::move) {
-            const Quad length = static_cast<Quad>(is.value);
+            const Quad length = lattice_.step_length<Quad>(symbol, is.value, directions_);
             made.way = {length * directions_[heading].x, length * directions_[heading].y};
         }
         if (is.action == Action::draw) {

@@ -1,13 +1,14 @@
 #include "engine/base/decimal.h"
 
+#include <cmath>
+#include <numeric>
+
 // libc++ 13 reads and writes only whole numbers.
 #if defined(__cpp_lib_to_chars)
 #include <array>
 #else
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
-
-#include <cmath>
 #endif
 
 namespace sikku {
@@ -44,5 +45,18 @@ std::string shortest_decimal(double value) {
 }
 
 #endif
+
+std::int64_t decimal_denominator(double value) {
+    if (!(std::fabs(value) < 0x1p40)) return 0;
+    for (std::int64_t denominator = 1; denominator <= largest_denominator; denominator *= 10) {
+        const double scaled = value * static_cast<double>(denominator);
+        if (std::fabs(scaled) > 0x1p40) return 0;
+        const std::int64_t numerator = std::llround(scaled);
+        if (static_cast<double>(numerator) / static_cast<double>(denominator) == value) {
+            return denominator / std::gcd(denominator, numerator);
+        }
+    }
+    return 0;
+}
 
 }  // namespace sikku

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,12 @@ std::from_chars_result parse_number(std::string_view text, double& value);
 
 /// The fewest digits that read back as `value`, with an exponent perhaps.
 std::string shortest_decimal(double value);
+
+/// The largest denominator of decimals on a lattice.
+constexpr std::int64_t largest_denominator = 1'000'000;
+
+/// The denominator of a decimal in lowest terms: of 2.5 it is 2, of 0.2 it is 5; 0 if it is larger than
+/// largest_denominator, or `value` not below 2^40.
+std::int64_t decimal_denominator(double value);
 
 }  // namespace sikku

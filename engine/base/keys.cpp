@@ -22,6 +22,8 @@ constexpr std::array language = {
             "Turn after each segment, in radians for each unit of segment x force"},
     KeyInfo{"forward", engine, "symbols", "F", "Symbols that draw a step"},
     KeyInfo{"move", engine, "symbols", "f", "Symbols that move a step without drawing"},
+    KeyInfo{"edge SYMBOL", engine, "a word of moves and turns such as -f++f-", "",
+            "Length of a straight step: from the start to the end of the word, exactly"},
     KeyInfo{
         "polygons", engine, "outline, framework", "outline",
         "Vertices of polygons: where `{` stands and the end of each step, or the marks on a framework of branches"},

@@ -1,130 +1,131 @@
 #include "engine/geometry/lattice.h"
 
+#include "engine/base/decimal.h"
+
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace sikku {
 namespace {
 
 constexpr std::int64_t most_headings = std::int64_t{1} << 20;
-constexpr std::int64_t largest_unit = 1'000'000;
 
-int totient(std::int64_t k) {
-    std::int64_t count = 0;
-    for (std::int64_t i = 1; i <= k; ++i) count += std::gcd(i, k) == 1 ? 1 : 0;
-    return static_cast<int>(count);
+/// Common denominator, or 0 if there is none.
+std::int64_t common_denominator(std::int64_t one, std::int64_t other) {
+    if (one == 0 || other == 0) return 0;
+    const std::int64_t common = std::lcm(one, other);
+    return common > largest_denominator ? 0 : common;
 }
 
-/// The cyclotomic polynomial of k, lowest coefficient first: x^k - 1 divided by those of the divisors of k.
-std::vector<int> cyclotomic(int k) {
-    std::vector<int> polynomial(static_cast<std::size_t>(k) + 1, 0);
-    polynomial.front() = -1;
-    polynomial.back() = 1;
-    for (int divisor = 1; divisor < k; ++divisor) {
-        if (k % divisor != 0) continue;
-        const std::vector<int> factor = cyclotomic(divisor);
-        std::vector<int> quotient(polynomial.size() - factor.size() + 1, 0);
-        for (std::size_t i = quotient.size(); i > 0; --i) {
-            quotient[i - 1] = polynomial[i + factor.size() - 2];  // the factor's highest coefficient is 1
-            for (std::size_t j = 0; j < factor.size(); ++j) polynomial[i - 1 + j] -= quotient[i - 1] * factor[j];
+bool is_step(const Command& command) {
+    return command.action == Action::draw || command.action == Action::move;
+}
+
+/// The length of a step as a decimal; of an edge, how often it is repeated.
+double decimal_length(const SymbolInfo& symbol) {
+    if (symbol.command.edge == 0) return symbol.command.value;
+    return symbol.arguments.empty() ? 1.0 : symbol.arguments.front();
+}
+
+/// The steps of all symbols on a lattice of known headings. False if they do not fit one.
+class StepPlacer {
+public:
+    StepPlacer(const Grammar& grammar, Lattice& lattice) : grammar_(grammar), lattice_(lattice) {}
+
+    bool place() {
+        if (!find_unit()) return false;
+        lattice_.unit = 1.0 / static_cast<double>(denominator_);
+        place_edges();
+        const std::size_t symbols = grammar_.symbols().size();
+        lattice_.length.assign(symbols, 0);
+        lattice_.edge.assign(symbols, 0);
+        for (std::size_t i = 0; i < symbols; ++i) {
+            const SymbolInfo& symbol = grammar_.symbols()[i];
+            if (!is_step(symbol.command)) continue;
+            const std::uint32_t edge = symbol.command.edge;
+            const std::int64_t scale = edge == 0 ? denominator_ : denominator_ / edge_denominators_[edge - 1];
+            std::int64_t& length = lattice_.length[i];
+            length = std::llround(decimal_length(symbol) * static_cast<double>(scale));
+            if (edge == 0) continue;
+            const auto& way = ways_[edge - 1];
+            if (!(static_cast<double>(std::abs(length)) * size(way) <= 0x1p40)) return false;
+            if (std::all_of(way.begin() + 1, way.end(), [](std::int64_t each) { return each == 0; })) {
+                length *= way.front();
+            } else {
+                lattice_.edge[i] = edge;
+            }
         }
-        polynomial = quotient;
+        lattice_.edges = std::move(ways_);
+        return true;
     }
-    return polynomial;
-}
 
-/// The denominator of a decimal in lowest terms: of 2.5 it is 2, of 0.2 it is 5; 0 if it is too large.
-std::int64_t decimal_denominator(double value) {
-    if (!(std::fabs(value) < 0x1p40)) return 0;
-    for (std::int64_t denominator = 1; denominator <= largest_unit; denominator *= 10) {
-        const double scaled = value * static_cast<double>(denominator);
-        if (std::fabs(scaled) > 0x1p40) return 0;
-        const std::int64_t numerator = std::llround(scaled);
-        if (static_cast<double>(numerator) / static_cast<double>(denominator) == value) {
-            return denominator / std::gcd(denominator, numerator);
+private:
+    using Way = std::array<std::int64_t, most_coordinates>;
+
+    static double size(const Way& way) {
+        double sum = 0;
+        for (const std::int64_t coordinate : way) sum += std::fabs(static_cast<double>(coordinate));
+        return sum;
+    }
+
+    bool find_unit() {
+        for (const EdgeLength& edge : grammar_.edges()) {
+            std::int64_t& common = edge_denominators_.emplace_back(edge.parts.empty() ? 0 : 1);
+            for (const EdgeLength::Part& part : edge.parts)
+                common = common_denominator(common, decimal_denominator(part.length));
+        }
+        for (const SymbolInfo& symbol : grammar_.symbols()) {
+            if (!is_step(symbol.command)) continue;
+            const std::int64_t own = symbol.command.takes_argument ? 0 : decimal_denominator(decimal_length(symbol));
+            const std::uint32_t edge = symbol.command.edge;
+            denominator_ = common_denominator(denominator_, edge == 0 ? own : own * edge_denominators_[edge - 1]);
+            if (denominator_ == 0) return false;
+        }
+        // Together they may need more than 64 bits.
+        return std::all_of(grammar_.symbols().begin(), grammar_.symbols().end(), [&](const SymbolInfo& symbol) {
+            return !is_step(symbol.command) ||
+                   std::fabs(symbol.command.value) * static_cast<double>(denominator_) <= 0x1p40;
+        });
+    }
+
+    void place_edges() {
+        const auto headings = static_cast<std::int64_t>(lattice_.headings);
+        for (std::size_t i = 0; i < grammar_.edges().size(); ++i) {
+            Way& way = ways_.emplace_back();
+            for (const EdgeLength::Part& part : grammar_.edges()[i].parts) {
+                const TurnFraction at = part.direction;
+                const auto& power =
+                    lattice_.power[static_cast<std::size_t>(at.numerator * (headings / at.denominator) % headings)];
+                const auto steps =
+                    std::llround(part.length * static_cast<double>(edge_denominators_[i])) * part.count;
+                for (std::size_t j = 0; j < way.size(); ++j) way[j] += power[j] * steps;
+            }
         }
     }
-    return 0;
-}
 
-/// Cosine and sine of at most 45 degrees, within one unit in the last place. The functions of C libraries differ in
-/// their last bits, and so would drawings; Taylor's series has the same bits everywhere.
-glm::dvec2 small_angle(double radians) {
-    const double square = radians * radians;
-    double cosine = 0;
-    double sine = 0;
-    for (int power = 16; power > 0; power -= 2) {
-        cosine = square / ((power - 1) * power) * (1 - cosine);
-        sine = square / (power * (power + 1)) * (1 - sine);
-    }
-    return {1 - cosine, radians - radians * sine};
-}
+    const Grammar& grammar_;
+    Lattice& lattice_;
+    std::int64_t denominator_ = 1;
+    std::vector<std::int64_t> edge_denominators_;  // of the lengths in the word of each edge, or 0
+    std::vector<Way> ways_;                        // of the edges, in units of those
+};
 
 }  // namespace
-
-FoldedTurn fold_turn(TurnFraction turn) {
-    const std::int64_t q = turn.denominator;
-    std::int64_t p = turn.numerator % q;
-    if (p < 0) p += q;
-    const std::int64_t quarter = (8 * p / q + 1) / 2;
-    return {static_cast<int>(quarter % 4), 4 * p - quarter * q};
-}
-
-glm::dvec2 unit_vector(TurnFraction turn) {
-    const FoldedTurn folded = fold_turn(turn);
-    const std::int64_t q = turn.denominator;
-    const std::int64_t distance = std::abs(folded.rest);
-    glm::dvec2 near(1.0, 0.0);
-    if (3 * distance == q) {  // 30 degrees
-        near = {std::sqrt(3.0) / 2, 0.5};
-    } else if (2 * distance == q) {
-        near = glm::dvec2(std::sqrt(0.5));
-    } else if (distance != 0) {
-        const double angle = 2 * std::numbers::pi * static_cast<double>(distance) / (4 * static_cast<double>(q));
-        near = small_angle(angle);
-    }
-    if (folded.rest < 0) near.y = -near.y;
-    return by_quarters(folded.quarter, near);
-}
-
-glm::dvec2 unit_vector(double degrees) {
-    const double turned = std::fmod(degrees, 360.0);
-    // Whole multiples of a thousandth of a degree are folded exactly, too.
-    const double thousandths = turned * 1000;
-    if (thousandths == std::floor(thousandths)) return unit_vector(TurnFraction{std::llround(thousandths), 360'000});
-    const double rest = std::remainder(turned, 90.0);
-    const auto quarter = static_cast<int>(std::lround((turned - rest) / 90));
-    return by_quarters(((quarter % 4) + 4) % 4, small_angle(rest * std::numbers::pi / 180));
-}
 
 Lattice make_lattice(const Grammar& grammar) {
     Lattice lattice;
     lattice.first_heading = std::fmod(grammar.heading().degrees, 360.0);
     std::int64_t k = 1;
-    std::int64_t denominator = 1;
     bool whole_headings = true;
-    bool whole_lengths = true;
     for (const SymbolInfo& symbol : grammar.symbols()) {
         const Command& command = symbol.command;
-        if (command.action == Action::turn && whole_headings) {
-            whole_headings =
-                !command.takes_argument && command.angle.exact && command.angle.exact->denominator <= most_headings;
-            if (whole_headings) k = std::lcm(k, command.angle.exact->denominator);
-            whole_headings = whole_headings && k <= most_headings;
-        }
-        if ((command.action == Action::draw || command.action == Action::move) && whole_lengths) {
-            const std::int64_t needed = command.takes_argument ? 0 : decimal_denominator(command.value);
-            whole_lengths = needed > 0;
-            if (whole_lengths) denominator = std::lcm(denominator, needed);
-            whole_lengths = whole_lengths && denominator <= largest_unit;
-        }
-    }
-    // Together they may need more than 64 bits.
-    for (const SymbolInfo& symbol : grammar.symbols()) {
-        const Command& command = symbol.command;
-        if (command.action != Action::draw && command.action != Action::move) continue;
-        if (!(std::fabs(command.value) * static_cast<double>(denominator) <= 0x1p40)) whole_lengths = false;
+        if (command.action != Action::turn || !whole_headings) continue;
+        whole_headings =
+            !command.takes_argument && command.angle.exact && command.angle.exact->denominator <= most_headings;
+        if (whole_headings) k = std::lcm(k, command.angle.exact->denominator);
+        whole_headings = whole_headings && k <= most_headings;
     }
     const std::size_t symbols = grammar.symbols().size();
     if (!whole_headings) return lattice;
@@ -152,27 +153,16 @@ Lattice make_lattice(const Grammar& grammar) {
                 unit_vector(lattice.first_heading + 360.0 * static_cast<double>(h) / static_cast<double>(k)));
         }
     }
-    if (k > 30 || totient(k) > 8 || !whole_lengths) return lattice;
-    lattice.rank = totient(k);
-    lattice.unit = 1.0 / static_cast<double>(denominator);
-    lattice.length.assign(symbols, 0);
-    for (std::size_t i = 0; i < symbols; ++i) {
-        const Command& command = grammar.symbols()[i].command;
-        if (command.action != Action::draw && command.action != Action::move) continue;
-        lattice.length[i] = std::llround(command.value * static_cast<double>(denominator));
-    }
-    // zeta^(h+1) from zeta^h: shift the coordinates, and replace zeta^rank by the polynomial's other terms.
-    const std::vector<int> polynomial = cyclotomic(static_cast<int>(k));
-    std::array<std::int8_t, 8> power{};
-    power[0] = 1;
-    const auto rank = static_cast<std::size_t>(lattice.rank);
-    for (std::int64_t h = 0; h < k; ++h) {
-        lattice.power.push_back(power);
-        const std::int8_t overflow = power[rank - 1];
-        for (std::size_t i = rank - 1; i > 0; --i) {
-            power[i] = static_cast<std::int8_t>(power[i - 1] - overflow * polynomial[i]);
-        }
-        power[0] = static_cast<std::int8_t>(-overflow * polynomial[0]);
+    const int rank = lattice_rank(k);
+    if (rank == 0) return lattice;
+    lattice.power = powers_of_root(static_cast<int>(k));
+    if (StepPlacer(grammar, lattice).place()) {
+        lattice.rank = rank;
+    } else {
+        lattice.power.clear();
+        lattice.unit = 1.0;
+        lattice.length.clear();
+        lattice.edge.clear();
     }
     return lattice;
 }

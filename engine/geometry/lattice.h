@@ -2,7 +2,9 @@
 // doubles.
 #pragma once
 
+#include "engine/base/roots_of_unity.h"
 #include "engine/language/grammar.h"
+#include "engine/language/unit_vector.h"
 
 #include <array>
 #include <cstdint>
@@ -26,43 +28,46 @@ struct Lattice {
     /// One unit step for each heading, in the plane, the first heading included.
     std::vector<glm::dvec2> direction;
     /// Coordinates of zeta^h for each heading h; only the first `rank` count.
-    std::vector<std::array<std::int8_t, 8>> power;
+    std::vector<std::array<std::int8_t, most_coordinates>> power;
 
     /// For each symbol of the grammar:
-    std::vector<std::uint32_t> turn;   ///< its turn in headings, if headings > 0
-    std::vector<std::int64_t> length;  ///< its step in units, if rank > 0
+    std::vector<std::uint32_t> turn;  ///< its turn in headings, if headings > 0
+    /// Its step, if rank > 0: in units, or, of an edge whose length is irrational, as a multiple of `edges`.
+    std::vector<std::int64_t> length;
+    std::vector<std::uint32_t> edge;  ///< 0, or the index in `edges` plus 1, if rank > 0
+    /// Real numbers of Z[zeta], whose multiples are steps of irrational length along heading 0.
+    std::vector<std::array<std::int64_t, most_coordinates>> edges;
+
+    /// The step of a symbol along heading 0 in coordinates; rank > 0.
+    std::array<std::int64_t, most_coordinates> step(Symbol symbol) const {
+        std::array<std::int64_t, most_coordinates> result{};
+        if (edge[symbol] == 0) {
+            result[0] = length[symbol];
+        } else {
+            result = edges[edge[symbol] - 1];
+            for (std::int64_t& coordinate : result) coordinate *= length[symbol];
+        }
+        return result;
+    }
+    /// The length of the step of a symbol, as precise as `Number`. @param ahead  unit vectors of all headings, which
+    /// have members x and y
+    template <class Number, class Vectors>
+    Number step_length(Symbol symbol, double otherwise, const Vectors& ahead) const {
+        if (rank == 0 || edge[symbol] == 0) return static_cast<Number>(otherwise);
+        const auto coordinates = step(symbol);
+        Number sum = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(rank); ++i) {
+            sum += static_cast<Number>(coordinates[i]) * (ahead[i].x * ahead[0].x + ahead[i].y * ahead[0].y);
+        }
+        return sum * static_cast<Number>(unit);
+    }
 
     /// Where the i-th coordinate's unit points to in the plane.
     glm::dvec2 basis(int i) const { return direction[static_cast<std::size_t>(i)]; }
 };
 
-/// The lattice that all turns and lengths of the grammar fit; doubles where there is none. Cost: O(symbols + k).
+/// The lattice that all turns and lengths of the grammar fit; doubles where there is none. Cost: O(symbols + k +
+/// edges).
 Lattice make_lattice(const Grammar& grammar);
-
-/// A turn as its nearest axis and the rest: quarter / 4 + rest / (4 denominator), |rest| <= denominator / 2.
-struct FoldedTurn {
-    int quarter = 0;        ///< 0 to 3
-    std::int64_t rest = 0;  ///< in 4 x denominator-ths of a turn
-};
-FoldedTurn fold_turn(TurnFraction turn);
-
-/// Turns a vector by whole quarters.
-template <class Vector>
-Vector by_quarters(int quarter, const Vector& vector) {
-    switch (quarter % 4) {
-        case 0:
-            return vector;
-        case 1:
-            return {-vector.y, vector.x};
-        case 2:
-            return {-vector.x, -vector.y};
-        default:
-            return {vector.y, -vector.x};
-    }
-}
-
-/// Cosine and sine of a turn, exact at multiples of 30 and 45 degrees where they are 0, 1/2 or 1.
-glm::dvec2 unit_vector(double degrees);
-glm::dvec2 unit_vector(TurnFraction turn);
 
 }  // namespace sikku

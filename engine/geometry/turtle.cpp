@@ -28,12 +28,21 @@ public:
 
     explicit ExactWalker(const Lattice& lattice) : lattice_(lattice) {
         for (int i = 0; i < Rank; ++i) basis_[static_cast<std::size_t>(i)] = lattice.basis(i) * lattice.unit;
-        for (const auto& power : lattice.power) std::copy_n(power.begin(), Rank, powers_.emplace_back().begin());
+        for (const auto& power : lattice.power) std::copy_n(power.begin(), Rank, steps_.emplace_back().begin());
+        for (const auto& edge : lattice.edges) {
+            for (std::uint32_t heading = 0; heading < lattice.headings; ++heading) {
+                auto& turned = steps_.emplace_back();
+                for (std::size_t i = 0; i < Rank; ++i) {
+                    const auto& power = lattice.power[(heading + i) % lattice.headings];
+                    for (std::size_t j = 0; j < Rank; ++j) turned[j] += edge[i] * power[j];
+                }
+            }
+        }
     }
     void step(State& state, Symbol symbol) const {
         const std::int64_t length = lattice_.length[symbol];
-        const auto& power = powers_[state.heading];
-        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += power[i] * length;
+        const auto& step = steps_[lattice_.edge[symbol] * lattice_.headings + state.heading];
+        for (std::size_t i = 0; i < Rank; ++i) state.at[i] += step[i] * length;
     }
     // Modules that state their steps or angles lie on no lattice.
     void step_by(State&, double) const {}
@@ -60,7 +69,7 @@ public:
 private:
     const Lattice& lattice_;
     std::array<glm::dvec2, Rank> basis_;
-    std::vector<std::array<std::int64_t, Rank>> powers_;  // of zeta, by heading
+    std::vector<std::array<std::int64_t, Rank>> steps_;  // by Lattice::edge and heading
 };
 
 /// Positions in doubles; headings modulo k, or in degrees where no k serves.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/language/angle.h"
+#include "engine/language/edge.h"
 #include "engine/language/expression.h"
 #include "engine/language/pattern.h"
 
@@ -62,6 +63,7 @@ struct Command {
     /// Of a step, whether its end is a vertex of the open polygon; of polygon_begin, whether it begins with one.
     bool is_vertex = true;
     std::uint32_t surface = 0;  ///< index into Grammar::surfaces()
+    std::uint32_t edge = 0;     ///< of a step, index into Grammar::edges() plus 1; 0: its value is its exact length
 };
 
 /// A symbol as the file writes it.
@@ -179,6 +181,8 @@ public:
     const std::optional<Tropism>& tropism() const { return tropism_; }
     /// The predefined surfaces; see surface.h.
     const std::vector<std::shared_ptr<const Surface>>& surfaces() const { return surfaces_; }
+    /// The steps whose lengths are those of words.
+    const std::vector<EdgeLength>& edges() const { return *edges_; }
     /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
     bool is_spatial() const { return is_spatial_; }
     double scale_percent() const { return scale_percent_; }
@@ -244,6 +248,7 @@ private:
     Angle heading_;
     std::optional<Tropism> tropism_;
     std::vector<std::shared_ptr<const Surface>> surfaces_;
+    std::shared_ptr<const std::vector<EdgeLength>> edges_ = std::make_shared<const std::vector<EdgeLength>>();
     bool is_spatial_ = false;
     double scale_percent_ = 100.0;
     std::vector<char> ignored_;

@@ -1,5 +1,6 @@
 // engine/language/grammar_compiler.cpp: compiles a pattern into a grammar.
 #include "engine/language/command_table.h"
+#include "engine/language/edge_reader.h"
 #include "engine/language/map_system.h"
 #include "engine/language/production_compiler.h"
 #include "engine/language/schedule.h"
@@ -259,7 +260,9 @@ private:
             if (!forward.contains(letter)) continue;
             diagnostics_.error(key->value, fmt::format("'{}' is listed under both 'forward:' and 'move:'", letter));
         }
-        read_edges(settings);
+        read_inserted_edges(settings);
+        const EdgeReader edges(pattern_, reader_, diagnostics_);
+        edges.add_to(settings);
         for (const auto& surface : grammar_.surfaces_) settings.surfaces.push_back(surface->name);
         grammar_.ignored_.assign(reader_.symbols().size(), 0);
         for (std::size_t i = 0; i < reader_.symbols().size(); ++i) {
@@ -270,9 +273,10 @@ private:
             grammar_.ignored_[i] =
                 context.is_stated && (context.is_considered ? !listed && !bracket : listed) ? 1 : 0;
         }
+        grammar_.edges_ = std::make_shared<const std::vector<EdgeLength>>(edges.measure(reader_.symbols()));
     }
 
-    void read_edges(CommandSettings& settings) {
+    void read_inserted_edges(CommandSettings& settings) {
         const Key* key = pattern_.find("edges");
         const auto list = key ? reader_.symbol_list(*key) : std::nullopt;
         if (!list) return;

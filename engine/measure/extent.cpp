@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -32,7 +33,7 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
     Integer drawn = 0;
     Integer moves = 0;
     Integer polygons = 0;
-    Integer units = 0;
+    std::array<Integer, most_coordinates> units;
     double length = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Command& command = grammar.symbols()[i].command;
@@ -43,7 +44,9 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
         if (command.action == Action::move) continue;
         drawn += counts[i];
         if (lattice.rank > 0) {
-            units += counts[i] * (lattice.length[i] < 0 ? -lattice.length[i] : lattice.length[i]);
+            const auto step = lattice.step(static_cast<Symbol>(i));
+            for (std::size_t j = 0; j < units.size(); ++j)
+                units[j] += counts[i] * (command.value < 0 ? -step[j] : step[j]);
         } else {
             length += counts[i].template convert_to<double>() * std::fabs(command.value);
         }
@@ -51,14 +54,7 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
     result.drawn = Quantity::of(drawn);
     result.moves = Quantity::of(moves);
     result.polygons = Quantity::of(polygons);
-    if (lattice.rank > 0) {
-        const auto denominator = static_cast<std::int64_t>(std::llround(1.0 / lattice.unit));
-        result.length = Quantity::of(Integer((units + denominator / 2) / denominator));
-        if (result.length.digits.empty())
-            result.length.value = units.convert_to<double>() / static_cast<double>(denominator);
-    } else {
-        result.length = Quantity::of(length);
-    }
+    result.length = lattice.rank > 0 ? Quantity::of(lattice, units) : Quantity::of(length);
 }
 
 Fold as_fold(const Survey& survey) {

@@ -120,8 +120,9 @@ public:
     Point zero() const { return Point{}; }
     Heading ahead() const { return 0; }
     Point step(Symbol symbol) const {
+        const auto coordinates = lattice_.step(symbol);
         Point point{};
-        point[0] = lattice_.length[symbol];
+        for (std::size_t i = 0; i < Rank; ++i) point[i] = coordinates[i];
         return point;
     }
     Heading turn(Symbol symbol) const { return lattice_.turn[symbol]; }
@@ -600,6 +601,18 @@ Fold fold_exactly(const Lattice& lattice, const Grammar& grammar, unsigned bits)
     }
 }
 
+/// How many times longer than itself an edge may be in coordinates, as a number of bits.
+double extra_bits(const Grammar& grammar) {
+    double most = 1;
+    for (const EdgeLength& edge : grammar.edges()) {
+        double way = 0;
+        for (const EdgeLength::Part& part : edge.parts)
+            way += std::fabs(part.length) * static_cast<double>(part.count);
+        most = std::max(most, way / std::fabs(edge.length));
+    }
+    return std::ceil(std::log2(most));
+}
+
 /// Compositions, weighed by the size of the numbers.
 double work_of(const Grammar& grammar, double bits) {
     const std::vector<char> needed = grammar.reachable();
@@ -623,6 +636,19 @@ Quantity Quantity::of(const Integer& whole) {
     return {value, std::fabs(value) < 0x1p53 ? "" : whole.str()};
 }
 
+Quantity Quantity::of(const Lattice& lattice, const std::array<Integer, most_coordinates>& real) {
+    Integer size = 1;
+    for (const Integer& coordinate : real) size += abs(coordinate);
+    const auto bits = static_cast<unsigned>(msb(size)) + 64;
+    Integer sum = 0;
+    for (std::int64_t i = 0; i < lattice.rank; ++i) {
+        const Integer& coordinate = real[static_cast<std::size_t>(i)];
+        const std::int64_t divisor = std::gcd(i, std::int64_t{lattice.headings});
+        if (coordinate != 0) sum += coordinate * fixed_unit_vector({i / divisor, lattice.headings / divisor}, bits).x;
+    }
+    return quantity(sum, bits, std::llround(1.0 / lattice.unit));
+}
+
 Quantity Quantity::of(double value) {
     return {value, std::fabs(value) < 0x1p53 || !std::isfinite(value) ? "" : fmt::format("{:.0f}", value)};
 }
@@ -630,7 +656,7 @@ Quantity Quantity::of(double value) {
 std::optional<Fold> fold(const Grammar& grammar) {
     if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
     const Lattice lattice = make_lattice(grammar);
-    const double bits = std::max(0.0, estimate(grammar, true)->log10_length) * 3.33 + 48;
+    const double bits = std::max(0.0, estimate(grammar, true)->log10_length) * 3.33 + 48 + extra_bits(grammar);
     if (grammar.axiom().size() > longest_axiom) return std::nullopt;
     if (work_of(grammar, bits) > most_work) return std::nullopt;
     for (const SymbolInfo& symbol : grammar.symbols()) {

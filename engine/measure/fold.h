@@ -19,6 +19,8 @@ struct Quantity {
 
     static Quantity of(const Integer& whole);
     static Quantity of(double value);
+    /// A real number of the lattice's ring, by its coordinates.
+    static Quantity of(const Lattice& lattice, const std::array<Integer, most_coordinates>& real);
 };
 
 /// The net effect of the interpreted word on a turtle that starts at 0 0; unit steps.

@@ -155,13 +155,14 @@ void Parts<Number>::place_symbols(const Grammar& grammar, const Lattice& lattice
     for (Symbol symbol = 0; symbol < symbols_; ++symbol) {
         if (!reached[symbol]) continue;
         const Command& command = grammar.symbols()[symbol].command;
+        const Number length = lattice.step_length<Number>(symbol, command.value, directions);
         for (std::uint32_t heading = 0; heading < headings_; ++heading) {
             if (!occurs(0, heading)) continue;
             DrawnPart<Number>& part = parts_[index(symbol, 0, heading)];
             if (command.action == Action::turn) part.turn = lattice.turn[symbol];
             if (command.action != Action::draw && command.action != Action::move) continue;
-            part.x = static_cast<Number>(command.value) * directions[heading].x;
-            part.y = static_cast<Number>(command.value) * directions[heading].y;
+            part.x = length * directions[heading].x;
+            part.y = length * directions[heading].y;
             if (command.action == Action::move && !moves_draw) continue;
             const glm::dvec2 end{static_cast<double>(part.x), static_cast<double>(part.y)};
             part.low = glm::dvec2(std::min(end.x, 0.0), std::min(end.y, 0.0));

@@ -67,7 +67,7 @@ struct Fact {
 // clang-format off
 const std::vector<Fact> facts = {
     {"penrose-rhombs", 5, {"170 rhomb 5", "275 rhomb 5"}, 935, 90, 7, true, "C5", 3},
-    {"penrose-kite-dart", 4, {"105 dart 10", "170 kite 10"}, 585, 70, 7, false, "C5", 3},
+    {"penrose-kite-dart", 4, {"105 dart 10", "170 kite 10"}, 585, 70, 7, true, "C5", 3},
     {"ammann-beenker", 2, {"136 rhomb 4", "96 square 2"}, 520, 112, 5, true, "C8", 3},
     {"ammann-beenker", 3, {"560 square 2", "792 rhomb 4"}, 2840, 272, 6, true, "C8", 3},
     {"chair", 4, {"256 hexagon 4"}, 928, 66, 3, true, "D1", 3},
@@ -79,7 +79,7 @@ const std::vector<Fact> facts = {
     {"gosper-islands", 3, {"343 hexagon 1"}, 1110, 162, 1, true, "C6", 3},
     {"fibonacci-squares", 5, {"25 square 1", "64 square 1", "80 rectangle 2"}, 364, 52, 3, true, "D1", 2},
     {"pinwheel", 4, {"1250 triangle 30"}, 2177, 90, 8, false, "C2", 0},
-    {"hat", 3, {"377 13-gon 12"}, 2774, 463, 5, false, "C1", 4},
+    {"hat", 3, {"377 13-gon 12"}, 2774, 463, 5, true, "C1", 4},
     {"hat-equal", 3, {"377 13-gon 12"}, 2774, 463, 5, true, "C1", 4},
     {"spectre", 3, {"559 13-gon 12"}, 4121, 669, 5, true, "C1", 4},
     {"trihexagonal", 16, {"128 triangle 2", "64 hexagon 1"}, 426, 84, 1, true, "C1", 2},
