@@ -49,13 +49,7 @@ void show_scales(const ScalesOptions& options) {
         if (const Scale* scale = find_scale(wanted)) return show(*scale);
     }
     if (found.empty()) found = search_scales(options.words);
-    if (found.empty()) {
-        const std::vector<std::string> similar = similar_scales(wanted);
-        const std::vector<std::string_view> near(similar.begin(), similar.end());
-        throw UsageError(
-            fmt::format("unknown scale '{}'{}", printable(wanted, 80),
-                        near.empty() ? "; `sikku scales` lists the bundled scales" : did_you_mean(near)));
-    }
+    if (found.empty()) throw UsageError(unknown_scale(wanted));
     if (!options.as_json) {
         fmt::print("{}", scale_listing(found));
         return;

@@ -133,11 +133,7 @@ private:
             } else if (const Scale* known = find_scale(name)) {
                 melody_.scale = *known;
             } else {
-                const std::vector<std::string> similar = similar_scales(name);
-                const std::vector<std::string_view> near(similar.begin(), similar.end());
-                diagnostics_.error(name.empty() ? key->name_at : key->value,
-                                   near.empty() ? fmt::format("unknown scale '{}'; `sikku scales` lists them", name)
-                                                : fmt::format("unknown scale '{}'{}", name, did_you_mean(near)));
+                diagnostics_.error(place_of(*key), unknown_scale(name));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {

@@ -1,5 +1,6 @@
 #include "music/scale/scale.h"
 
+#include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
 #include <embedded/scales.h>
@@ -421,18 +422,31 @@ int mela_number(std::string_view key) {
     return 0;
 }
 
-/// `31edo`, `31equal`, `31tet`: the number of equal steps to the octave; 0 if the key is none of these.
+constexpr int most_steps = 1200;  // of an octave
+
+/// The digits that a key begins with.
+std::string_view leading_digits(std::string_view key) {
+    return key.substr(0, std::min(key.find_first_not_of("0123456789"), key.size()));
+}
+
+/// True for `31edo`, `31equal`, `31tet`, whatever the number.
+bool names_equal_steps(std::string_view key) {
+    const std::string_view rest = key.substr(leading_digits(key).size());
+    return rest.size() < key.size() && (rest == "edo" || rest == "equal" || rest == "tet");
+}
+
+/// The number of equal steps to the octave; 0 if the key names none, or more than most_steps.
 int equal_steps(std::string_view key) {
-    constexpr int most_steps = 1200;
-    for (const std::string_view suffix : {"edo", "equal", "tet"}) {
-        if (!key.ends_with(suffix)) continue;
-        const std::string_view digits = key.substr(0, key.size() - suffix.size());
-        int n = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
-        const bool is_whole = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
-        return is_whole && n >= 1 && n <= most_steps ? n : 0;
-    }
-    return 0;
+    if (!names_equal_steps(key)) return 0;
+    int n = 0;
+    const std::string_view digits = leading_digits(key);
+    const std::errc error = std::from_chars(digits.data(), digits.data() + digits.size(), n).ec;
+    return error == std::errc() && n <= most_steps ? n : 0;
+}
+
+/// Hyphens do not matter in words, but before and within a number they do: -5-edo and 3-1-edo are no scales.
+bool splits_number(std::string_view name, std::string_view key) {
+    return !trimmed(name).starts_with(leading_digits(key));
 }
 
 /// Equal division of the octave, made when it is first asked for. Thread-safe; the result stays valid.
@@ -505,7 +519,7 @@ const Scale* find_scale(std::string_view name) {
     if (name.size() > longest_name) return nullptr;
     const Catalogue& all = catalogue();
     const std::string key = folded(name);
-    if (key.empty()) return nullptr;
+    if (key.empty() || splits_number(name, key)) return nullptr;
     if (const int n = mela_number(key)) return find_key(fmt::format("mela{}", n));
     // A word that means several scales finds none, however it is written.
     const std::string bare = without_kind(key);
@@ -566,6 +580,18 @@ std::vector<std::string> similar_scales(std::string_view name) {
         if (result.size() < most) result.push_back(word);
     }
     return result;
+}
+
+std::string unknown_scale(std::string_view name) {
+    const std::string problem = fmt::format("unknown scale '{}'", printable(name, 80));
+    const std::string key = name.size() > longest_name ? "" : folded(name);
+    if (names_equal_steps(key)) {
+        return problem + (equal_steps(key) == 0 ? fmt::format(": an octave has 1 to {} equal steps", most_steps)
+                                                : did_you_mean(fmt::format("{}-edo", equal_steps(key))));
+    }
+    const std::vector<std::string> similar = similar_scales(name);
+    const std::vector<std::string_view> near(similar.begin(), similar.end());
+    return problem + (near.empty() ? "; `sikku scales` lists the bundled scales" : did_you_mean(near));
 }
 
 }  // namespace sikku

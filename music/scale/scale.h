@@ -34,14 +34,16 @@ struct Scale {
 /// All that come along, in the order of the data file, then the 72 melakarta.
 const std::vector<Scale>& known_scales();
 
-/// By id, title or other name: case, blanks, `-`, `_` and accents do not matter, `mela 29` and `melakarta 29` are
-/// the formula's, and `31-edo`,
-/// `31-equal` or `31-tet` divides the octave into up to 1200 equal steps. Null if there is none. Thread-safe; the
-/// result stays valid.
+/// By id, title or other name: case, blanks, `-`, `_` and accents do not matter but before and within a number at the
+/// beginning; `mela 29` and `melakarta 29` are the formula's, and `31-edo`, `31-equal` or `31-tet` divides the octave
+/// into 1 to 1200 equal steps. Null if there is none. Thread-safe; the result stays valid.
 const Scale* find_scale(std::string_view name);
 
 /// Ids and names nearest to `name`, at most three, for messages.
 std::vector<std::string> similar_scales(std::string_view name);
+
+/// Says that there is no scale of that name, and which may be meant.
+std::string unknown_scale(std::string_view name);
 
 /// A key map (.kbm) of Scala: which key sounds which degree, and at which frequency.
 struct KeyMap {

@@ -1,6 +1,7 @@
 // tests/music/scale_test.cpp: the bundled scales, the melakarta, the degrees of melodies, `sikku scales`.
 #include "music/scale/scale.h"
 
+#include "music/melody/melody.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -490,6 +491,23 @@ TEST(ScaleNames, EqualDivisionsOfTheOctave) {
     for (const char* name : {"0-edo", "1201-edo", "-edo", "3.5-edo", "99999999999-edo", "31-edo-x"}) {
         EXPECT_FALSE(find_scale(name)) << name;
     }
+    // A sign is no hyphen between words, also before names that are listed, and a number has no hyphen in it.
+    for (const char* name : {"-5-edo", "- 31-edo", "--7-equal", "\u20135-edo", "-19-equal-major", "3-1-edo"}) {
+        EXPECT_FALSE(find_scale(name)) << name;
+    }
+    for (const char* name : {"0-edo", "1201-edo", "99999999999999999999-edo"}) {
+        EXPECT_TRUE(has(unknown_scale(name), "1 to 1200 equal steps")) << name;
+    }
+    EXPECT_EQ(unknown_scale("-5-edo"), "unknown scale '-5-edo'; did you mean '5-edo'?");
+    EXPECT_EQ(unknown_scale("-31-edo"), "unknown scale '-31-edo'; did you mean '31-edo'?");
+}
+
+TEST(ScaleNames, ASignBeforeEqualStepsIsRefusedAtItsPlace) {
+    Diagnostics diagnostics;
+    read_melody(parse_pattern("a.lsys", "axiom: F\nscale: -5-edo\n", diagnostics), {}, diagnostics);
+    ASSERT_EQ(diagnostics.list().size(), 1U);
+    EXPECT_EQ(diagnostics.list().front().message, "unknown scale '-5-edo'; did you mean '5-edo'?");
+    EXPECT_EQ(diagnostics.list().front().where, (Place{2, 8}));
 }
 
 TEST(ScaleNames, DoNotMindCaseBlanksAndAccents) {
